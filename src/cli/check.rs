@@ -1,0 +1,62 @@
+//! `jabuka check`: what is wrong with scenes.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use jabuka::Scene;
+use jabuka::diagnostic::Report;
+
+use super::{Failure, say};
+
+/// Check scenes without writing anything
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene files
+    #[arg(required = true)]
+    scene: Vec<PathBuf>,
+    /// How errors and warnings are shown
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// For people, on standard error
+    Text,
+    /// For editors: a list of objects on standard output
+    Json,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mut errors = 0;
+    let mut json = Vec::new();
+    for path in &arguments.scene {
+        let report = Scene::from_path(path).map_or_else(|report| report, |scene| scene.warnings);
+        errors += report.errors();
+        match arguments.format {
+            Format::Text => show(path, &report),
+            Format::Json => {
+                // Without a place there is no file either, so the path comes first.
+                let mut entries = report.to_json();
+                entries.iter_mut().for_each(|entry| entry.set_scene(path.display().to_string()));
+                json.extend(entries.into_iter().filter_map(|entry| serde_json::to_value(entry).ok()));
+            }
+        }
+    }
+    if matches!(arguments.format, Format::Json) {
+        say::result(&format!("{:#}\n", serde_json::Value::Array(json)));
+    }
+    if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
+}
+
+fn show(path: &std::path::Path, report: &Report) {
+    say::report(report);
+    let count = |number: usize, noun: &str| format!("{number} {noun}{}", if number == 1 { "" } else { "s" });
+    let verdict = match (report.errors(), report.warnings()) {
+        (0, 0) => "ok".to_owned(),
+        (0, warnings) => format!("ok, {}", count(warnings, "warning")),
+        (errors, 0) => count(errors, "error"),
+        (errors, warnings) => format!("{}, {}", count(errors, "error"), count(warnings, "warning")),
+    };
+    say::result(&format!("{}: {verdict}\n", path.display()));
+}

@@ -1,0 +1,49 @@
+//! The command line: arguments → library → exit code.
+
+mod check;
+mod compile;
+mod progress;
+mod say;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Compiles a physics scene written in TOML into POV-Ray scripts, one per frame.
+#[derive(Parser)]
+#[command(version, about, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Compile(compile::Arguments),
+    Check(check::Arguments),
+}
+
+/// How a command ends, beside success.
+enum Failure {
+    /// The scene or the run has errors, and they have been said.
+    Errors,
+    /// The command was used wrongly, in this way.
+    Usage(String),
+}
+
+/// Runs the command that the process was started with.
+pub(crate) fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Compile(arguments) => compile::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Errors) => ExitCode::from(1),
+        Err(Failure::Usage(message)) => {
+            say::error(&format!("error: {message}\n\nFor more information, try '--help'.\n"));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What a run comes to, in a few lines.
+
+use std::path::Path;
+use std::time::Duration;
+
+use jabuka::Run;
+use jabuka::output::Written;
+
+/// What was written, and how right it is.
+pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Duration) -> String {
+    let scene = run.scene();
+    let survey = run.survey();
+    let frames = scene.simulation.frames();
+    let kept = if written.kept > 0 { format!(", {} others kept", written.kept) } else { String::new() };
+    let unit = run.emitter().unit();
+    #[allow(clippy::float_cmp, reason = "a unit that is not chosen is exactly 1")]
+    let unit =
+        if unit == 1.0 { String::new() } else { format!("unit      1 unit of POV-Ray's is {unit:e} m\n") };
+    format!(
+        "{folder}: {scripts} of {frames} frames{kept}\n\
+         bodies    {bodies}\n\
+         timestep  {step} s, {steps} a frame, by {method}\n\
+         drift     {drift} of the largest kinetic energy\n\
+         {unit}\
+         written   {bytes} in {seconds:.2} s\n",
+        folder = folder.display(),
+        scripts = written.scripts,
+        bodies = scene.bodies.len(),
+        step = short(survey.timestep),
+        steps = survey.steps_per_frame,
+        method = scene.simulation.method.name,
+        drift = percent(survey.drift),
+        bytes = bytes(written.bytes),
+        seconds = took.as_secs_f64(),
+    )
+}
+
+/// A number to four digits, without trailing zeros.
+fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    if number == 0.0 || (1e-4..1e6).contains(&number.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+fn percent(part: f64) -> String {
+    let percent = part * 100.0;
+    if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", two_digits(percent)) }
+}
+
+/// A number to two digits.
+fn two_digits(number: f64) -> String {
+    let rounded: f64 = format!("{number:.1e}").parse().unwrap_or(number);
+    if (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "three digits of it are shown")]
+fn bytes(bytes: u64) -> String {
+    let (mut amount, mut unit) = (bytes as f64, "B");
+    for larger in ["kB", "MB", "GB", "TB"] {
+        if amount < 1000.0 {
+            break;
+        }
+        (amount, unit) = (amount / 1000.0, larger);
+    }
+    if unit == "B" || amount >= 100.0 { format!("{amount:.0} {unit}") } else { format!("{amount:.1} {unit}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_short() {
+        assert_eq!([short(0.01), short(1.0 / 240.0), short(1e-9)], ["0.01", "0.004167", "1e-9"]);
+        assert_eq!([percent(0.0), percent(-0.00123), percent(3e-17)], ["0 %", "-0.12 %", "3e-15 %"]);
+        assert_eq!([bytes(999), bytes(1_000), bytes(123_456_789)], ["999 B", "1.0 kB", "123 MB"]);
+    }
+}

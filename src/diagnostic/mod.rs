@@ -1,0 +1,127 @@
+//! What jabuka has to say about a scene or a run: errors and warnings, each at its place.
+
+mod json;
+mod source;
+mod text;
+
+pub use json::Entry;
+pub use source::{Position, Source, SourceId, Sources, Span};
+
+/// How grave a [`Diagnostic`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The scene cannot be compiled.
+    Error,
+    /// The scene compiles; something in it was probably not meant so.
+    Warning,
+}
+
+/// A remark on one place of a text.
+#[derive(Clone, Debug)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// What is said there; may be empty.
+    pub text: String,
+}
+
+/// One error or warning.
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// Error or warning.
+    pub severity: Severity,
+    /// The kind of mistake, for machines and for looking it up: `unknown-key`.
+    pub code: &'static str,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// The places: first the one that is wrong, then those that it has to do with.
+    pub labels: Vec<Label>,
+    /// How to mend it; may be empty.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error of the given kind.
+    pub fn error(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            severity: Severity::Error,
+            code,
+            message: message.into(),
+            labels: Vec::new(),
+            help: None,
+        }
+    }
+
+    /// A warning of the given kind.
+    pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
+    }
+
+    /// Adds a place: the first one added is the one that is wrong.
+    #[must_use]
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Adds how to mend it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Where the mistake is, if it is at a place.
+    pub fn span(&self) -> Option<Span> {
+        self.labels.first().map(|label| label.span)
+    }
+}
+
+/// The diagnostics of one scene, with the texts that they point into.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// The texts.
+    pub sources: Sources,
+    /// The diagnostics, in the order of their places.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Report {
+    /// A report of one error that has no place in a text.
+    pub fn of_error(code: &'static str, message: impl Into<String>) -> Report {
+        Report { sources: Sources::default(), diagnostics: vec![Diagnostic::error(code, message)] }
+    }
+
+    /// The number of errors.
+    pub fn errors(&self) -> usize {
+        self.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
+    }
+
+    /// The number of warnings.
+    pub fn warnings(&self) -> usize {
+        self.diagnostics.len() - self.errors()
+    }
+
+    /// Puts the diagnostics into the order of their places; those without a place come first.
+    pub fn sort(&mut self) {
+        self.diagnostics.sort_by_key(Diagnostic::span);
+    }
+
+    /// The diagnostics as people read them in a terminal, in the manner of rustc; `color` adds ANSI colours.
+    pub fn to_text(&self, color: bool) -> String {
+        text::render(self, color)
+    }
+
+    /// The diagnostics as editors read them; serialize it with any format of serde.
+    pub fn to_json(&self) -> Vec<Entry<'_>> {
+        json::entries(self)
+    }
+}
+
+impl std::fmt::Display for Report {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.to_text(false))
+    }
+}
+
+impl std::error::Error for Report {}

@@ -1,0 +1,83 @@
+//! Texts that a scene is read from, and places in them.
+
+/// One text that values come from: the scene's file, or one `--set` argument.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// What a reader sees in front of line and column: the file's path as it was given, or `--set`.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+/// The texts that one scene was read from. The scene's own file is the first.
+#[derive(Clone, Debug, Default)]
+pub struct Sources(Vec<Source>);
+
+/// The number of a text within its [`Sources`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SourceId(usize);
+
+/// A range of bytes in one of the [`Sources`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Span {
+    /// The text that the range lies in.
+    pub source: SourceId,
+    /// The first byte.
+    pub start: usize,
+    /// The byte after the last one.
+    pub end: usize,
+}
+
+/// A line and a column as people and editors count them: from 1, columns in characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Position {
+    /// The line, from 1.
+    pub line: usize,
+    /// The column in characters, from 1.
+    pub column: usize,
+}
+
+impl Sources {
+    /// Adds a text and returns its number.
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
+        self.0.push(Source { name: name.into(), text: text.into() });
+        SourceId(self.0.len() - 1)
+    }
+
+    /// The text with the given number.
+    pub fn get(&self, id: SourceId) -> &Source {
+        &self.0[id.0]
+    }
+
+    /// The line and column at which a byte of a text stands.
+    pub fn position(&self, source: SourceId, byte: usize) -> Position {
+        let before = self.get(source).text.as_bytes();
+        let before = &before[..byte.min(before.len())];
+        let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |newline| newline + 1);
+        // Every character has exactly one byte that is not a continuation byte.
+        let column = before[line_start..].iter().filter(|&&b| b & 0xC0 != 0x80).count();
+        Position { line: 1 + before.iter().filter(|&&b| b == b'\n').count(), column: 1 + column }
+    }
+}
+
+impl Span {
+    /// The range `start..end` of a text.
+    pub fn new(source: SourceId, range: std::ops::Range<usize>) -> Span {
+        Span { source, start: range.start, end: range.end }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters_from_one() {
+        let mut sources = Sources::default();
+        let id = sources.add("a.toml", "é = 1\nπr = 2\n");
+        assert_eq!(sources.position(id, 0), Position { line: 1, column: 1 });
+        assert_eq!(sources.position(id, 2), Position { line: 1, column: 2 });
+        assert_eq!(sources.position(id, 9), Position { line: 2, column: 2 });
+        assert_eq!(sources.position(id, 999), Position { line: 3, column: 1 });
+    }
+}

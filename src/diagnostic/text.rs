@@ -1,0 +1,95 @@
+//! Diagnostics as text, in the manner of rustc.
+
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use super::{Diagnostic, Label, Report, Severity, Sources};
+
+/// Renders every diagnostic of a report, with an empty line after each.
+pub(super) fn render(report: &Report, color: bool) -> String {
+    let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+    let mut text = String::new();
+    for diagnostic in &report.diagnostics {
+        text.push_str(&renderer.render(&groups(diagnostic, &report.sources)));
+        text.push_str("\n\n");
+    }
+    text
+}
+
+fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>> {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code));
+    let mut rest = diagnostic.labels.as_slice();
+    while let Some(first) = rest.first() {
+        // Labels of one text share a snippet, so that they are shown in one piece.
+        let here = rest.iter().take_while(|label| label.span.source == first.span.source).count();
+        group = group.element(snippet(&rest[..here], rest.len() == diagnostic.labels.len(), sources));
+        rest = &rest[here..];
+    }
+    if let Some(help) = &diagnostic.help {
+        group = group.element(Level::HELP.message(help));
+    }
+    vec![group]
+}
+
+fn snippet<'a>(
+    labels: &'a [Label],
+    first_is_primary: bool,
+    sources: &'a Sources,
+) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+    let source = sources.get(labels[0].span.source);
+    let window = window(labels, &source.text);
+    let line = sources.position(labels[0].span.source, window.start).line;
+    let annotations = labels.iter().enumerate().map(|(i, label)| {
+        let kind = if i == 0 && first_is_primary { AnnotationKind::Primary } else { AnnotationKind::Context };
+        let end = label.span.end.clamp(label.span.start, window.end);
+        let text = (!label.text.is_empty()).then_some(label.text.as_str());
+        kind.span(label.span.start - window.start..end - window.start).label(text)
+    });
+    Snippet::source(&source.text[window.clone()])
+        .path(&source.name)
+        .line_start(line)
+        .annotations(annotations.collect::<Vec<_>>())
+}
+
+/// The lines that the labels touch, as a range of bytes: a thousand errors in a long file cost a thousand
+/// short texts, not a thousand files.
+fn window(labels: &[Label], text: &str) -> Range<usize> {
+    let start = labels.iter().map(|l| l.span.start).min().unwrap_or(0).min(text.len());
+    // A label that spans many lines is shown by its first ones.
+    let end = labels.iter().map(|l| first_lines_end(l, text)).max().unwrap_or(0).max(start);
+    let start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
+    start..end
+}
+
+fn first_lines_end(label: &Label, text: &str) -> usize {
+    const LINES: usize = 4;
+    let end = label.span.end.min(text.len());
+    let start = label.span.start.min(end);
+    text[start..end].match_indices('\n').nth(LINES - 1).map_or(end, |(newline, _)| start + newline)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Span;
+    use super::*;
+
+    #[test]
+    fn a_diagnostic_shows_its_line_and_the_lines_it_has_to_do_with() {
+        let mut sources = Sources::default();
+        let id = sources.add("scene.toml", "a = 1\nb = 2\nc = 3\n");
+        let set = sources.add("--set", "b=4");
+        let diagnostic = Diagnostic::error("test", "three things")
+            .at(Span::new(id, 6..7), "this")
+            .at(Span::new(id, 12..13), "and this")
+            .at(Span::new(set, 2..3), "and that")
+            .help("mend it");
+        let report = Report { sources, diagnostics: vec![diagnostic] };
+        insta::assert_snapshot!(report.to_text(false), @"");
+    }
+}

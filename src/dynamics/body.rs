@@ -1,0 +1,117 @@
+//! The description of one rigid body at one moment.
+
+use glam::{DQuat, DVec3};
+
+use super::Shape;
+
+/// A rigid body at one moment, as it enters a [`World`](super::World) and as it can be read back from it.
+///
+/// A body is a body: nothing here tells a sphere from a triad of axes but the inertia. A body with no force is a body
+/// with zero force, and a body at rest one with zero velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidBody {
+    /// Mass, kg. A body whose mass is not positive does not move.
+    pub mass: f64,
+    /// Principal moments of inertia about the centre of mass, in the frame of the body, kg m². No torque turns a
+    /// body about an axis whose moment is zero.
+    pub inertia: DVec3,
+    /// Location of the centre of mass, m.
+    pub location: DVec3,
+    /// Orientation: the rotation that takes the frame of the body to the world's (`world_from_body`).
+    pub orientation: DQuat,
+    /// Velocity of the centre of mass, m/s.
+    pub velocity: DVec3,
+    /// Angular velocity, world axes, rad/s.
+    pub angular_velocity: DVec3,
+    /// A constant force at the centre of mass, world axes, N.
+    pub force: DVec3,
+    /// A constant torque, world axes, N m.
+    pub torque: DVec3,
+    /// A fixed body neither moves nor turns, whatever its velocity or the forces on it.
+    pub fixed: bool,
+}
+
+impl RigidBody {
+    /// A homogeneous solid of `shape` and `mass` (kg), at rest at the origin, free of forces. A body of unbounded
+    /// shape is fixed.
+    #[must_use]
+    pub fn new(shape: &Shape, mass: f64) -> Self {
+        Self {
+            mass,
+            inertia: shape.inertia(mass),
+            location: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            force: DVec3::ZERO,
+            torque: DVec3::ZERO,
+            fixed: shape.is_unbounded(),
+        }
+    }
+
+    /// The same body with its centre of mass at `location`, m.
+    #[must_use]
+    pub fn with_location(self, location: DVec3) -> Self {
+        Self { location, ..self }
+    }
+
+    /// The same body turned to `orientation` (`world_from_body`).
+    #[must_use]
+    pub fn with_orientation(self, orientation: DQuat) -> Self {
+        Self { orientation, ..self }
+    }
+
+    /// The same body moving at `velocity`, m/s.
+    #[must_use]
+    pub fn with_velocity(self, velocity: DVec3) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// The same body turning at `angular_velocity`, world axes, rad/s.
+    #[must_use]
+    pub fn with_angular_velocity(self, angular_velocity: DVec3) -> Self {
+        Self { angular_velocity, ..self }
+    }
+
+    /// The same body under the constant `force`, world axes, N.
+    #[must_use]
+    pub fn with_force(self, force: DVec3) -> Self {
+        Self { force, ..self }
+    }
+
+    /// The same body under the constant `torque`, world axes, N m.
+    #[must_use]
+    pub fn with_torque(self, torque: DVec3) -> Self {
+        Self { torque, ..self }
+    }
+
+    /// The same body with other principal moments of inertia, kg m².
+    #[must_use]
+    pub fn with_inertia(self, inertia: DVec3) -> Self {
+        Self { inertia, ..self }
+    }
+
+    /// The same body, fixed or free.
+    #[must_use]
+    pub fn with_fixed(self, fixed: bool) -> Self {
+        Self { fixed, ..self }
+    }
+}
+
+/// The name of a body within its world: its index, in the order in which bodies were added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(usize);
+
+impl BodyId {
+    /// The name of the body with this index.
+    #[must_use]
+    pub const fn new(index: usize) -> Self {
+        Self(index)
+    }
+
+    /// The index of the body in every list of bodies: in [`State`](super::State), [`Loads`](super::Loads), …
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.0
+    }
+}

@@ -1,0 +1,165 @@
+//! Energy and momentum, and how well a run keeps them.
+
+use glam::DVec3;
+
+use super::{Model, State};
+
+/// The conserved quantities at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Kinetic energy of translation and rotation, Σ ½ m v² + ½ L·ω, J.
+    pub kinetic: f64,
+    /// Potential energy of every force that has one, J.
+    pub potential: f64,
+    /// Work done so far by the forces without a potential, J.
+    pub work: f64,
+    /// Kinetic and potential energy, J.
+    pub total: f64,
+    /// Σ m v, kg m/s.
+    pub linear_momentum: DVec3,
+    /// Angular momentum about the origin of the world, Σ x × m v + L, kg m²/s.
+    pub angular_momentum: DVec3,
+    /// The error of the integration as energy shows it, without unit: (E − E₀ − work) / the largest kinetic energy
+    /// observed so far; 0 as long as nothing has moved.
+    pub drift: f64,
+}
+
+/// Keeps the books of energy: what it ought to be, whenever somebody measures what it is.
+///
+/// E₀ is the energy that was brought in from outside: by the bodies and forces at the start, and by every later
+/// change to them. A change is booked in two parts. [`open`](Self::open) notes the energy before the first change of
+/// several, [`close`](Self::close) the energy after the last: so adding ten thousand bodies takes two measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnergyLedger {
+    brought_in: f64,
+    /// The energy before the changes that are not yet booked.
+    before: Option<f64>,
+    largest_kinetic: f64,
+}
+
+impl EnergyLedger {
+    /// The ledger of an empty world about to be filled.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { brought_in: 0.0, before: Some(0.0), largest_kinetic: 0.0 }
+    }
+
+    /// Must be called before bodies or forces are changed by hand.
+    pub fn open(&mut self, model: &Model, time: f64, state: &State) {
+        if self.before.is_none() {
+            self.before = Some(kinetic(model, state) + model.potential(time, state));
+        }
+    }
+
+    /// Must be called before time goes on: books the changes since [`open`](Self::open), if there were any.
+    pub fn close(&mut self, model: &Model, time: f64, state: &State) {
+        if let Some(before) = self.before.take() {
+            let kinetic = kinetic(model, state);
+            self.brought_in += kinetic + model.potential(time, state) - before;
+            self.largest_kinetic = self.largest_kinetic.max(kinetic);
+        }
+    }
+
+    /// Measures all conserved quantities, and the drift against the books.
+    pub fn measure(&mut self, model: &Model, time: f64, state: &State) -> Balance {
+        self.close(model, time, state);
+        let kinetic = kinetic(model, state);
+        let potential = model.potential(time, state);
+        let total = kinetic + potential;
+        self.largest_kinetic = self.largest_kinetic.max(kinetic);
+        let drift = if self.largest_kinetic > 0.0 {
+            (total - self.brought_in - state.work) / self.largest_kinetic
+        } else {
+            0.0
+        };
+        let (linear_momentum, angular_momentum) = momenta(model, state);
+        Balance { kinetic, potential, work: state.work, total, linear_momentum, angular_momentum, drift }
+    }
+}
+
+impl Default for EnergyLedger {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn kinetic(model: &Model, state: &State) -> f64 {
+    let mut twice = 0.0;
+    for (i, &mass) in model.mass().iter().enumerate() {
+        twice += mass * state.velocity[i].length_squared();
+        twice += state.angular_momentum[i].dot(model.angular_velocity(i, state));
+    }
+    0.5 * twice
+}
+
+fn momenta(model: &Model, state: &State) -> (DVec3, DVec3) {
+    let (mut linear, mut angular) = (DVec3::ZERO, DVec3::ZERO);
+    for (i, &mass) in model.mass().iter().enumerate() {
+        let momentum = mass * state.velocity[i];
+        linear += momentum;
+        angular += state.location[i].cross(momentum) + state.angular_momentum[i];
+    }
+    (linear, angular)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Dynamics, Method, RigidBody, Shape, UniformGravity, World};
+    use super::*;
+
+    #[test]
+    fn the_balance_of_two_bodies_by_hand() {
+        let mut world = World::new();
+        let sphere = Shape::Sphere { radius: 1.0 };
+        world.add(
+            RigidBody::new(&sphere, 2.0)
+                .with_location(DVec3::new(0.0, 3.0, 0.0))
+                .with_velocity(DVec3::new(4.0, 0.0, 0.0))
+                .with_angular_velocity(DVec3::new(0.0, 5.0, 0.0)),
+        );
+        world.add(
+            RigidBody::new(&sphere, 100.0).with_location(DVec3::Y).with_velocity(DVec3::X).with_fixed(true),
+        );
+        world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -10.0, 0.0) });
+        let balance = world.balance();
+        // ½·2·4² + ½·(⅖·2·1²)·5²; m g h; m v; x × m v + I ω. The fixed body counts for nothing.
+        assert!((balance.kinetic - 26.0).abs() < 1e-14);
+        assert!((balance.potential - 60.0).abs() < 1e-14);
+        assert!((balance.total - 86.0).abs() < 1e-14);
+        assert_eq!(balance.linear_momentum, DVec3::new(8.0, 0.0, 0.0));
+        assert!(balance.angular_momentum.abs_diff_eq(DVec3::new(0.0, 4.0, -24.0), 1e-14));
+        assert_eq!((balance.drift, balance.work), (0.0, 0.0));
+    }
+
+    #[test]
+    fn nothing_that_moves_means_no_drift() {
+        let mut world = World::new();
+        world.add(RigidBody::new(&Shape::Plane { normal: DVec3::Y }, 1.0));
+        world.advance_to(1.0);
+        assert_eq!(world.balance().drift, 0.0);
+    }
+
+    /// Without the booking of changes the drift would be of the size of the energies brought in: 0.1 and more.
+    #[test]
+    fn changes_by_hand_are_not_drift() {
+        let mut world = World::new();
+        if let Some(method) = Method::by_name("rk4") {
+            world.set_integrator(method); // exact for constant forces
+        }
+        let ball =
+            RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0).with_velocity(DVec3::new(1.0, 2.0, 3.0));
+        let id = world.add(ball.with_location(DVec3::splat(10.0)));
+        world.advance_to(1.0);
+        assert!(world.balance().drift.abs() < 1e-12);
+        world.apply_force(id, DVec3::new(0.0, -3.0, 0.0));
+        world.apply_torque(id, DVec3::new(0.0, 0.0, 0.1));
+        world.advance_to(2.0);
+        assert!(world.balance().drift.abs() < 1e-12);
+        world.add(ball.with_location(DVec3::splat(-7.0)));
+        world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -9.81, 0.0) });
+        world.advance_to(3.0);
+        let balance = world.balance();
+        assert!(balance.drift.abs() < 1e-12, "{}", balance.drift);
+        assert!(balance.work > 1e-3, "the torque has done work");
+    }
+}

@@ -1,0 +1,64 @@
+//! A force that is always the same.
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Force, Loads, Moment};
+
+/// A constant force at the centre of mass, and a constant torque, on each of some bodies.
+///
+/// The force has the potential −F·x. The torque has none (turning once round and back to the same orientation, it has
+/// done work), so its power τ·ω is counted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConstantForce {
+    /// The bodies it acts on.
+    pub bodies: Vec<BodyId>,
+    /// Force on each of them, world axes, N.
+    pub force: DVec3,
+    /// Torque on each of them, world axes, N m.
+    pub torque: DVec3,
+}
+
+impl Force for ConstantForce {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        for body in &self.bodies {
+            let i = body.index();
+            loads.force[i] += self.force;
+            loads.torque[i] += self.torque;
+            loads.power += self.torque.dot(moment.model.angular_velocity(i, moment.state));
+        }
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        let mut potential = 0.0;
+        for body in &self.bodies {
+            if moment.model.movable()[body.index()] {
+                potential -= self.force.dot(moment.state.location[body.index()]);
+            }
+        }
+        potential
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_minus_gradient, bodies, loads};
+    use super::*;
+
+    #[test]
+    fn it_acts_on_the_named_bodies_and_its_torque_does_work() {
+        let (model, mut state) = bodies(&[(DVec3::X, DVec3::Y), (DVec3::splat(2.0), DVec3::X)]);
+        // ω = L / I with I = ⅖ · 2 kg · (0.1 m)².
+        state.angular_momentum[1] = DVec3::new(0.0, 0.008, 0.0);
+        let force = ConstantForce {
+            bodies: vec![BodyId::new(1)],
+            force: DVec3::X,
+            torque: DVec3::new(0.0, 3.0, 4.0),
+        };
+        assert_minus_gradient(&force, &model, &state);
+        let loads = loads(&force, &model, &state);
+        assert_eq!(loads.force, [DVec3::ZERO, DVec3::X]);
+        assert_eq!(loads.torque, [DVec3::ZERO, DVec3::new(0.0, 3.0, 4.0)]);
+        assert!((loads.power - 3.0).abs() < 1e-14);
+    }
+}

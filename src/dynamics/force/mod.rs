@@ -1,0 +1,94 @@
+//! What makes bodies move: the interface of a force, and one file for each kind.
+
+mod constant;
+mod gravity;
+mod spring;
+
+pub use constant::ConstantForce;
+pub use gravity::UniformGravity;
+pub use spring::{Anchor, Spring};
+
+use super::{Loads, Model, State};
+
+/// All that a force may look at.
+#[derive(Clone, Copy)]
+pub struct Moment<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Where the bodies are, and how they move.
+    pub state: &'a State,
+    /// What the bodies weigh.
+    pub model: &'a Model,
+}
+
+/// A force, or anything else that pushes and turns bodies.
+///
+/// A new kind of force is one type with this trait, anywhere: the world does not know which kinds there are.
+pub trait Force: Send + Sync {
+    /// Adds the forces and torques at this moment to `loads`.
+    ///
+    /// A force without a potential (or the part of one that has none) adds its power, F·v + τ·ω, to `loads.power`
+    /// as well. Loads on a body that does not move are dropped afterwards.
+    fn apply(&self, moment: &Moment, loads: &mut Loads);
+
+    /// The potential energy, J; 0 for a force that has none.
+    ///
+    /// The share of a body that does not move is left out where it is a constant.
+    fn potential(&self, moment: &Moment) -> f64;
+}
+
+#[cfg(test)]
+mod testing {
+    use glam::DVec3;
+
+    use super::super::{RigidBody, Shape};
+    use super::*;
+
+    /// Free bodies at the given locations with the given velocities; mass 1, 2, 3, …
+    pub(super) fn bodies(located: &[(DVec3, DVec3)]) -> (Model, State) {
+        let (mut model, mut state) = (Model::default(), State::default());
+        let sphere = Shape::Sphere { radius: 0.1 };
+        let mut mass = 0.0;
+        for &(location, velocity) in located {
+            mass += 1.0;
+            model.push(
+                &RigidBody::new(&sphere, mass).with_location(location).with_velocity(velocity),
+                &mut state,
+            );
+        }
+        (model, state)
+    }
+
+    /// The loads of one force alone.
+    pub(super) fn loads(force: &dyn Force, model: &Model, state: &State) -> Loads {
+        let mut loads = Loads {
+            force: vec![DVec3::ZERO; state.len()],
+            torque: vec![DVec3::ZERO; state.len()],
+            power: 0.0,
+        };
+        force.apply(&Moment { time: 0.0, state, model }, &mut loads);
+        loads
+    }
+
+    /// Checks F = −∂U/∂x on every body, by central differences. With h = 1e-5 these are off by h² U‴/6, about 1e-10
+    /// here, and by the rounding of U over h, about 1e-16 · 100 / 1e-5 = 1e-9.
+    pub(super) fn assert_minus_gradient(force: &dyn Force, model: &Model, state: &State) {
+        const H: f64 = 1e-5;
+        let given = loads(force, model, state).force;
+        for (i, given) in given.iter().enumerate() {
+            for axis in 0..3 {
+                let potential = |shift: f64| {
+                    let mut state = state.clone();
+                    state.location[i][axis] += shift;
+                    force.potential(&Moment { time: 0.0, state: &state, model })
+                };
+                let minus_gradient = (potential(-H) - potential(H)) / (2.0 * H);
+                assert!(
+                    (given[axis] - minus_gradient).abs() < 2e-8,
+                    "{i} {axis}: {} {minus_gradient}",
+                    given[axis]
+                );
+            }
+        }
+    }
+}

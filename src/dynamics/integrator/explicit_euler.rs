@@ -1,0 +1,30 @@
+//! Explicit Euler: everything with the values at the start of the step.
+
+use super::super::{Model, State};
+use super::runge_kutta::{Slope, follow};
+use super::{Integrator, Method};
+
+/// Here to show what goes wrong: an oscillator gains energy without bound. Source: L. Euler, *Institutiones calculi
+/// integralis* I (1768), § 650; Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, I.7.
+pub(super) const METHOD: Method = Method {
+    name: "explicit-euler",
+    order: 1,
+    summary: "first order: gains energy without bound, for comparison only",
+    create: || Box::new(ExplicitEuler::default()),
+};
+
+#[derive(Clone, Default)]
+struct ExplicitEuler {
+    slope: Slope,
+}
+
+impl Integrator for ExplicitEuler {
+    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+        self.slope.measure(model, t, state);
+        follow([(1.0, &self.slope)], dt, state);
+    }
+
+    fn clone_box(&self) -> Box<dyn Integrator> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,73 @@
+//! Methods of numerical integration: the interface of one, the table of all, and one file for each.
+//!
+//! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]; the tests of order and of
+//! energy then run on it by themselves.
+
+mod euler_cromer;
+mod explicit_euler;
+mod rk4;
+mod rotation;
+mod runge_kutta;
+mod splitting;
+mod velocity_verlet;
+
+use super::{Model, State};
+
+/// A method of integration. It advances a state; time belongs to the [`World`](super::World).
+pub trait Integrator: Send {
+    /// Advances `state` from time `t` by one step of `dt` seconds.
+    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State);
+
+    /// Told after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from
+    /// earlier steps do not hold any more.
+    fn discontinuity(&mut self) {}
+
+    /// A copy that goes on exactly as this one would.
+    fn clone_box(&self) -> Box<dyn Integrator>;
+}
+
+impl Clone for Box<dyn Integrator> {
+    fn clone(&self) -> Self {
+        self.as_ref().clone_box()
+    }
+}
+
+/// An entry of the table of methods.
+#[derive(Debug)]
+pub struct Method {
+    /// The name by which it is chosen.
+    pub name: &'static str,
+    /// The order p: halving the step divides the error by 2ᵖ.
+    pub order: u32,
+    /// One line for a list of methods.
+    pub summary: &'static str,
+    /// Makes a new integrator.
+    pub create: fn() -> Box<dyn Integrator>,
+}
+
+/// All methods; the first is the default.
+pub static METHODS: &[Method] =
+    &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD];
+
+impl Method {
+    /// The method of this name.
+    #[must_use]
+    pub fn by_name(name: &str) -> Option<&'static Method> {
+        METHODS.iter().find(|method| method.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_method_is_found_by_its_own_name() {
+        for method in METHODS {
+            let found = Method::by_name(method.name).unwrap();
+            assert!(std::ptr::eq(found, method), "{} is there twice", method.name);
+        }
+        assert!(Method::by_name("guesswork").is_none());
+        assert_eq!(METHODS[0].name, "euler-cromer");
+    }
+}

@@ -1,0 +1,46 @@
+//! The classical Runge–Kutta method.
+
+use super::super::{Model, State};
+use super::runge_kutta::{Slope, follow};
+use super::{Integrator, Method};
+
+/// Source: W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Nørsett & Wanner, *Solving Ordinary Differential
+/// Equations I*, II.1, table 1.2.
+pub(super) const METHOD: Method = Method {
+    name: "rk4",
+    order: 4,
+    summary: "fourth order: accurate over short times, loses energy slowly over long ones",
+    create: || Box::new(Rk4::default()),
+};
+
+#[derive(Clone, Default)]
+struct Rk4 {
+    stage: State,
+    slopes: [Slope; 4],
+}
+
+impl Integrator for Rk4 {
+    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+        let half = 0.5 * dt;
+        let Self { stage, slopes: [k1, k2, k3, k4] } = self;
+
+        k1.measure(model, t, state);
+        stage.clone_from(state);
+        follow([(1.0, k1)], half, stage);
+
+        k2.measure(model, t + half, stage);
+        stage.clone_from(state);
+        follow([(1.0, k2)], half, stage);
+
+        k3.measure(model, t + half, stage);
+        stage.clone_from(state);
+        follow([(1.0, k3)], dt, stage);
+
+        k4.measure(model, t + dt, stage);
+        follow([(1.0 / 6.0, k1), (1.0 / 3.0, k2), (1.0 / 3.0, k3), (1.0 / 6.0, k4)], dt, state);
+    }
+
+    fn clone_box(&self) -> Box<dyn Integrator> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,68 @@
+//! What explicit Runge–Kutta methods are made of: the slope of the state, and steps along weighted slopes.
+
+use glam::{DQuat, DVec3};
+
+use super::super::{Loads, Model, State};
+use super::rotation;
+
+/// The derivative of a [`State`] with respect to time. The slopes of angular momentum and of work are the torque and
+/// the power among the loads.
+#[derive(Clone, Default)]
+pub(super) struct Slope {
+    location: Vec<DVec3>,
+    velocity: Vec<DVec3>,
+    orientation: Vec<DQuat>,
+    loads: Loads,
+}
+
+impl Slope {
+    /// Measures the slope at `state`: the right-hand side of the equations of motion.
+    pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
+        model.evaluate(t, state, &mut self.loads);
+        self.location.clone_from(&state.velocity);
+        self.velocity.clear();
+        self.velocity.extend(
+            self.loads.force.iter().zip(model.inverse_mass()).map(|(&force, &inverse)| force * inverse),
+        );
+        self.orientation.clear();
+        self.orientation.extend((0..state.len()).map(|i| {
+            let angular_velocity = model.angular_velocity(i, state);
+            rotation::rate(state.orientation[i], angular_velocity)
+        }));
+    }
+}
+
+/// Advances `state` by `dt` along the weighted sum of slopes. Orientations leave the unit sphere on their way and are
+/// put back at the end, also at the stages of a method: to it, that is only another way to write the same equations.
+pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state: &mut State) {
+    add(&mut state.location, dt, slopes.map(|(weight, slope)| (weight, slope.location.as_slice())));
+    add(&mut state.velocity, dt, slopes.map(|(weight, slope)| (weight, slope.velocity.as_slice())));
+    add(
+        &mut state.angular_momentum,
+        dt,
+        slopes.map(|(weight, slope)| (weight, slope.loads.torque.as_slice())),
+    );
+    for (i, orientation) in state.orientation.iter_mut().enumerate() {
+        let mut rate = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        for (weight, slope) in slopes {
+            rate += slope.orientation[i] * weight;
+        }
+        // Most bodies do not turn at all: no need of a square root then.
+        if rate.length_squared() != 0.0 {
+            *orientation = (*orientation + rate * dt).normalize();
+        }
+    }
+    let power = slopes.iter().fold(0.0, |sum, (weight, slope)| sum + weight * slope.loads.power);
+    state.work += dt * power;
+}
+
+/// values += dt · Σ weight · slope. The small terms are summed first, as each sum with a large value is rounded.
+fn add<const N: usize>(values: &mut [DVec3], dt: f64, slopes: [(f64, &[DVec3]); N]) {
+    for (i, value) in values.iter_mut().enumerate() {
+        let mut sum = DVec3::ZERO;
+        for (weight, slope) in slopes {
+            sum += weight * slope[i];
+        }
+        *value += dt * sum;
+    }
+}

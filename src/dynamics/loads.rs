@@ -1,0 +1,14 @@
+//! What acts on the bodies at one moment.
+
+use glam::DVec3;
+
+/// The forces and torques on all bodies at one moment, summed up: one entry for each body.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loads {
+    /// Resultant force on each body, N.
+    pub force: Vec<DVec3>,
+    /// Resultant torque on each body about its centre of mass, world axes, N m.
+    pub torque: Vec<DVec3>,
+    /// Power of all forces without a potential, F·v + τ·ω, summed over the bodies, W.
+    pub power: f64,
+}

@@ -1,0 +1,112 @@
+//! The physics: rigid bodies, the forces on them, and the methods that advance them.
+//!
+//! This module needs no scene and draws nothing; it can be used for itself. Units are SI, angles radians, axes
+//! right-handed.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | a body at one moment, as it enters a world | [`RigidBody`], its [`Shape`] |
+//! | all that changes with time | [`State`] |
+//! | all that does not: masses, inertia, forces | [`Model`] |
+//! | what acts at one moment | [`Force`], [`Loads`] |
+//! | how the state advances | [`Integrator`], the table of [`METHODS`] |
+//! | energy, momentum, drift | [`Balance`] |
+//! | all of it together, with a clock | [`World`] |
+//! | what the rest of the program sees of it | [`Dynamics`] |
+//!
+//! # Tutorial
+//!
+//! Two bodies: a sphere and a triad of axes. A body is a body: only its shape, and so its inertia, differs. The
+//! sphere begins without a force, and a body with no force is a body with zero force.
+//!
+//! ```
+//! use glam::DVec3;
+//! use jabuka::dynamics::{Dynamics, Method, RigidBody, Shape, World};
+//!
+//! // The start is known to this closure, not to the world.
+//! let build = || {
+//!     let mut world = World::new();
+//!     let sphere = RigidBody::new(&Shape::Sphere { radius: 0.5 }, 1.0)
+//!         .with_location(DVec3::new(20.0, 0.0, 0.0))
+//!         .with_velocity(DVec3::new(2.0, 10.0, 0.0));
+//!     let axes = RigidBody::new(&Shape::Axes { length: 2.0 }, 1.0)
+//!         .with_angular_velocity(DVec3::new(0.0, 1.0, 0.0))
+//!         .with_force(DVec3::new(0.0, 0.0, 3.0));
+//!     let (sphere, axes) = (world.add(sphere), world.add(axes));
+//!     world.set_step(0.01);
+//!     (world, sphere, axes)
+//! };
+//!
+//! let run = || {
+//!     let (mut world, sphere, axes) = build();
+//!     world.advance_to(1.0);
+//!     // Half-way the sphere is pushed, and the method of integration exchanged for a more accurate one.
+//!     world.apply_force(sphere, DVec3::new(0.0, -1.0, 0.0));
+//!     world.set_integrator(Method::by_name("rk4").expect("rk4 is one of the methods"));
+//!     world.advance_to(2.0);
+//!     (world, sphere, axes)
+//! };
+//!
+//! let (mut world, sphere, axes) = run();
+//! assert_eq!(world.time(), 2.0);
+//! // Free for a second, then pushed for another: x₀ + v t, and −½ a t² from then on.
+//! assert!((world.location(sphere) - DVec3::new(24.0, 19.5, 0.0)).length() < 1e-12);
+//! // The axes have turned by 2 rad about y.
+//! let x_arm = world.orientation(axes) * DVec3::X;
+//! assert!((x_arm.angle_between(DVec3::X) - 2.0).abs() < 1e-9);
+//! // Euler–Cromer's first-order error shows in the energy of the first half.
+//! assert!(world.balance().drift.abs() < 1e-2);
+//!
+//! // A reset is to build the world again: the second run is equal to the first, bit for bit.
+//! let (again, ..) = run();
+//! assert_eq!(again.state(), world.state());
+//! ```
+
+mod body;
+mod energy;
+mod force;
+mod integrator;
+mod loads;
+mod model;
+mod shape;
+mod state;
+mod world;
+
+pub use body::{BodyId, RigidBody};
+pub use energy::{Balance, EnergyLedger};
+pub use force::{Anchor, ConstantForce, Force, Moment, Spring, UniformGravity};
+pub use integrator::{Integrator, METHODS, Method};
+pub use loads::Loads;
+pub use model::Model;
+pub use shape::Shape;
+pub use state::State;
+pub use world::World;
+
+use glam::DVec3;
+
+/// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
+pub trait Dynamics: Send {
+    /// The time reached, s.
+    fn time(&self) -> f64;
+
+    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
+    /// not later (or not finite) leaves all as it is.
+    fn advance_to(&mut self, t: f64);
+
+    /// The bodies as they are now.
+    fn state(&self) -> &State;
+
+    /// The angular velocity of a body, world axes, rad/s.
+    fn angular_velocity(&self, body: BodyId) -> DVec3;
+
+    /// The resultant force on each body at this moment, N. It is evaluated for this call, and zero for bodies that do
+    /// not move.
+    fn forces(&mut self) -> &[DVec3];
+
+    /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
+    /// measurements so far.
+    fn balance(&mut self) -> Balance;
+
+    /// A copy that goes on exactly as the original would. Advancing it never touches the original.
+    fn branch(&self) -> Box<dyn Dynamics>;
+}

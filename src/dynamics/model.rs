@@ -1,0 +1,186 @@
+//! All that stays as it is while time goes on: what the bodies weigh, and which forces act on them.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Force, Loads, Moment, RigidBody, State};
+
+/// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
+/// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
+#[derive(Clone, Default)]
+pub struct Model {
+    mass: Vec<f64>,
+    inverse_mass: Vec<f64>,
+    inertia: Vec<DVec3>,
+    inverse_inertia: Vec<DVec3>,
+    movable: Vec<bool>,
+    /// The bodies that are not movable.
+    immovable: Vec<usize>,
+    force: Vec<DVec3>,
+    torque: Vec<DVec3>,
+    /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
+    torqued: Vec<usize>,
+    forces: Vec<Arc<dyn Force>>,
+}
+
+impl Model {
+    /// The number of bodies.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Whether there is no body.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.mass.is_empty()
+    }
+
+    /// The masses of the bodies, kg.
+    #[must_use]
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// 1/m of each body, 1/kg; 0 for one that does not move.
+    #[must_use]
+    pub fn inverse_mass(&self) -> &[f64] {
+        &self.inverse_mass
+    }
+
+    /// The principal moments of inertia of each body, in its frame, kg m².
+    #[must_use]
+    pub fn inertia(&self) -> &[DVec3] {
+        &self.inertia
+    }
+
+    /// 1/I of each body's principal moments, 1/(kg m²); 0 where a body does not turn.
+    #[must_use]
+    pub fn inverse_inertia(&self) -> &[DVec3] {
+        &self.inverse_inertia
+    }
+
+    /// Whether each body can move: it is not fixed, and its mass is positive.
+    #[must_use]
+    pub fn movable(&self) -> &[bool] {
+        &self.movable
+    }
+
+    /// The bodies' own constant forces, N.
+    #[must_use]
+    pub fn constant_force(&self) -> &[DVec3] {
+        &self.force
+    }
+
+    /// The bodies' own constant torques, N m.
+    #[must_use]
+    pub fn constant_torque(&self) -> &[DVec3] {
+        &self.torque
+    }
+
+    /// The forces that act, beside the bodies' own constant ones.
+    #[must_use]
+    pub fn forces(&self) -> &[Arc<dyn Force>] {
+        &self.forces
+    }
+
+    /// Takes in a body; its entry in `state` is made at the same time, so that the two cannot disagree.
+    pub(super) fn push(&mut self, body: &RigidBody, state: &mut State) {
+        let index = self.len();
+        let movable = !body.fixed && body.mass > 0.0;
+        let inverse = |x: f64| if movable && x > 0.0 { 1.0 / x } else { 0.0 };
+        let inverse_inertia = body.inertia.map(inverse);
+        let orientation = body.orientation.normalize();
+
+        self.mass.push(body.mass);
+        self.inverse_mass.push(inverse(body.mass));
+        self.inertia.push(body.inertia);
+        self.inverse_inertia.push(inverse_inertia);
+        self.movable.push(movable);
+        if !movable {
+            self.immovable.push(index);
+        }
+        self.force.push(body.force);
+        self.torque.push(DVec3::ZERO);
+        self.set_constant_torque(index, body.torque);
+
+        // A body that does not move enters at rest: with zero loads nothing then moves it, and no method of
+        // integration needs to know that there are such bodies.
+        let (velocity, angular_momentum) = if movable {
+            let in_body = orientation.conjugate() * body.angular_velocity;
+            (body.velocity, orientation * (body.inertia * in_body))
+        } else {
+            (DVec3::ZERO, DVec3::ZERO)
+        };
+        state.location.push(body.location);
+        state.velocity.push(velocity);
+        state.orientation.push(orientation);
+        state.angular_momentum.push(angular_momentum);
+    }
+
+    pub(super) fn push_force(&mut self, force: Arc<dyn Force>) {
+        self.forces.push(force);
+    }
+
+    pub(super) fn set_constant_force(&mut self, body: usize, force: DVec3) {
+        self.force[body] = force;
+    }
+
+    pub(super) fn set_constant_torque(&mut self, body: usize, torque: DVec3) {
+        self.torque[body] = torque;
+        self.torqued.retain(|&other| other != body);
+        if torque != DVec3::ZERO {
+            self.torqued.push(body);
+        }
+    }
+
+    /// Sums up all forces and torques at `time` into `loads`; whatever was in there is gone.
+    ///
+    /// Loads on bodies that do not move are zero: whatever holds the body balances them.
+    pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
+        loads.force.clone_from(&self.force);
+        loads.torque.clone_from(&self.torque);
+        loads.power = 0.0;
+        for &i in &self.torqued {
+            loads.power += self.torque[i].dot(self.angular_velocity(i, state));
+        }
+        let moment = Moment { time, state, model: self };
+        for force in &self.forces {
+            force.apply(&moment, loads);
+        }
+        for &i in &self.immovable {
+            loads.force[i] = DVec3::ZERO;
+            loads.torque[i] = DVec3::ZERO;
+        }
+    }
+
+    /// The potential energy of all forces that have one, J; that of a constant force is −F·x.
+    #[must_use]
+    pub fn potential(&self, time: f64, state: &State) -> f64 {
+        let mut potential = 0.0;
+        for i in (0..self.len()).filter(|&i| self.movable[i]) {
+            potential -= self.force[i].dot(state.location[i]);
+        }
+        let moment = Moment { time, state, model: self };
+        self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
+    }
+
+    /// The angular velocity of body `i`, ω = R I⁻¹ Rᵀ L, world axes, rad/s.
+    #[must_use]
+    pub fn angular_velocity(&self, i: usize, state: &State) -> DVec3 {
+        let inverse = self.inverse_inertia[i];
+        let angular_momentum = state.angular_momentum[i];
+        if is_isotropic(inverse) {
+            // All axes are principal axes: R cancels.
+            return inverse.x * angular_momentum;
+        }
+        let world_from_body = state.orientation[i];
+        world_from_body * (inverse * (world_from_body.conjugate() * angular_momentum))
+    }
+}
+
+/// Whether all three moments are the same, as those of a sphere or a cube.
+pub(super) fn is_isotropic(moments: DVec3) -> bool {
+    moments.x == moments.y && moments.y == moments.z
+}

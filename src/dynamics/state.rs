@@ -1,0 +1,57 @@
+//! All that changes as time goes on.
+
+use glam::{DQuat, DVec3};
+
+/// The state of all bodies at one moment: one list for each quantity, one entry for each body.
+///
+/// Rotation is kept as angular momentum, not angular velocity: it is what torque changes, and a free body keeps it
+/// exactly. [`Model::angular_velocity`](super::Model::angular_velocity) gives the other.
+#[derive(Debug, Default, PartialEq)]
+pub struct State {
+    /// Locations of the centres of mass, m.
+    pub location: Vec<DVec3>,
+    /// Velocities of the centres of mass, m/s.
+    pub velocity: Vec<DVec3>,
+    /// Orientations (`world_from_body`), unit quaternions.
+    pub orientation: Vec<DQuat>,
+    /// Angular momenta, each about the body's own centre of mass, world axes, kg m²/s.
+    pub angular_momentum: Vec<DVec3>,
+    /// Work done so far by the forces without a potential, J: the integral of their power over time. It is
+    /// integrated along with the motion, so that energy can be balanced to the accuracy of the method.
+    pub work: f64,
+}
+
+impl State {
+    /// The number of bodies.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.location.len()
+    }
+
+    /// Whether there is no body.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.location.is_empty()
+    }
+}
+
+// By hand, for the sake of `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
+impl Clone for State {
+    fn clone(&self) -> Self {
+        Self {
+            location: self.location.clone(),
+            velocity: self.velocity.clone(),
+            orientation: self.orientation.clone(),
+            angular_momentum: self.angular_momentum.clone(),
+            work: self.work,
+        }
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.location.clone_from(&source.location);
+        self.velocity.clone_from(&source.velocity);
+        self.orientation.clone_from(&source.orientation);
+        self.angular_momentum.clone_from(&source.angular_momentum);
+        self.work = source.work;
+    }
+}

@@ -1,0 +1,289 @@
+//! Bodies, forces, a method of integration and a clock.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::{
+    Balance, BodyId, Dynamics, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model, RigidBody,
+    State,
+};
+
+/// The longest timestep where none is set, s.
+const DEFAULT_STEP: f64 = 1.0 / 240.0;
+
+/// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
+/// fractions have rounding errors, and 0.1 s are ten steps of 0.01 s.
+const STEP_TOLERANCE: f64 = 1e-9;
+
+/// Bodies that move under forces, advanced by one of the [`METHODS`].
+///
+/// A world does not know where it began: to reset it, build it again. A clone is a branch: it goes on exactly as the
+/// original would, and neither touches the other.
+#[derive(Clone)]
+pub struct World {
+    time: f64,
+    step: f64,
+    model: Model,
+    state: State,
+    method: &'static Method,
+    integrator: Box<dyn Integrator>,
+    ledger: EnergyLedger,
+    /// Room for [`forces`](Dynamics::forces).
+    loads: Loads,
+}
+
+impl World {
+    /// An empty world at time 0, with the default method and a longest step of 1/240 s.
+    #[must_use]
+    pub fn new() -> Self {
+        let method = &METHODS[0];
+        Self {
+            time: 0.0,
+            step: DEFAULT_STEP,
+            model: Model::default(),
+            state: State::default(),
+            method,
+            integrator: (method.create)(),
+            ledger: EnergyLedger::new(),
+            loads: Loads::default(),
+        }
+    }
+
+    /// Adds a body, at any time.
+    pub fn add(&mut self, body: RigidBody) -> BodyId {
+        self.about_to_change();
+        self.model.push(&body, &mut self.state);
+        BodyId::new(self.model.len() - 1)
+    }
+
+    /// Adds a force, at any time.
+    pub fn add_force(&mut self, force: impl Force + 'static) {
+        self.about_to_change();
+        self.model.push_force(Arc::new(force));
+    }
+
+    /// From now on, `force` (world axes, N) is the body's constant force.
+    pub fn apply_force(&mut self, body: BodyId, force: DVec3) {
+        self.about_to_change();
+        self.model.set_constant_force(body.index(), force);
+    }
+
+    /// From now on, `torque` (world axes, N m) is the body's constant torque.
+    pub fn apply_torque(&mut self, body: BodyId, torque: DVec3) {
+        self.about_to_change();
+        self.model.set_constant_torque(body.index(), torque);
+    }
+
+    /// Must stand before every change by hand: the books of energy and the integrator rely on it.
+    fn about_to_change(&mut self) {
+        self.ledger.open(&self.model, self.time, &self.state);
+        self.integrator.discontinuity();
+    }
+
+    /// Integrates by `method` from now on.
+    pub fn set_integrator(&mut self, method: &'static Method) {
+        self.method = method;
+        self.integrator = (method.create)();
+    }
+
+    /// The method of integration in use.
+    #[must_use]
+    pub fn integrator(&self) -> &'static Method {
+        self.method
+    }
+
+    /// Sets the longest step that [`advance_to`](Dynamics::advance_to) may take, s. It must be positive; with
+    /// `f64::INFINITY` every call is one step.
+    pub fn set_step(&mut self, step: f64) {
+        self.step = step;
+    }
+
+    /// The number of equal steps that [`advance_to`](Dynamics::advance_to) makes of an interval (s): the fewest that are not
+    /// longer than the longest allowed; at least 1, at most `u32::MAX`.
+    #[must_use]
+    pub fn steps_within(&self, interval: f64) -> u32 {
+        let steps = (interval / self.step * (1.0 - STEP_TOLERANCE)).ceil();
+        // The conversion saturates, so this holds for every number, and for what is not one.
+        (steps as u32).max(1)
+    }
+
+    /// Makes one step of `dt` seconds, however long.
+    pub fn step(&mut self, dt: f64) {
+        self.step_from(self.time, dt);
+        self.time += dt;
+    }
+
+    fn step_from(&mut self, t: f64, dt: f64) {
+        self.ledger.close(&self.model, t, &self.state);
+        self.integrator.advance(&self.model, t, dt, &mut self.state);
+    }
+
+    /// The number of bodies.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.state.len()
+    }
+
+    /// Whether there is no body.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.state.is_empty()
+    }
+
+    /// What stays as it is while time goes on: masses, inertia and forces.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The location of a body's centre of mass, m.
+    #[must_use]
+    pub fn location(&self, body: BodyId) -> DVec3 {
+        self.state.location[body.index()]
+    }
+
+    /// The velocity of a body's centre of mass, m/s.
+    #[must_use]
+    pub fn velocity(&self, body: BodyId) -> DVec3 {
+        self.state.velocity[body.index()]
+    }
+
+    /// The orientation of a body (`world_from_body`).
+    #[must_use]
+    pub fn orientation(&self, body: BodyId) -> DQuat {
+        self.state.orientation[body.index()]
+    }
+
+    /// A body as it is now.
+    #[must_use]
+    pub fn body(&self, body: BodyId) -> RigidBody {
+        let i = body.index();
+        RigidBody {
+            mass: self.model.mass()[i],
+            inertia: self.model.inertia()[i],
+            location: self.state.location[i],
+            orientation: self.state.orientation[i],
+            velocity: self.state.velocity[i],
+            angular_velocity: self.angular_velocity(body),
+            force: self.model.constant_force()[i],
+            torque: self.model.constant_torque()[i],
+            fixed: !self.model.movable()[i],
+        }
+    }
+}
+
+impl Default for World {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Dynamics for World {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn advance_to(&mut self, t: f64) {
+        let interval = t - self.time;
+        if !(interval > 0.0 && interval.is_finite()) {
+            return;
+        }
+        let start = self.time;
+        let steps = self.steps_within(interval);
+        let dt = interval / f64::from(steps);
+        for k in 0..steps {
+            // Not start + dt + dt + …: rounding errors would add up.
+            self.step_from(start + f64::from(k) * dt, dt);
+        }
+        self.time = t;
+    }
+
+    fn state(&self) -> &State {
+        &self.state
+    }
+
+    fn angular_velocity(&self, body: BodyId) -> DVec3 {
+        self.model.angular_velocity(body.index(), &self.state)
+    }
+
+    fn forces(&mut self) -> &[DVec3] {
+        self.model.evaluate(self.time, &self.state, &mut self.loads);
+        &self.loads.force
+    }
+
+    fn balance(&mut self) -> Balance {
+        self.ledger.measure(&self.model, self.time, &self.state)
+    }
+
+    fn branch(&self) -> Box<dyn Dynamics> {
+        Box::new(self.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Shape, UniformGravity};
+    use super::*;
+
+    #[test]
+    fn an_interval_is_divided_evenly_into_the_fewest_steps_allowed() {
+        let mut world = World::new();
+        for (step, interval, steps) in [
+            (0.01, 0.1, 10),
+            (0.1, 0.1 + 0.2, 3),
+            (0.01, 0.101, 11),
+            (0.01, 0.005, 1),
+            (f64::INFINITY, 7.0, 1),
+        ] {
+            world.set_step(step);
+            assert_eq!(world.steps_within(interval), steps, "{interval} by {step}");
+        }
+    }
+
+    #[test]
+    fn time_is_reached_exactly_and_never_goes_back() {
+        let mut world = World::new();
+        let id = world.add(RigidBody::new(&Shape::Axes { length: 1.0 }, 1.0).with_velocity(DVec3::X));
+        for t in [0.1, 0.3, 1.0 / 3.0, 2.7] {
+            world.advance_to(t);
+            assert_eq!(world.time(), t);
+        }
+        let location = world.location(id);
+        for t in [2.7, 1.0, f64::INFINITY, f64::NAN] {
+            world.advance_to(t);
+            assert_eq!((world.time(), world.location(id)), (2.7, location));
+        }
+        assert!((location.x - 2.7).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_fixed_body_does_not_move_whatever_pulls_at_it() {
+        let fixed = RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0)
+            .with_velocity(DVec3::X)
+            .with_angular_velocity(DVec3::Y)
+            .with_force(DVec3::Z)
+            .with_torque(DVec3::X)
+            .with_fixed(true);
+        for method in METHODS {
+            let mut world = World::new();
+            world.set_integrator(method);
+            let id = world.add(fixed);
+            world.add_force(UniformGravity { acceleration: DVec3::NEG_Y });
+            world.advance_to(1.0);
+            let at_rest = RigidBody { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..fixed };
+            assert_eq!(world.body(id), at_rest, "{}", method.name);
+            assert_eq!(world.forces(), [DVec3::ZERO]);
+        }
+    }
+
+    #[test]
+    fn the_resultant_force_is_the_sum_of_all() {
+        let mut world = World::new();
+        let id = world.add(RigidBody::new(&Shape::Sphere { radius: 1.0 }, 2.0).with_force(DVec3::X));
+        world.add_force(UniformGravity { acceleration: DVec3::NEG_Y });
+        assert_eq!(world.forces(), [DVec3::new(1.0, -2.0, 0.0)]);
+        world.apply_force(id, DVec3::Z);
+        assert_eq!(world.forces(), [DVec3::new(0.0, -2.0, 1.0)]);
+    }
+}

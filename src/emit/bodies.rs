@@ -1,0 +1,172 @@
+//! The bodies of a frame as one block of SDL.
+//!
+//! Everything about a body that does not change from frame to frame is written once, when the block is planned; a
+//! frame only puts places between these texts. Bodies of one plain material stand in a union that bears the
+//! material, which POV-Ray parses fastest and with the least memory.
+
+use std::fmt::Write as _;
+
+use glam::{DQuat, DVec3};
+
+use super::materials::MaterialText;
+use super::sdl::Style;
+use super::text;
+use crate::dynamics::Shape;
+use crate::scene::{Body, Scene};
+use crate::simulate::{BodyFrame, Frame};
+
+/// The block of all bodies, but for their places.
+pub(super) struct Block {
+    style: Style,
+    groups: Vec<Group>,
+}
+
+/// Bodies that stand together: those of one plain material in one union, or a single one.
+struct Group {
+    before: String,
+    bodies: Vec<Item>,
+    after: String,
+}
+
+/// One body: two texts, with its place between them.
+struct Item {
+    id: usize,
+    before: String,
+    place: Place,
+    after: String,
+}
+
+/// How the place of a body is written.
+enum Place {
+    /// By its centre.
+    Centre,
+    /// By a matrix; the shape is first turned by the quaternion.
+    Matrix(DQuat),
+    /// By the normal and the distance from the origin of a plane, whose normal this is in the body's own axes.
+    Plane(DVec3),
+}
+
+impl Block {
+    /// Plans the block of a scene, whose materials are given in its order.
+    pub(super) fn new(scene: &Scene, materials: &[MaterialText], style: Style) -> Block {
+        let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
+        let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];
+        for (id, body) in scene.bodies.iter().enumerate() {
+            match body.material.filter(|&m| materials[m].is_uniform && !body.shape.is_unbounded()) {
+                None => together.push((None, vec![id])),
+                Some(material) => match group_of[material] {
+                    Some(group) => together[group].1.push(id),
+                    None => {
+                        group_of[material] = Some(together.len());
+                        together.push((Some(material), vec![id]));
+                    }
+                },
+            }
+        }
+        let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
+            Some(material) if bodies.len() > 1 => union(scene, &materials[*material], bodies, style),
+            _ => single(scene, materials, bodies[0], style),
+        };
+        Block { style, groups: together.iter().map(plan).collect() }
+    }
+
+    /// How the block writes numbers and lengths.
+    pub(super) fn style(&self) -> Style {
+        self.style
+    }
+
+    /// Appends the bodies of a frame. The first body that cannot be written in these units is an error.
+    pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
+        for group in &self.groups {
+            out.push_str(&group.before);
+            for item in &group.bodies {
+                let body = &frame.bodies[item.id];
+                if !self.style.can_write(body.location) {
+                    return Err(item.id);
+                }
+                out.push_str(&item.before);
+                self.place(out, &item.place, body);
+                out.push_str(&item.after);
+            }
+            out.push_str(&group.after);
+        }
+        Ok(())
+    }
+
+    fn place(&self, out: &mut String, place: &Place, body: &BodyFrame) {
+        match place {
+            Place::Centre => self.style.point(out, body.location),
+            Place::Matrix(turn) => self.style.matrix(out, body.orientation * *turn, body.location),
+            Place::Plane(normal) => {
+                let normal = body.orientation * *normal;
+                self.style.vector(out, normal);
+                out.push_str(", ");
+                self.style.length(out, normal.dot(body.location));
+            }
+        }
+    }
+}
+
+/// Bodies of one plain material in a union.
+fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style) -> Group {
+    let item = |&id: &usize| {
+        let body = &scene.bodies[id];
+        let (before, place, after) = shape(body, true, style);
+        let name = text::comment(&body.name);
+        Item { id, before: format!("  {before}"), place, after: format!("{after} }} // {name}\n") }
+    };
+    Group {
+        before: format!("union {{ // {}: {} bodies\n", text::comment(&material.name), bodies.len()),
+        bodies: bodies.iter().map(item).collect(),
+        after: format!("  {}\n}}\n", material.usage),
+    }
+}
+
+/// One body with its material.
+fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) -> Group {
+    let body = &scene.bodies[id];
+    let material = body.material.map(|material| &materials[material]);
+    let (mut before, place, mut after) = shape(body, material.is_none_or(|m| m.is_uniform), style);
+    let usage = material.map_or(String::new(), |material| format!(" {}", material.usage));
+    // A pattern moves with the body: the transform comes after it.
+    match place {
+        Place::Matrix(_) => {
+            before.truncate(before.trim_end().len());
+            let _ = write!(before, "{usage} ");
+        }
+        Place::Centre | Place::Plane(_) => after.push_str(&usage),
+    }
+    let after = format!("{after} }} // {}\n", text::comment(&body.name));
+    Group { before: String::new(), bodies: vec![Item { id, before, place, after }], after: String::new() }
+}
+
+/// The text before the place of a body, how its place is written, and the text after it.
+fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
+    let length = |metres: f64| {
+        let mut out = String::new();
+        style.length(&mut out, metres);
+        out
+    };
+    let as_is = Place::Matrix(DQuat::IDENTITY);
+    match body.shape {
+        Shape::Sphere { radius } if uniform => {
+            ("sphere { ".to_owned(), Place::Centre, format!(", {}", length(radius)))
+        }
+        Shape::Sphere { radius } => (format!("sphere {{ 0, {} ", length(radius)), as_is, String::new()),
+        Shape::Box { size } => {
+            let mut corners = String::new();
+            style.point(&mut corners, -size / 2.0);
+            corners.push_str(", ");
+            style.point(&mut corners, size / 2.0);
+            (format!("box {{ {corners} "), as_is, String::new())
+        }
+        Shape::Plane { normal } if uniform => ("plane { ".to_owned(), Place::Plane(normal), String::new()),
+        Shape::Plane { normal } => {
+            let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
+            ("plane { y, 0 ".to_owned(), Place::Matrix(turn), String::new())
+        }
+        Shape::Axes { length: arm } => {
+            (format!("object {{ Axes scale {} ", length(arm)), as_is, String::new())
+        }
+    }
+}

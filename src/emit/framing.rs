@@ -1,0 +1,163 @@
+//! Where the camera stands when the scene does not say.
+
+use glam::DVec3;
+
+use crate::scene::Output;
+use crate::simulate::Bounds;
+
+/// From the middle of the motion towards a camera that the scene does not place: in front, a little to the right
+/// and a little above.
+const TOWARDS_CAMERA: DVec3 = DVec3::new(0.16, 0.11, 1.0);
+
+/// How much of the picture, each way, the motion may fill.
+const FILL: f64 = 0.86;
+
+/// Where a camera stands and what it looks at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Framing {
+    pub(super) location: DVec3,
+    pub(super) look_at: DVec3,
+}
+
+/// The field of view: the tangents of half its angles.
+#[derive(Clone, Copy)]
+pub(super) struct Field {
+    horizontal: f64,
+    vertical: f64,
+}
+
+impl Field {
+    /// The field of a camera with a horizontal angle in degrees.
+    pub(super) fn new(angle: f64, output: Output) -> Field {
+        // POV-Ray's `angle` may reach 180°, where no distance would be enough.
+        let horizontal = libm::tan(angle.min(160.0).to_radians() / 2.0);
+        Field { horizontal, vertical: horizontal * f64::from(output.height) / f64::from(output.width) }
+    }
+}
+
+/// Places the camera so that the bounds fill the picture. With `look_at` given, only the distance is chosen.
+pub(super) fn frame(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Framing {
+    let back = TOWARDS_CAMERA.normalize();
+    let right = DVec3::Y.cross(back).normalize();
+    let up = back.cross(right);
+    let corners = corners(bounds);
+    let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
+    let mut distance = distance(&corners, aim, (right, up, back), field);
+    if look_at.is_none() {
+        // What is nearer looks larger, so the middle of the box is not the middle of its picture: shift the aim
+        // until it is. Each turn leaves a small part of the error.
+        for _ in 0..6 {
+            let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
+            aim += (right * x + up * y) * distance;
+            distance = self::distance(&corners, aim, (right, up, back), field);
+        }
+    }
+    let step = decimal_step(distance) / 100.0;
+    let round = |point: DVec3| (point / step).round() * step;
+    Framing { location: round(aim + back * distance), look_at: round(aim) }
+}
+
+fn corners(bounds: Bounds) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
+        DVec3::new(
+            pick(0, bounds.min.x, bounds.max.x),
+            pick(1, bounds.min.y, bounds.max.y),
+            pick(2, bounds.min.z, bounds.max.z),
+        )
+    })
+}
+
+/// The least distance from the aim at which all corners are within the field.
+fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field: Field) -> f64 {
+    let (right, up, back) = axes;
+    let needed = |corner: &DVec3| {
+        let offset = *corner - aim;
+        let across = offset.dot(right).abs() / (field.horizontal * FILL);
+        let upward = offset.dot(up).abs() / (field.vertical * FILL);
+        across.max(upward) + offset.dot(back)
+    };
+    corners.iter().map(needed).fold(0.0, f64::max)
+}
+
+/// The middle of the picture that the corners make, as slopes from the line of sight.
+fn middle_of_picture(
+    corners: &[DVec3; 8],
+    aim: DVec3,
+    axes: (DVec3, DVec3, DVec3),
+    distance: f64,
+) -> (f64, f64) {
+    let (right, up, back) = axes;
+    let slopes = corners.map(|corner| {
+        let offset = corner - aim;
+        let depth = distance - offset.dot(back);
+        (offset.dot(right) / depth, offset.dot(up) / depth)
+    });
+    let middle = |of: fn(&(f64, f64)) -> f64| {
+        let (low, high) = slopes.iter().map(of).fold((f64::MAX, f64::MIN), |(l, h), s| (l.min(s), h.max(s)));
+        (low + high) / 2.0
+    };
+    (middle(|s| s.0), middle(|s| s.1))
+}
+
+/// Bounds rounded outward to two digits of their largest edge, so that a small edit of a scene does not move its
+/// camera.
+pub(super) fn rounded_outward(bounds: Bounds) -> Bounds {
+    let step = decimal_step((bounds.max - bounds.min).max_element()) / 10.0;
+    // What lies on a mark but for rounding stays there.
+    let slack = DVec3::splat(1e-6);
+    Bounds { min: (bounds.min / step + slack).floor() * step, max: (bounds.max / step - slack).ceil() * step }
+}
+
+/// The largest power of ten that is not larger than a positive number.
+pub(super) fn decimal_step(number: f64) -> f64 {
+    let exponent = libm::floor(libm::log10(number) + 1e-12);
+    libm::pow(10.0, exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDE: Output = Output { width: 1280, height: 720 };
+
+    #[test]
+    fn all_corners_are_in_the_picture_and_it_is_filled() {
+        for bounds in [
+            Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
+            Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) },
+            Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
+        ] {
+            let field = Field::new(40.0, WIDE);
+            let framing = frame(bounds, field, None);
+            let back = (framing.location - framing.look_at).normalize();
+            let right = DVec3::Y.cross(back).normalize();
+            let up = back.cross(right);
+            let mut fullest: f64 = 0.0;
+            for corner in corners(bounds) {
+                let offset = corner - framing.location;
+                let depth = -offset.dot(back);
+                let x = offset.dot(right).abs() / depth / field.horizontal;
+                let y = offset.dot(up).abs() / depth / field.vertical;
+                fullest = fullest.max(x).max(y);
+            }
+            // The camera's place is rounded to a hundredth of its distance at most.
+            assert!((fullest - FILL).abs() < 0.03, "{bounds:?} fills {fullest}");
+        }
+    }
+
+    #[test]
+    fn bounds_are_rounded_outward_to_two_digits() {
+        let bounds = Bounds { min: DVec3::new(-0.3, 0.0, -2.0), max: DVec3::new(61.2, 52.0, 2.0) };
+        let rounded = rounded_outward(bounds);
+        assert_eq!(rounded.min, DVec3::new(-1.0, 0.0, -2.0));
+        assert_eq!(rounded.max, DVec3::new(62.0, 52.0, 2.0));
+    }
+
+    #[test]
+    fn decimal_steps_are_powers_of_ten() {
+        for (number, step) in [(1.0, 1.0), (9.99, 1.0), (10.0, 10.0), (0.001, 0.001), (85.0, 10.0)] {
+            assert!((decimal_step(number) / step - 1.0).abs() < 1e-12, "{number}");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! The names of the files of a sequence.
+
+/// The script that a single `povray` command needs to render the whole sequence.
+pub const MASTER: &str = "animation.pov";
+/// The options for that command.
+pub const INI: &str = "animation.ini";
+
+/// The number of digits in the names of the scripts of so many frames: at least 4.
+pub(crate) fn width(frames: usize) -> usize {
+    const LEAST: usize = 4;
+    frames.saturating_sub(1).to_string().len().max(LEAST)
+}
+
+/// The name of the script of a frame, in a sequence of so many: `frame_0050.pov`.
+pub fn frame_name(index: usize, frames: usize) -> String {
+    format!("frame_{index:0width$}.pov", width = width(frames))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_sort_in_the_order_of_frames() {
+        assert_eq!(frame_name(50, 501), "frame_0050.pov");
+        assert_eq!(frame_name(9_999, 10_000), "frame_9999.pov");
+        assert_eq!(frame_name(9_999, 10_001), "frame_09999.pov");
+    }
+}

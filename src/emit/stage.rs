@@ -1,0 +1,205 @@
+//! What surrounds the bodies: camera, lights, ground, sky, each as given or as it follows from the motion; in
+//! POV-Ray's units, as templates see it.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::framing::{self, Field, Framing};
+use crate::dynamics::Shape;
+use crate::scene::{Color, Light, LightKind, Scene, Sky};
+use crate::simulate::{Bounds, Survey};
+
+/// What surrounds the bodies. Lengths are in POV-Ray's units.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Stage {
+    /// The length of one unit, m.
+    pub(super) unit: f64,
+    /// The diagonal of the box in which everything takes place.
+    size: f64,
+    /// The middle of that box.
+    center: [f64; 3],
+    camera: CameraText,
+    /// The lights; none means the usual ones.
+    lights: Vec<LightText>,
+    ground: Option<GroundText>,
+    /// The edge of a tile of a checkered plane.
+    tile: f64,
+    sky: SkyText,
+    fog: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct CameraText {
+    location: [f64; 3],
+    look_at: [f64; 3],
+    /// The horizontal field of view, degrees.
+    angle: f64,
+    /// Whether it looks straight up or down, where «up» needs another meaning.
+    vertical: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct LightText {
+    name: String,
+    /// `point`, `area` or `sun`.
+    kind: &'static str,
+    /// Where it is; of a sun: a point that its light comes from.
+    location: [f64; 3],
+    /// Of an area light: its diameter.
+    size: Option<f64>,
+    /// Its color times its intensity, linear.
+    color: [f64; 3],
+    shadows: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct GroundText {
+    height: f64,
+    tile: f64,
+    /// The distance from the middle over which the tiles fade.
+    tiles_fade: f64,
+    /// The distance from the middle over which the ground fades into the horizon.
+    fade: f64,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct SkyText {
+    /// The color of a plain sky in sRGB; none is the usual sky.
+    color: Option<[f64; 3]>,
+}
+
+/// Where there is nothing to see, this is looked at.
+const NOTHING: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
+
+impl Stage {
+    /// The surroundings of a scene whose run has been looked over.
+    pub(super) fn new(scene: &Scene, survey: &Survey) -> Stage {
+        let exact = survey.bounds.unwrap_or(NOTHING);
+        let bounds = framing::rounded_outward(exact);
+        let field = Field::new(scene.camera.angle, scene.output);
+        let auto = framing::frame(bounds, field, scene.camera.look_at);
+        let camera = Framing {
+            location: scene.camera.location.unwrap_or(auto.location),
+            look_at: scene.camera.look_at.unwrap_or(auto.look_at),
+        };
+        let center = (bounds.min + bounds.max) / 2.0;
+        let size = two_digits_up((bounds.max - bounds.min).length());
+        let distance = camera.location.distance(center);
+        let unit = scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest(scene)));
+
+        let ground = scene.environment.ground.as_ref().map(|ground| GroundText {
+            height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
+            tile: ground.tile.unwrap_or_else(|| tile(size)) / unit,
+            tiles_fade: 4.5 * size / unit,
+            // From far away, more of the ground is to be seen.
+            fade: 11.0 * size.max(distance / 2.0) / unit,
+        });
+        let sky = match scene.environment.sky {
+            Sky::Gradient => SkyText { color: None },
+            Sky::Plain(color) => SkyText { color: Some(color.0) },
+        };
+        Stage {
+            unit,
+            size: size / unit,
+            center: (center / unit).to_array(),
+            camera: CameraText {
+                location: (camera.location / unit).to_array(),
+                look_at: (camera.look_at / unit).to_array(),
+                angle: scene.camera.angle,
+                vertical: is_vertical(camera.look_at - camera.location),
+            },
+            lights: scene.lights.iter().map(|l| light(l, center, size.max(distance), unit)).collect(),
+            ground,
+            tile: tile(size) / unit,
+            sky,
+            fog: scene.environment.fog,
+        }
+    }
+}
+
+/// A positive number rounded up to two digits.
+fn two_digits_up(number: f64) -> f64 {
+    let step = framing::decimal_step(number) / 10.0;
+    (number / step - 1e-6).ceil() * step
+}
+
+fn is_vertical(sight: DVec3) -> bool {
+    sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
+}
+
+fn light(light: &Light, center: DVec3, reach: f64, unit: f64) -> LightText {
+    let (kind, location, size) = match light.kind {
+        LightKind::Point { location } => ("point", location, None),
+        LightKind::Area { location, size } => ("area", location, Some(size)),
+        // Far enough to be outside of everything; its rays are parallel anyway.
+        LightKind::Sun { direction } => ("sun", center - direction * reach * 10.0, None),
+    };
+    LightText {
+        name: light.name.clone(),
+        kind,
+        location: (location / unit).to_array(),
+        size: size.map(|size| size / unit),
+        color: linear(light.color).map(|c| c * light.intensity),
+        shadows: light.shadows,
+    }
+}
+
+/// sRGB → linear light (IEC 61966-2-1).
+fn linear(color: Color) -> [f64; 3] {
+    color.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
+}
+
+/// Half the thickness of the thinnest body, m; none where there is no body with a size.
+fn thinnest(scene: &Scene) -> Option<f64> {
+    let half = |shape: &Shape| match shape {
+        Shape::Sphere { radius } => Some(*radius),
+        Shape::Box { size } => Some(size.min_element() / 2.0),
+        // The shafts of the arrows.
+        Shape::Axes { length } => Some(length * 0.03),
+        Shape::Plane { .. } => None,
+    };
+    scene.bodies.iter().filter_map(|body| half(&body.shape)).reduce(f64::min)
+}
+
+/// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
+fn reach(bounds: Bounds, camera: Framing) -> f64 {
+    let farthest = |point: DVec3| point.abs().max_element();
+    let size = (bounds.max - bounds.min).length();
+    let points = [bounds.min, bounds.max, camera.location, camera.look_at];
+    points.into_iter().map(farthest).fold(size, f64::max)
+}
+
+/// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.
+///
+/// Measured on POV-Ray 3.7: what is thinner than 0.01 gets wrong edges and shadows, since places nearer than 0.001
+/// are one to it; what is farther than 10⁵ comes near to the 10⁷ at which it stops to look.
+fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
+    const THINNEST: f64 = 0.01;
+    const FARTHEST: f64 = 1e5;
+    let thinnest = thinnest.unwrap_or(THINNEST);
+    // The powers of ten at or above what the far, at or below what the thin asks for; the far is asked first.
+    let far = 1.0 / framing::decimal_step(FARTHEST / reach);
+    let thin = framing::decimal_step(thinnest / THINNEST);
+    if thinnest >= THINNEST && reach <= FARTHEST {
+        1.0
+    } else if reach > FARTHEST {
+        far
+    } else {
+        thin.max(far)
+    }
+}
+
+/// A height just under the lowest point of the motion.
+fn just_under(lowest: f64, size: f64) -> f64 {
+    let step = framing::decimal_step(size) / 100.0;
+    (lowest / step - 0.1).floor() * step
+}
+
+/// The edge of a ground tile for a scene of the given size: 1, 2 or 5 times a power of ten.
+fn tile(size: f64) -> f64 {
+    let wanted = size / 12.0;
+    let decade = framing::decimal_step(wanted);
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
+    let nearness = |step: &f64| (libm::log(step / wanted)).abs();
+    steps.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(decade)
+}

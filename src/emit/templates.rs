@@ -1,0 +1,111 @@
+//! The templates that scripts are made of, and how they write values.
+
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::{Value, ValueKind};
+use minijinja::{Environment, Error, ErrorKind, Output, UndefinedBehavior};
+
+use super::{number, text};
+
+/// The built-in templates: name and text.
+pub const TEMPLATES: &[(&str, &str)] = &[
+    ("frame.pov", include_str!("../../templates/frame.pov")),
+    ("common.inc", include_str!("../../templates/common.inc")),
+    ("camera.inc", include_str!("../../templates/camera.inc")),
+    ("lights.inc", include_str!("../../templates/lights.inc")),
+    ("environment.inc", include_str!("../../templates/environment.inc")),
+    ("materials.inc", include_str!("../../templates/materials.inc")),
+    ("axes.inc", include_str!("../../templates/axes.inc")),
+    ("animation.pov", include_str!("../../templates/animation.pov")),
+    ("animation.ini", include_str!("../../templates/animation.ini")),
+];
+
+/// The templates, ready to be rendered; numbers get so many significant digits.
+///
+/// POV-Ray uses `{`, `{#` and `#` for itself, so a template says `<% %>`, `${ }` and `<%# %>`.
+pub(super) fn environment(digits: usize) -> Result<Environment<'static>, Error> {
+    let mut environment = Environment::new();
+    let syntax = SyntaxConfig::builder()
+        .block_delimiters("<%", "%>")
+        .variable_delimiters("${", "}")
+        .comment_delimiters("<%#", "%>")
+        .trim_blocks(true)
+        .lstrip_blocks(true)
+        .keep_trailing_newline(true)
+        .build()?;
+    environment.set_syntax(syntax);
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_formatter(move |out, _, value| format(out, value, digits));
+    environment.add_filter("comment", |value: &str| text::comment(value));
+    environment.add_filter("string", |value: &str| text::string(value));
+    for (name, source) in TEMPLATES {
+        environment.add_template(name, source)?;
+    }
+    Ok(environment)
+}
+
+/// Writes a value as POV-Ray reads it: numbers with their digits, lists of numbers as vectors.
+fn format(out: &mut Output<'_>, value: &Value, digits: usize) -> Result<(), Error> {
+    match value.kind() {
+        ValueKind::String => write_str(out, value.as_str().unwrap_or_default()),
+        ValueKind::Number => write_str(out, &number(value, digits)?),
+        ValueKind::Seq => {
+            let numbers =
+                value.try_iter()?.map(|item| number(&item, digits)).collect::<Result<Vec<_>, _>>()?;
+            write_str(out, &format!("<{}>", numbers.join(", ")))
+        }
+        kind => Err(Error::new(ErrorKind::BadSerialization, format!("a script has no way to write {kind}"))),
+    }
+}
+
+fn number(value: &Value, digits: usize) -> Result<String, Error> {
+    if value.is_integer() {
+        return Ok(value.to_string());
+    }
+    let number = f64::try_from(value.clone())?;
+    if !number.is_finite() {
+        return Err(Error::new(
+            ErrorKind::BadSerialization,
+            format!("a script has no way to write {number}"),
+        ));
+    }
+    let mut out = String::new();
+    number::write(&mut out, number, digits);
+    Ok(out)
+}
+
+fn write_str(out: &mut Output<'_>, text: &str) -> Result<(), Error> {
+    out.write_str(text).map_err(|_| Error::new(ErrorKind::WriteFailure, "cannot write"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn render(source: &str, value: Value) -> Result<String, Error> {
+        environment(9)?.render_str(source, minijinja::context! { value })
+    }
+
+    #[test]
+    fn values_are_written_as_povray_reads_them() {
+        assert_eq!(render("${value}", Value::from(1.0 / 3.0)).unwrap(), "0.333333333");
+        assert_eq!(render("${value}", Value::from(-0.0)).unwrap(), "0");
+        assert_eq!(render("${value}", Value::from(12)).unwrap(), "12");
+        assert_eq!(render("${value}", Value::from(vec![1.0, 2.5, 0.0])).unwrap(), "<1, 2.5, 0>");
+        assert_eq!(render("// ${value | comment}", Value::from("a\nb")).unwrap(), "// a\\nb");
+        assert_eq!(render("\"${value | string}\"", Value::from("a\"b")).unwrap(), "\"a\\\"b\"");
+    }
+
+    #[test]
+    fn what_povray_cannot_read_is_refused() {
+        for value in [Value::from(f64::NAN), Value::from(f64::INFINITY), Value::from(()), Value::from(true)] {
+            assert!(render("${value}", value).is_err());
+        }
+        assert!(render("${no_such_value}", Value::from(1)).is_err());
+    }
+
+    #[test]
+    fn povrays_own_braces_and_directives_pass() {
+        let sdl = "#local A = {# 1 }; { % } # x {{ }}\n";
+        assert_eq!(render(sdl, Value::from(1)).unwrap(), sdl);
+    }
+}

@@ -1,0 +1,48 @@
+//! jabuka compiles a scene written in TOML into POV-Ray scripts, one per frame.
+//!
+//! The stages, in the order in which a scene passes through them:
+//!
+//! | stage | from → to | what it knows |
+//! | --- | --- | --- |
+//! | [`scene`] | text → checked [`Scene`] | the scene language; every mistake at its place |
+//! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
+//! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
+//! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
+//! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
+//!
+//! [`diagnostic`] is what all of them say errors with.
+//!
+//! # A snapshot test of a scene
+//!
+//! A script is text that is the same on every run and machine, so a test can hold it against a stored one. With
+//! [insta](https://insta.rs), the last line of this example is `insta::assert_snapshot!(script)`:
+//!
+//! ```
+//! use jabuka::Scene;
+//!
+//! let scene = Scene::parse(
+//!     "
+//!     [body.ball]
+//!     shape.sphere.radius = 0.5
+//!     velocity = [1, 0, 0]
+//!     ",
+//! )?;
+//! let run = jabuka::Run::new(&scene)?;
+//! let frame = run.frames().nth(50).expect("ten seconds have 251 frames")?;
+//! let script = run.script(&frame)?;
+//!
+//! assert!(script.starts_with("// frame 50, t = 2 s\n"));
+//! assert!(script.contains("sphere { <2, 0, 0>, 0.5"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod diagnostic;
+pub mod dynamics;
+pub mod emit;
+pub mod output;
+mod run;
+pub mod scene;
+pub mod simulate;
+
+pub use run::{Run, RunError};
+pub use scene::Scene;

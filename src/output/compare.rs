@@ -1,0 +1,125 @@
+//! Scripts held against those of a folder: a snapshot test for everyone.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use rayon::iter::{ParallelBridge, ParallelIterator};
+use similar::{ChangeTag, TextDiff};
+
+use super::{OutputError, Selection, folder};
+use crate::Run;
+use crate::emit::frame_name;
+
+/// How the script of a frame differs from the one in a folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The number of the frame.
+    pub frame: usize,
+    /// The name of the script.
+    pub name: String,
+    /// What differs.
+    pub kind: Kind,
+}
+
+/// What differs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The folder does not have the script.
+    Missing,
+    /// The folder has a script that the scene does not.
+    Extra,
+    /// Lines differ.
+    Lines(Vec<Line>),
+}
+
+/// A line that only one of two scripts has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Its number in its script, from 1.
+    pub number: usize,
+    /// Whether it is the scene's; otherwise it is the folder's.
+    pub new: bool,
+    /// The line.
+    pub text: String,
+}
+
+/// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is told of every script.
+///
+/// # Errors
+/// Where the folder cannot be read, the run leaves the numbers, or a script cannot be made.
+pub fn compare(
+    run: &Run<'_>,
+    path: &Path,
+    selection: &Selection,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Difference>, OutputError> {
+    if !path.is_dir() {
+        return Err(OutputError::NoFolder(path.to_owned()));
+    }
+    let frames = run.scene().simulation.frames();
+    let check = |frame| -> Result<Option<Difference>, OutputError> {
+        let frame: crate::simulate::Frame = frame?;
+        let name = frame_name(frame.index, frames);
+        let kind = difference(&path.join(&name), &run.script(&frame)?)?;
+        done();
+        Ok(kind.map(|kind| Difference { frame: frame.index, name, kind }))
+    };
+    let found: Result<Vec<_>, _> = run.selected(selection).par_bridge().map(check).collect();
+    let mut found: Vec<Difference> = found?.into_iter().flatten().collect();
+    if *selection == Selection::first(frames) {
+        let scripts = folder::scripts(path)?.into_iter();
+        let extra = scripts.filter(|(frame, name)| *frame >= frames || *name != frame_name(*frame, frames));
+        found.extend(extra.map(|(frame, name)| Difference { frame, name, kind: Kind::Extra }));
+    }
+    found.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
+    Ok(found)
+}
+
+fn difference(path: &Path, new: &str) -> Result<Option<Kind>, OutputError> {
+    let old = match fs::read(path) {
+        Ok(old) => old,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Some(Kind::Missing)),
+        Err(error) => return Err(OutputError::Io(path.to_owned(), error)),
+    };
+    if old == new.as_bytes() {
+        return Ok(None);
+    }
+    let old = String::from_utf8_lossy(&old);
+    let diff = TextDiff::from_lines(old.as_ref(), new);
+    let line = |change: similar::Change<&str>| {
+        let (number, new) = match change.tag() {
+            ChangeTag::Equal => return None,
+            ChangeTag::Delete => (change.old_index(), false),
+            ChangeTag::Insert => (change.new_index(), true),
+        };
+        let text = change.value().trim_end_matches(['\n', '\r']).to_owned();
+        Some(Line { number: number.map_or(0, |index| index + 1), new, text })
+    };
+    Ok(Some(Kind::Lines(diff.iter_all_changes().filter_map(line).collect())))
+}
+
+impl Difference {
+    /// The difference as people read it: the frame, and each line as it was and as it would be. Of very many lines,
+    /// the first are shown.
+    pub fn to_text(&self) -> String {
+        const MOST_LINES: usize = 20;
+        let Difference { frame, name, kind } = self;
+        match kind {
+            Kind::Missing => format!("frame {frame}: {name} is missing\n"),
+            Kind::Extra => format!("frame {frame}: {name} is not a script of this scene\n"),
+            Kind::Lines(lines) => {
+                let mut text = format!("frame {frame}: {name} differs\n");
+                for line in lines.iter().take(MOST_LINES) {
+                    let which = if line.new { "new" } else { "old" };
+                    let shown = crate::emit::comment(&line.text);
+                    text.push_str(&format!("  line {:>4} {which} | {shown}\n", line.number));
+                }
+                if lines.len() > MOST_LINES {
+                    text.push_str(&format!("  … and {} more lines\n", lines.len() - MOST_LINES));
+                }
+                text
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Why scripts could not be written or compared.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use crate::RunError;
+use crate::emit::EmitError;
+use crate::simulate::Diverged;
+
+/// Why scripts could not be written or compared.
+#[derive(Debug)]
+pub enum OutputError {
+    /// The folder holds files, and none of them says that jabuka made it.
+    NotOurs(PathBuf),
+    /// There is a file where a folder should be.
+    NotAFolder(PathBuf),
+    /// There is no such folder to compare with.
+    NoFolder(PathBuf),
+    /// A file that jabuka writes to is a link, which may lead anywhere.
+    Link(PathBuf),
+    /// Another process writes into the folder.
+    Locked(PathBuf),
+    /// A file could not be read, written or removed.
+    Io(PathBuf, io::Error),
+    /// The run left the numbers.
+    Diverged(Diverged),
+    /// A script cannot be written.
+    Emit(EmitError),
+}
+
+impl OutputError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> &'static str {
+        match self {
+            OutputError::NotOurs(_) => "folder-not-ours",
+            OutputError::NotAFolder(_) | OutputError::NoFolder(_) => "no-folder",
+            OutputError::Link(_) => "link",
+            OutputError::Locked(_) => "folder-locked",
+            OutputError::Io(..) => "cannot-write",
+            OutputError::Diverged(_) => "diverged",
+            OutputError::Emit(_) => "cannot-emit",
+        }
+    }
+
+    /// How to mend it, where that is not plain from the message.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
+            OutputError::Link(_) => Some("remove the link"),
+            OutputError::Locked(_) => {
+                Some("wait until the other run has ended, or name another folder with `-o`")
+            }
+            OutputError::NoFolder(_) => Some("write it first, by the same command without `--check`"),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for OutputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            OutputError::NotOurs(path) => {
+                write!(f, "the folder `{}` is not empty, and jabuka did not make it", path.display())
+            }
+            OutputError::NotAFolder(path) => write!(f, "`{}` is not a folder", path.display()),
+            OutputError::NoFolder(path) => write!(f, "there is no folder `{}`", path.display()),
+            OutputError::Link(path) => write!(f, "`{}` is a link, which is not followed", path.display()),
+            OutputError::Locked(path) => {
+                write!(f, "another jabuka writes to the folder `{}`", path.display())
+            }
+            OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
+            OutputError::Diverged(error) => error.fmt(f),
+            OutputError::Emit(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for OutputError {}
+
+impl From<Diverged> for OutputError {
+    fn from(error: Diverged) -> OutputError {
+        OutputError::Diverged(error)
+    }
+}
+
+impl From<EmitError> for OutputError {
+    fn from(error: EmitError) -> OutputError {
+        OutputError::Emit(error)
+    }
+}
+
+impl From<RunError> for OutputError {
+    fn from(error: RunError) -> OutputError {
+        match error {
+            RunError::Diverged(error) => error.into(),
+            RunError::Emit(error) => error.into(),
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! An output folder: who owns it, who writes to it, and how.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+use super::manifest::{self, MANIFEST};
+use crate::emit::{INI, MASTER};
+
+/// The lock stays in the folder: removing it would race with another process that has just opened it. What locks is
+/// not the file but a lock on it, which ends with the process, however that ends.
+const LOCK: &str = ".jabuka-lock";
+
+/// An output folder that this process alone writes to.
+pub struct Folder {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Folder {
+    /// Opens a folder for writing: makes it if need be, makes sure that it is ours, locks it, and sweeps away what a
+    /// killed run has left half-written.
+    ///
+    /// # Errors
+    /// Where the folder is somebody else's, is being written to, or cannot be used.
+    pub fn open(path: &Path) -> Result<Folder, OutputError> {
+        let io_error = |error| OutputError::Io(path.to_owned(), error);
+        match fs::metadata(path) {
+            Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path.to_owned())),
+            Ok(_) => {}
+            Err(_) => fs::create_dir_all(path).map_err(io_error)?,
+        }
+        if !is_ours(path).map_err(io_error)? {
+            return Err(OutputError::NotOurs(path.to_owned()));
+        }
+        let folder = Folder { path: path.to_owned(), _lock: lock(path)? };
+        folder.sweep().map_err(io_error)?;
+        Ok(folder)
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts a file into the folder, whole or not at all.
+    ///
+    /// # Errors
+    /// Where it cannot be written; then a file of that name is as it was before.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
+        self.write_with(name, |file| file.write_all(bytes))
+    }
+
+    /// Like [`Folder::write`], for a file that is made piece by piece.
+    pub(super) fn write_with(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        let path = self.path.join(name);
+        let temporary = self.path.join(format!(".jabuka-{name}.tmp"));
+        let fill_and_rename = || {
+            // `create_new` follows no link.
+            let mut file = BufWriter::new(OpenOptions::new().write(true).create_new(true).open(&temporary)?);
+            fill(&mut file)?;
+            file.into_inner().map_err(io::IntoInnerError::into_error)?;
+            fs::rename(&temporary, &path)
+        };
+        fill_and_rename().map_err(|error: io::Error| {
+            // If even this fails, the next run sweeps it away.
+            let _ = fs::remove_file(&temporary);
+            OutputError::Io(path.clone(), error)
+        })
+    }
+
+    /// The numbers and names of the scripts in the folder, in their order.
+    pub(super) fn scripts(&self) -> Result<Vec<(usize, String)>, OutputError> {
+        scripts(&self.path)
+    }
+
+    /// Removes scripts and what belongs to them.
+    pub(super) fn remove_scripts(&self) -> Result<(), OutputError> {
+        let scripts = self.scripts()?.into_iter().map(|(_, name)| name);
+        for name in scripts.chain([MASTER, INI].map(str::to_owned)) {
+            let path = self.path.join(name);
+            match fs::remove_file(&path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(OutputError::Io(path, error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn sweep(&self) -> io::Result<()> {
+        for entry in fs::read_dir(&self.path)? {
+            let entry = entry?;
+            if entry.file_name().to_str().is_some_and(is_temporary) && !entry.file_type()?.is_dir() {
+                fs::remove_file(entry.path())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The numbers and names of the scripts in a folder, in their order.
+pub(super) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
+    let io_error = |error| OutputError::Io(path.to_owned(), error);
+    let mut scripts = Vec::new();
+    for entry in fs::read_dir(path).map_err(io_error)? {
+        let entry = entry.map_err(io_error)?;
+        if let Some((number, name)) = entry.file_name().to_str().and_then(|n| Some((script_number(n)?, n))) {
+            scripts.push((number, name.to_owned()));
+        }
+    }
+    scripts.sort_unstable();
+    Ok(scripts)
+}
+
+/// The number in the name of a script; `None` for every other name.
+fn script_number(name: &str) -> Option<usize> {
+    let digits = name.strip_prefix("frame_")?.strip_suffix(".pov")?;
+    let plain = digits.len() >= 4 && digits.bytes().all(|b| b.is_ascii_digit());
+    plain.then(|| digits.parse().ok())?
+}
+
+fn is_temporary(name: &str) -> bool {
+    name.starts_with(".jabuka-") && name.ends_with(".tmp")
+}
+
+/// Whether a folder is empty but for what a killed run may leave, or holds a manifest of ours.
+fn is_ours(path: &Path) -> io::Result<bool> {
+    for entry in fs::read_dir(path)? {
+        let name = entry?.file_name();
+        if name.to_str().is_none_or(|name| name != LOCK && !is_temporary(name)) {
+            return Ok(manifest::read(&path.join(MANIFEST)).is_some());
+        }
+    }
+    Ok(true)
+}
+
+fn lock(folder: &Path) -> Result<File, OutputError> {
+    let path = folder.join(LOCK);
+    if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_symlink()) {
+        return Err(OutputError::Link(path));
+    }
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
+    let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(OutputError::Locked(folder.to_owned())),
+        Err(TryLockError::Error(error)) => Err(OutputError::Io(path, error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_our_own_plain_names_are_scripts() {
+        assert_eq!(script_number("frame_0050.pov"), Some(50));
+        assert_eq!(script_number("frame_10000.pov"), Some(10_000));
+        for name in
+            ["frame_050.pov", "frame_+050.pov", "../frame_0050.pov", "frame_0050.png", "frame_.pov", "x"]
+        {
+            assert_eq!(script_number(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn one_process_writes_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = Folder::open(folder.path()).unwrap();
+        assert!(matches!(Folder::open(folder.path()), Err(OutputError::Locked(_))));
+        drop(first);
+        assert!(Folder::open(folder.path()).is_ok());
+    }
+
+    #[test]
+    fn a_folder_with_files_of_others_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("thesis.txt"), "years of work").unwrap();
+        assert!(matches!(Folder::open(folder.path()), Err(OutputError::NotOurs(_))));
+        fs::write(folder.path().join(MANIFEST), "{\"name\": \"a web page\"}").unwrap();
+        assert!(matches!(Folder::open(folder.path()), Err(OutputError::NotOurs(_))));
+    }
+
+    #[test]
+    fn half_written_files_are_swept_away_and_others_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(".jabuka-frame_0001.pov.tmp"), "half").unwrap();
+        Folder::open(folder.path()).unwrap();
+        let names = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name());
+        assert_eq!(names.collect::<Vec<_>>(), [LOCK]);
+    }
+}

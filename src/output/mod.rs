@@ -1,0 +1,18 @@
+//! Scripts → files.
+//!
+//! An output folder survives whatever happens: files appear whole, under their names, or not at all; a run that was
+//! killed is made good by running it again; and nothing that jabuka did not write is ever touched.
+
+mod compare;
+mod error;
+mod folder;
+mod manifest;
+mod selection;
+mod write;
+
+pub use compare::{Difference, Kind, Line, compare};
+pub use error::OutputError;
+pub use folder::Folder;
+pub use manifest::{Entry, MANIFEST};
+pub use selection::Selection;
+pub use write::{Written, write};

@@ -1,0 +1,102 @@
+//! A scene on its way to scripts.
+
+use crate::emit::{EmitError, Emitter};
+use crate::output::Selection;
+use crate::scene::Scene;
+use crate::simulate::{Diverged, Frame, Frames, Survey, survey};
+
+/// A scene whose run has been looked over, so that its frames can be made into scripts.
+pub struct Run<'a> {
+    scene: &'a Scene,
+    survey: Survey,
+    emitter: Emitter,
+}
+
+/// Why a run cannot be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunError {
+    /// It left the numbers.
+    Diverged(Diverged),
+    /// A script cannot be written.
+    Emit(EmitError),
+}
+
+impl<'a> Run<'a> {
+    /// Simulates the scene once, to learn where it takes place.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or a template fails.
+    pub fn new(scene: &'a Scene) -> Result<Run<'a>, RunError> {
+        Run::new_seeing(scene, |_| {})
+    }
+
+    /// Like [`Run::new`]; `seen` is told of every frame that has been simulated.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or a template fails.
+    pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
+        let survey = survey(scene, seen)?;
+        let emitter = Emitter::new(scene, &survey)?;
+        Ok(Run { scene, survey, emitter })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// What is known of the run as a whole.
+    pub fn survey(&self) -> &Survey {
+        &self.survey
+    }
+
+    /// What turns frames into scripts.
+    pub fn emitter(&self) -> &Emitter {
+        &self.emitter
+    }
+
+    /// The frames, from the initial state.
+    pub fn frames(&self) -> Frames<'a> {
+        Frames::new(self.scene)
+    }
+
+    /// The selected frames; the simulation ends with the last of them.
+    pub(crate) fn selected(
+        &self,
+        selection: &Selection,
+    ) -> impl Iterator<Item = Result<Frame, Diverged>> + Send {
+        let until_last = self.frames().take(selection.last().map_or(0, |last| last.saturating_add(1)));
+        until_last.filter(|frame| frame.as_ref().map_or(true, |frame| selection.contains(frame.index)))
+    }
+
+    /// The script of a frame.
+    ///
+    /// # Errors
+    /// Where a body is at a place that cannot be written, or a template fails.
+    pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
+        self.emitter.script(frame)
+    }
+}
+
+impl From<Diverged> for RunError {
+    fn from(error: Diverged) -> RunError {
+        RunError::Diverged(error)
+    }
+}
+
+impl From<EmitError> for RunError {
+    fn from(error: EmitError) -> RunError {
+        RunError::Emit(error)
+    }
+}
+
+impl std::fmt::Display for RunError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            RunError::Diverged(error) => error.fmt(f),
+            RunError::Emit(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}

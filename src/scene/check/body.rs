@@ -1,0 +1,201 @@
+//! `[body.NAME]`.
+
+use glam::{DQuat, DVec3};
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::dynamics::Shape;
+use crate::scene::{Body, Look, Material, palette};
+
+/// The keys that say how a body moves.
+const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
+/// The keys that say how easily a body is moved, and by what.
+const PUSHING: [&str; 5] = ["mass", "density", "inertia", "force", "torque"];
+
+pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
+    let tables = root.named("body");
+    let mut palette = Palette::default();
+    let read = |(number, (name, span, view)): (usize, (&str, Span, View<'_>))| {
+        let shape = shape(&view.table("shape"));
+        let material = material(&view, &shape, number, materials, &mut palette, context);
+        body(name, span, &view, shape, material, context)
+    };
+    tables.into_iter().enumerate().map(read).collect()
+}
+
+fn body(
+    name: &str,
+    span: Span,
+    view: &View<'_>,
+    shape: Shape,
+    material: Option<usize>,
+    context: &mut Context<'_>,
+) -> Body {
+    let fixed = fixed(name, view, &shape, context);
+    let mass = mass(name, span, view, &shape, context);
+    Body {
+        name: name.to_owned(),
+        mass,
+        inertia: inertia(name, view, context).unwrap_or_else(|| shape.inertia(mass)),
+        location: view.vector("location").unwrap_or(DVec3::ZERO),
+        orientation: orientation(name, view, context),
+        velocity: view.vector("velocity").unwrap_or(DVec3::ZERO),
+        angular_velocity: view.vector("angular_velocity").unwrap_or(DVec3::ZERO),
+        force: view.vector("force").unwrap_or(DVec3::ZERO),
+        torque: view.vector("torque").unwrap_or(DVec3::ZERO),
+        fixed,
+        material,
+        shape,
+    }
+}
+
+fn shape(view: &View<'_>) -> Shape {
+    if let Some(plane) = view.variant("plane") {
+        let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
+        return Shape::Plane { normal: DVec3::from_array(normal) };
+    }
+    if let Some(cuboid) = view.variant("box") {
+        return Shape::Box { size: cuboid.vector("size").unwrap_or(DVec3::ONE) };
+    }
+    if let Some(axes) = view.variant("axes") {
+        return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
+    }
+    let radius = view.variant("sphere").and_then(|sphere| sphere.number("radius"));
+    Shape::Sphere { radius: radius.unwrap_or(1.0) }
+}
+
+/// Whether a body stays where it is; what contradicts that, or is of no use then, is reported.
+fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> bool {
+    let plane = matches!(shape, Shape::Plane { .. });
+    let given = view.boolean("fixed");
+    if plane && given == Some(false) {
+        let error =
+            Diagnostic::error("plane-moves", format!("the plane `{name}` cannot move: a plane is endless"));
+        context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, "a plane is always fixed")));
+    }
+    let fixed = plane || given == Some(true);
+    if fixed {
+        let why = if plane { "a plane is always fixed" } else { "it is fixed" };
+        for key in MOTION.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO)) {
+            let error =
+                Diagnostic::error("fixed-moves", format!("`{name}` is fixed, so it cannot have a `{key}`"));
+            context.diagnostics.extend(view.key_span(key).map(|span| error.at(span, why)));
+        }
+        for key in PUSHING.into_iter().filter(|key| view.has(key)) {
+            let message = format!("`{key}` of `{name}` has no effect");
+            let warning = Diagnostic::warning("no-effect", message);
+            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        }
+    }
+    fixed
+}
+
+fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> f64 {
+    let Some(density) = view.number("density") else { return view.number("mass").unwrap_or(1.0) };
+    let Some(volume) = shape.volume() else { return 1.0 };
+    let mass = density * volume;
+    if mass.is_finite() && mass > 0.0 {
+        return mass;
+    }
+    let message = format!("the mass of `{name}`, density × volume, is {mass} kg");
+    let error = Diagnostic::error("impossible-mass", message);
+    context.diagnostics.push(error.at(view.span("density").unwrap_or(span), ""));
+    1.0
+}
+
+/// The inertia that is given, if it is one that a body can have.
+fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVec3> {
+    // Each moment is a sum over the other two coordinates, so none can exceed the sum of the others; a flat
+    // body reaches it, and rounding may exceed it a little.
+    const ROUNDING: f64 = 1e-9;
+    let inertia = view.vector("inertia")?;
+    let (largest, sum) = (inertia.max_element(), inertia.x + inertia.y + inertia.z);
+    if largest > (sum - largest) * (1.0 + ROUNDING) {
+        let message = format!("no body has the moments of inertia of `{name}`");
+        let label = format!("{largest} is larger than the sum of the other two, {}", sum - largest);
+        let help = "Ix + Iy ≥ Iz, and likewise for the others, holds for every distribution of mass";
+        let error = Diagnostic::error("impossible-inertia", message).help(help);
+        context.diagnostics.extend(view.span("inertia").map(|span| error.at(span, label)));
+    }
+    Some(inertia)
+}
+
+fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
+    if let Some(angles) = view.vector("orientation") {
+        return euler(angles);
+    }
+    let table = view.table("orientation");
+    if let Some(angles) = table.vector("euler") {
+        return euler(angles);
+    }
+    if let Some(quaternion) = table.direction::<4>("quaternion") {
+        return DQuat::from_array(quaternion);
+    }
+    for (key, other) in [("axis", "angle"), ("angle", "axis")] {
+        if let (Some(span), false) = (table.key_span(key), table.has(other)) {
+            let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
+            let error = Diagnostic::error("missing-key", message).at(span, format!("needs `{other}`"));
+            context.diagnostics.push(error);
+        }
+    }
+    match (table.direction::<3>("axis"), table.number("angle")) {
+        (Some(axis), Some(angle)) => DQuat::from_axis_angle(DVec3::from_array(axis), angle.to_radians()),
+        _ => DQuat::IDENTITY,
+    }
+}
+
+/// Turned about the world's x, then y, then z, as POV-Ray's `rotate <x, y, z>` does; angles in degrees.
+fn euler(angles: DVec3) -> DQuat {
+    let turn = |axis: DVec3, angle: f64| DQuat::from_axis_angle(axis, angle.to_radians());
+    turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
+}
+
+/// The number of a body's material; bodies without one get a color of the palette after their place in the file,
+/// so that a body added at the end changes no other's color.
+fn material(
+    view: &View<'_>,
+    shape: &Shape,
+    number: usize,
+    materials: &mut Vec<Material>,
+    palette: &mut Palette,
+    context: &mut Context<'_>,
+) -> Option<usize> {
+    if matches!(shape, Shape::Axes { .. }) {
+        let warning = Diagnostic::warning("no-effect", "the material of axes has no effect");
+        let why = "axes are red, green and blue";
+        context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
+        return None;
+    }
+    if let Some(&given) = view.text("material").and_then(|name| context.names.materials.get(name)) {
+        return Some(given);
+    }
+    Some(match shape {
+        Shape::Plane { .. } => palette.checkered(materials),
+        _ => palette.color(number, materials),
+    })
+}
+
+/// The looks of bodies without a material, each made when it is first needed.
+#[derive(Default)]
+struct Palette {
+    colors: [Option<usize>; palette::COLORS.len()],
+    checkered: Option<usize>,
+}
+
+impl Palette {
+    fn color(&mut self, number: usize, materials: &mut Vec<Material>) -> usize {
+        let number = number % self.colors.len();
+        *self.colors[number].get_or_insert_with(|| {
+            materials.push(palette::material(number));
+            materials.len() - 1
+        })
+    }
+
+    fn checkered(&mut self, materials: &mut Vec<Material>) -> usize {
+        *self.checkered.get_or_insert_with(|| {
+            materials.push(Material { name: "checkered".to_owned(), look: Look::Checkered });
+            materials.len() - 1
+        })
+    }
+}

@@ -1,0 +1,154 @@
+//! Tree → [`Scene`], or all that is wrong with it.
+
+mod body;
+mod force;
+mod look;
+mod povray;
+mod read;
+mod sdl;
+mod simulation;
+mod suggest;
+mod validate;
+mod view;
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use self::view::View;
+use super::grammar::{Collection, SCENE};
+use super::source::{self, Table};
+use super::{Include, Options, Scene};
+use crate::diagnostic::{Diagnostic, Report, Severity, Sources};
+
+/// What a scene is made from.
+pub(super) struct Input<'a> {
+    /// The name of the scene.
+    pub(super) name: &'a str,
+    /// How messages call its file.
+    pub(super) shown: &'a str,
+    /// The folder that its paths start from, if it has one.
+    pub(super) folder: Option<&'a Path>,
+    /// Its text.
+    pub(super) text: &'a str,
+}
+
+/// What every part of the check works with.
+struct Context<'a> {
+    folder: Option<&'a Path>,
+    trust: bool,
+    names: Names,
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// The names that others may refer to, each with its number in the order of the file.
+struct Names {
+    bodies: HashMap<String, usize>,
+    materials: HashMap<String, usize>,
+}
+
+impl Names {
+    fn of(root: &Table) -> Names {
+        let collect = |collection: Collection| {
+            let table = root.get(collection.key()).and_then(|entry| entry.node.as_table());
+            let names = table.into_iter().flat_map(|table| &table.entries);
+            names.enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect()
+        };
+        Names { bodies: collect(Collection::Body), materials: collect(Collection::Material) }
+    }
+
+    fn get(&self, collection: Collection) -> &HashMap<String, usize> {
+        match collection {
+            Collection::Body => &self.bodies,
+            Collection::Material => &self.materials,
+        }
+    }
+}
+
+/// Reads and checks a scene.
+pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Report> {
+    let mut sources = Sources::default();
+    let mut diagnostics = Vec::new();
+    let id = sources.add(input.shown, input.text);
+    let mut tree = source::parse(input.text, id, &mut diagnostics);
+    let readable = diagnostics.is_empty();
+    let mut root = match &mut tree.value {
+        source::Value::Table(table) => std::mem::take(table),
+        _ => Table::default(),
+    };
+    for set in &options.overrides {
+        set.apply(&mut root, &mut sources, &mut diagnostics);
+    }
+
+    let mut context = Context {
+        folder: input.folder,
+        trust: options.trust,
+        names: Names::of(&root),
+        diagnostics: Vec::new(),
+    };
+    validate::validate(&root, &mut context);
+    let scene = build(input, options, &root, &mut context);
+    let mut found = context.diagnostics;
+    if !readable {
+        // What could not be read is not there: that it is missing need not be said as well.
+        found.retain(|d| !matches!(d.code, "missing-key" | "unknown-name" | "no-bodies"));
+    }
+    diagnostics.append(&mut found);
+
+    let mut report = Report { sources, diagnostics };
+    report.sort();
+    if report.diagnostics.iter().any(|d| d.severity == Severity::Error) {
+        return Err(report);
+    }
+    Ok(Scene { warnings: report, ..scene })
+}
+
+/// Makes the scene. Where a value is missing or wrong, which has been said, any other takes its place.
+fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Context<'_>) -> Scene {
+    let root = View::new(&SCENE, Some(root));
+    let simulation = simulation::read(&root.table("simulation"), context);
+    let mut materials = look::materials(&root, context);
+    let bodies = body::read(&root, &mut materials, context);
+    let forces = force::read(&root, &bodies, context);
+    if bodies.is_empty() {
+        let message = "the scene has no bodies";
+        let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
+        context.diagnostics.push(Diagnostic::warning("no-bodies", message).help(help));
+    }
+    let povray = povray::read(&root, context);
+    Scene {
+        name: input.name.to_owned(),
+        title: root.text("title").map(str::to_owned),
+        simulation,
+        camera: look::camera(&root.table("camera"), context),
+        lights: look::lights(&root),
+        environment: look::environment(&root.table("environment"), &bodies),
+        output: look::output(&root.table("output")),
+        digest: digest(input, options, &povray.include),
+        bodies,
+        forces,
+        materials,
+        povray,
+        warnings: Report::default(),
+    }
+}
+
+/// A digest of all texts that the scene was read from.
+fn digest(input: &Input<'_>, options: &Options, includes: &[Include]) -> String {
+    let mut hash = Sha256::new();
+    let mut add = |text: &str| {
+        // The length keeps two texts from reading as one.
+        hash.update((text.len() as u64).to_le_bytes());
+        hash.update(text);
+    };
+    add(input.text);
+    options.overrides.iter().for_each(|set| add(set.as_str()));
+    for include in includes {
+        match include {
+            Include::Standard(name) => add(name),
+            Include::Text { text, .. } => add(text),
+        }
+    }
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}

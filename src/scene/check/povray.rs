@@ -1,0 +1,127 @@
+//! `[povray]`.
+
+use std::path::{Component, Path};
+
+use super::view::View;
+use super::{Context, sdl, suggest};
+use crate::diagnostic::Diagnostic;
+use crate::scene::source::Node;
+use crate::scene::{Include, PovRay};
+
+/// The include files that come with POV-Ray 3.7.
+const STANDARD: &[&str] = &[
+    "arrays.inc",
+    "chars.inc",
+    "colors.inc",
+    "consts.inc",
+    "debug.inc",
+    "finish.inc",
+    "functions.inc",
+    "glass.inc",
+    "glass_old.inc",
+    "golds.inc",
+    "ior.inc",
+    "logo.inc",
+    "makegrass.inc",
+    "math.inc",
+    "meshmaker.inc",
+    "metals.inc",
+    "rad_def.inc",
+    "rand.inc",
+    "screen.inc",
+    "shapes.inc",
+    "shapes2.inc",
+    "shapes3.inc",
+    "shapes_old.inc",
+    "shapesq.inc",
+    "skies.inc",
+    "stage1.inc",
+    "stars.inc",
+    "stdcam.inc",
+    "stdinc.inc",
+    "stoneold.inc",
+    "stones.inc",
+    "stones1.inc",
+    "stones2.inc",
+    "strings.inc",
+    "sunpos.inc",
+    "textures.inc",
+    "transforms.inc",
+    "woodmaps.inc",
+    "woods.inc",
+];
+
+/// The largest include file that goes into every script.
+const MAX_INCLUDE_BYTES: u64 = 1 << 20;
+
+pub(super) fn read(root: &View<'_>, context: &Context<'_>) -> PovRay {
+    let view = root.table("povray");
+    let items = view.list("include").unwrap_or_default();
+    PovRay {
+        include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
+        sdl: view.text("sdl").map(str::to_owned),
+        unit: view.number("unit"),
+        digits: view.integer("digits").and_then(|n| usize::try_from(n).ok()).unwrap_or(9),
+    }
+}
+
+/// An include file: one of POV-Ray's own, or one found beside the scene.
+pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Include, Diagnostic> {
+    let name = node.as_str().unwrap_or_default();
+    let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
+    // The name stands in a string of the script.
+    if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
+        return Err(error(
+            "bad-include",
+            format!("`{}` cannot be the name of an include file", name.escape_debug()),
+        ));
+    }
+    let below = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    if !below && !trust {
+        return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+            .help("if you know this scene and trust it, say `--trust`"));
+    }
+    if let Some(path) = folder.map(|folder| folder.join(name)).filter(|path| path.is_file()) {
+        return include_text(node, name, &path, folder, trust);
+    }
+    if !STANDARD.contains(&name) && !trust {
+        let label = suggest::nearest(name, STANDARD.iter().copied())
+            .map_or_else(|| "no such file".to_owned(), |near| format!("did you mean `{near}`?"));
+        let message = format!("the include file `{name}` is neither POV-Ray's own nor beside the scene");
+        return Err(Diagnostic::error("missing-include", message)
+            .at(node.span, label)
+            .help("with `--trust`, POV-Ray is left to find it"));
+    }
+    if sdl::WRITING_INCLUDES.contains(&name) && !trust {
+        return Err(sdl::untrusted(name, node.span));
+    }
+    Ok(Include::Standard(name.to_owned()))
+}
+
+fn include_text(
+    node: &Node,
+    name: &str,
+    path: &Path,
+    folder: Option<&Path>,
+    trust: bool,
+) -> Result<Include, Diagnostic> {
+    let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
+    let cannot_read = |e: std::io::Error| error("missing-include", format!("cannot read `{name}`: {e}"));
+    // A link inside the folder may lead out of it.
+    let real = path.canonicalize().map_err(cannot_read)?;
+    let inside =
+        folder.and_then(|folder| folder.canonicalize().ok()).is_some_and(|folder| real.starts_with(folder));
+    if !inside && !trust {
+        return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+            .help("if you know this scene and trust it, say `--trust`"));
+    }
+    if std::fs::metadata(&real).map_err(cannot_read)?.len() > MAX_INCLUDE_BYTES {
+        let message = format!("`{name}` is larger than 1 MiB, and it would stand in every script");
+        return Err(error("file-too-large", message));
+    }
+    let text = std::fs::read_to_string(&real).map_err(cannot_read)?;
+    match sdl::first_file_access(&text) {
+        Some(what) if !trust => Err(sdl::untrusted(&what, node.span)),
+        _ => Ok(Include::Text { name: name.to_owned(), text }),
+    }
+}

@@ -1,0 +1,129 @@
+//! One value held against what it may be.
+//!
+//! Every reader is used twice: the validation keeps the errors, the reading keeps the values.
+
+use glam::DVec3;
+
+use crate::diagnostic::Diagnostic;
+use crate::scene::grammar::{Bound, Kind};
+use crate::scene::source::{Node, Value};
+use crate::scene::{Color, Number};
+
+/// That a value is of another type than it should be.
+pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
+    let message = format!("expected {}, found {}", expected.in_words(), node.in_words());
+    Diagnostic::error("wrong-type", message).at(node.span, "")
+}
+
+/// A finite number within a bound.
+pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
+    let number = match Number::of(node) {
+        Some(Number::Literal(number)) => number,
+        Some(Number::Formula(_)) => {
+            let message = "formulas are not there yet: a number is expected here";
+            let help = "write the number without quotes; a later version will know formulas in strings";
+            return Err(Diagnostic::error("formula-not-yet", message).at(node.span, "not yet").help(help));
+        }
+        None => return Err(wrong_type(node, &Kind::Number(bound))),
+    };
+    if !number.is_finite() {
+        let message = format!("expected a finite number{}, found {number}", bound.in_words());
+        return Err(Diagnostic::error("not-finite", message).at(node.span, ""));
+    }
+    if !bound.admits(number) {
+        let message = format!("expected a number{}, found {number}", bound.in_words());
+        return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
+    }
+    Ok(number)
+}
+
+/// A whole number in a range.
+pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnostic> {
+    match node.value {
+        Value::Integer(number) if (low..=high).contains(&number) => Ok(number),
+        Value::Integer(number) => {
+            let message = format!("expected a whole number from {low} to {high}, found {number}");
+            Err(Diagnostic::error("out-of-range", message).at(node.span, ""))
+        }
+        Value::String(_) => number(node, Bound::Any).map(|_| low),
+        _ => Err(wrong_type(node, &Kind::Integer(low, high))),
+    }
+}
+
+/// The items of a list of a given length.
+fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<&'a [Node], Diagnostic> {
+    let Value::Array(items) = &node.value else { return Err(wrong_type(node, expected)) };
+    if (min..=max).contains(&items.len()) {
+        return Ok(items);
+    }
+    let message = format!("expected {}, found {} of them", expected.in_words(), items.len());
+    Err(Diagnostic::error("wrong-length", message).at(node.span, ""))
+}
+
+/// The items of a list, each still to be read.
+pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagnostic> {
+    match kind {
+        Kind::List { min, max, .. } => items(node, kind, *min, *max),
+        _ => Err(wrong_type(node, kind)),
+    }
+}
+
+/// So many numbers; every wrong one is an error of its own.
+pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64; N], Vec<Diagnostic>> {
+    let items = items(node, &Kind::Numbers(N, bound), N, N).map_err(|error| vec![error])?;
+    let (mut numbers, mut errors) = ([0.0; N], Vec::new());
+    for (slot, item) in numbers.iter_mut().zip(items) {
+        match number(item, bound) {
+            Ok(number) => *slot = number,
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(numbers) } else { Err(errors) }
+}
+
+/// A unit vector in the direction of numbers that are not all zero.
+pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Diagnostic>> {
+    let numbers = numbers::<N>(node, Bound::Any)?;
+    // Dividing by the largest first keeps squares from overflowing or vanishing.
+    let largest = numbers.iter().fold(0.0, |largest: f64, n| largest.max(n.abs()));
+    if largest == 0.0 {
+        let message = "a direction is expected here, and this one has no length";
+        return Err(vec![Diagnostic::error("zero-length", message).at(node.span, "")]);
+    }
+    let scaled = numbers.map(|n| n / largest);
+    let length = scaled.iter().map(|n| n * n).sum::<f64>().sqrt();
+    Ok(scaled.map(|n| n / length))
+}
+
+/// A color.
+pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
+    match &node.value {
+        Value::String(text) => Color::parse(text).ok_or_else(|| {
+            let names = crate::scene::color::NAMES.iter().map(|(name, _)| *name);
+            let message = format!("`{text}` is not a color");
+            let label = match super::suggest::nearest(text, names) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "expected \"#rrggbb\" or the name of a color".to_owned(),
+            };
+            vec![Diagnostic::error("unknown-color", message).at(node.span, label)]
+        }),
+        Value::Array(_) => numbers::<3>(node, Bound::From(0.0, 1.0)).map(Color),
+        _ => Err(vec![wrong_type(node, &Kind::Color)]),
+    }
+}
+
+/// A name that POV-Ray can know.
+pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
+    let text = node.as_str().ok_or_else(|| wrong_type(node, &Kind::Identifier))?;
+    let starts_well = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    if starts_well && text.len() <= 255 && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+        return Ok(text);
+    }
+    let message = format!("`{text}` is not {}", Kind::Identifier.in_words());
+    Err(Diagnostic::error("bad-identifier", message).at(node.span, ""))
+}
+
+/// Three numbers as a vector.
+pub(super) fn vector(node: &Node, bound: Bound) -> Option<DVec3> {
+    numbers::<3>(node, bound).ok().map(DVec3::from_array)
+}

@@ -1,0 +1,128 @@
+//! The values of a table, read by the names of its keys.
+
+use glam::DVec3;
+
+use super::read;
+use crate::diagnostic::Span;
+use crate::scene::Color;
+use crate::scene::grammar::{Key, Kind, TableSpec};
+use crate::scene::source::{Node, Table, Value};
+
+/// A table as its description knows it, to read values from. A value that is absent, or wrong (which the
+/// validation has said), reads as `None`.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    spec: &'static TableSpec,
+    table: Option<&'a Table>,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(spec: &'static TableSpec, table: Option<&'a Table>) -> View<'a> {
+        View { spec, table }
+    }
+
+    fn node(&self, name: &str) -> Option<&'a Node> {
+        debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
+        self.table?.get(name).map(|entry| &entry.node)
+    }
+
+    /// The description of a key and the value that stands there; the value of `Either` is read as the given kind.
+    fn kind_of(&self, name: &str, is: impl Fn(&Kind) -> bool) -> Option<&'static Kind> {
+        let Key { kind, .. } = self.spec.key(name)?;
+        let found = match kind {
+            Kind::Either(kinds) => kinds.iter().find(|kind| is(kind)),
+            kind => is(kind).then_some(kind),
+        };
+        debug_assert!(found.is_some(), "`{name}` of {} is {kind:?}", self.spec.noun);
+        found
+    }
+
+    /// Where the value of a key stands.
+    pub(super) fn span(&self, name: &str) -> Option<Span> {
+        self.node(name).map(|node| node.span)
+    }
+
+    /// Where a key itself stands.
+    pub(super) fn key_span(&self, name: &str) -> Option<Span> {
+        self.table?.get(name).map(|entry| entry.name.span)
+    }
+
+    /// Whether a key is there, whatever its value.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.node(name).is_some()
+    }
+
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        let Kind::Number(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Number(_)))? else {
+            return None;
+        };
+        read::number(self.node(name)?, *bound).ok()
+    }
+
+    pub(super) fn integer(&self, name: &str) -> Option<i64> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::Integer(..)))?;
+        let Kind::Integer(low, high) = kind else { return None };
+        read::integer(self.node(name)?, *low, *high).ok()
+    }
+
+    pub(super) fn vector(&self, name: &str) -> Option<DVec3> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::Numbers(3, _)))?;
+        let Kind::Numbers(_, bound) = kind else { return None };
+        read::vector(self.node(name)?, *bound)
+    }
+
+    /// A direction as a unit vector.
+    pub(super) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
+        self.kind_of(name, |kind| matches!(kind, Kind::Direction(n) if *n == N))?;
+        read::direction(self.node(name)?).ok()
+    }
+
+    pub(super) fn boolean(&self, name: &str) -> Option<bool> {
+        self.kind_of(name, |kind| matches!(kind, Kind::Boolean))?;
+        match self.node(name)?.value {
+            Value::Boolean(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    pub(super) fn color(&self, name: &str) -> Option<Color> {
+        self.kind_of(name, |kind| matches!(kind, Kind::Color))?;
+        read::color(self.node(name)?).ok()
+    }
+
+    /// A string of any kind.
+    pub(super) fn text(&self, name: &str) -> Option<&'a str> {
+        self.node(name)?.as_str()
+    }
+
+    /// The items of a list.
+    pub(super) fn list(&self, name: &str) -> Option<&'a [Node]> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { .. }))?;
+        read::list(self.node(name)?, kind).ok()
+    }
+
+    /// A table inside this one; an empty one where it is absent.
+    pub(super) fn table(&self, name: &str) -> View<'a> {
+        let spec = match self.kind_of(name, |kind| matches!(kind, Kind::Table(_))) {
+            Some(Kind::Table(spec)) => *spec,
+            _ => self.spec,
+        };
+        View { spec, table: self.node(name).and_then(Node::as_table) }
+    }
+
+    /// A table inside this one, if the key is there and is a table.
+    pub(super) fn variant(&self, name: &str) -> Option<View<'a>> {
+        let view = self.table(name);
+        view.table.is_some().then_some(view)
+    }
+
+    /// The tables with names under a key: name, where the name stands, table.
+    pub(super) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
+        let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
+            return Vec::new();
+        };
+        let entries = self.node(name).and_then(Node::as_table).map_or(&[][..], |table| &table.entries);
+        let view = |node: &'a Node| View { spec, table: node.as_table() };
+        entries.iter().map(|e| (e.name.text.as_str(), e.name.span, view(&e.node))).collect()
+    }
+}

@@ -1,0 +1,398 @@
+//! Every key of the scene language.
+//!
+//! To add one: describe it here, read it in `scene/check`, and add a scene that uses it.
+
+use super::Kind::{
+    Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
+    Reference, Sdl, Table, Text,
+};
+use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use crate::dynamics::METHODS;
+use crate::scene::Finish;
+
+const ANY: Kind = Number(Bound::Any);
+const POSITIVE: Kind = Number(Bound::Positive);
+const NON_NEGATIVE: Kind = Number(Bound::NonNegative);
+const VECTOR: Kind = Numbers(3, Bound::Any);
+const AXIS: Kind = Direction(3);
+
+fn integrators() -> Vec<&'static str> {
+    METHODS.iter().map(|method| method.name).collect()
+}
+
+fn finishes() -> Vec<&'static str> {
+    Finish::ALL.iter().map(|finish| finish.name()).collect()
+}
+
+/// A whole scene.
+pub static SCENE: TableSpec = TableSpec {
+    noun: "a scene",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("title", Text, "What the scene shows; it stands at the head of every script")
+            .default("none")
+            .also(&["name"]),
+        Key::new(
+            "simulation",
+            Table(&SIMULATION),
+            "How long, how finely and by which method the world is advanced",
+        ),
+        Key::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
+        Key::new("force", Named(&FORCE), "The forces that are not a single body's own").also(&["forces"]),
+        Key::new("material", Named(&MATERIAL), "What bodies look like").also(&["materials", "texture"]),
+        Key::new("camera", Table(&CAMERA), "From where the scene is seen"),
+        Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
+            .also(&["lights"]),
+        Key::new("environment", Table(&ENVIRONMENT), "Ground, sky and fog").also(&["world"]),
+        Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
+        Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
+    ],
+};
+
+static SIMULATION: TableSpec = TableSpec {
+    noun: "the simulation",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("duration", NON_NEGATIVE, "The time of the last frame; the first is at 0")
+            .unit("s")
+            .default("10")
+            .also(&["time", "length", "end"]),
+        Key::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
+            .unit("frames/s")
+            .default("25")
+            .also(&["fps", "rate"]),
+        Key::new(
+            "step",
+            POSITIVE,
+            "The longest timestep; the real one divides the time between frames evenly",
+        )
+        .unit("s")
+        .default("1/240")
+        .also(&["dt", "timestep", "time_step", "delta"]),
+        Key::new("integrator", Choice(integrators), "The method that advances the world")
+            .default("euler-cromer")
+            .also(&["method", "solver"]),
+        Key::new("gravity", VECTOR, "The acceleration of every body that can move")
+            .unit("m/s²")
+            .default("[0, 0, 0]")
+            .also(&["g"]),
+    ],
+};
+
+static BODY: TableSpec = TableSpec {
+    noun: "a body",
+    rule: Rule::AtMostOne(&[&["mass", "density"]]),
+    keys: &[
+        Key::new("shape", Table(&SHAPE), "Its form, centred at its location, with its axis along y")
+            .required(),
+        Key::new("mass", POSITIVE, "Its mass").unit("kg").default("1").also(&["m", "weight"]),
+        Key::new("density", POSITIVE, "Its mass, as mass per volume of its shape")
+            .unit("kg/m³")
+            .default("from `mass`"),
+        Key::new(
+            "inertia",
+            Numbers(3, Bound::Positive),
+            "Its principal moments of inertia about its own x, y, z",
+        )
+        .unit("kg·m²")
+        .default("that of a solid of its shape"),
+        Key::new("location", VECTOR, "Its centre of mass at the start")
+            .unit("m")
+            .default("[0, 0, 0]")
+            .also(&["position", "pos", "center", "translate", "origin"]),
+        Key::new(
+            "orientation",
+            Either(&[VECTOR, Table(&ORIENTATION)]),
+            "How it is turned at the start: a list of three angles is short for `orientation.euler`",
+        )
+        .default("not turned")
+        .also(&["rotation", "rotate", "angle", "attitude"]),
+        Key::new("velocity", VECTOR, "Its velocity at the start")
+            .unit("m/s")
+            .default("[0, 0, 0]")
+            .also(&["v", "speed"]),
+        Key::new("angular_velocity", VECTOR, "Its angular velocity at the start, in world axes")
+            .unit("rad/s")
+            .default("[0, 0, 0]")
+            .also(&["spin", "omega"]),
+        Key::new("force", VECTOR, "A constant force at its centre, in world axes")
+            .unit("N")
+            .default("[0, 0, 0]"),
+        Key::new("torque", VECTOR, "A constant torque, in world axes").unit("N·m").default("[0, 0, 0]"),
+        Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
+            .default("false")
+            .also(&["static", "anchored", "kinematic"]),
+        Key::new("material", Reference(Collection::Material), "What it looks like: a `[material.NAME]`")
+            .default("a color of the palette, after its place in the file")
+            .also(&["color", "colour", "texture", "look"]),
+    ],
+};
+
+static SHAPE: TableSpec = TableSpec {
+    noun: "a shape",
+    rule: Rule::ExactlyOne(&["sphere", "box", "plane", "axes"]),
+    keys: &[
+        Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
+        Key::new("box", Table(&BOX), "A box").also(&["cube", "cuboid", "brick"]),
+        Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
+            .also(&["floor", "ground"]),
+        Key::new(
+            "axes",
+            Table(&AXES),
+            "A triad of arrows along x, y, z, as heavy as a ball of half their length",
+        )
+        .also(&["axis", "triad", "frame"]),
+    ],
+};
+
+static SPHERE: TableSpec = TableSpec {
+    noun: "a sphere",
+    rule: Rule::Any,
+    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
+};
+
+static BOX: TableSpec = TableSpec {
+    noun: "a box",
+    rule: Rule::Any,
+    keys: &[Key::new("size", Numbers(3, Bound::Positive), "Its full edges along its own x, y, z")
+        .unit("m")
+        .required()
+        .also(&["edges", "extents", "dimensions", "half_extents"])],
+};
+
+static PLANE: TableSpec = TableSpec {
+    noun: "a plane",
+    rule: Rule::Any,
+    keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
+        .default("[0, 1, 0]")
+        .also(&["direction", "up"])],
+};
+
+static AXES: TableSpec = TableSpec {
+    noun: "axes",
+    rule: Rule::Any,
+    keys: &[Key::new("length", POSITIVE, "The length of each arrow").unit("m").required().also(&["size"])],
+};
+
+static ORIENTATION: TableSpec = TableSpec {
+    noun: "an orientation",
+    rule: Rule::AtMostOne(&[&["euler", "axis", "quaternion"], &["euler", "angle", "quaternion"]]),
+    keys: &[
+        Key::new(
+            "euler",
+            VECTOR,
+            "Turned about the world's x, then y, then z, as POV-Ray's `rotate <x, y, z>` does",
+        )
+        .unit("degrees")
+        .default("[0, 0, 0]"),
+        Key::new("axis", AXIS, "The axis that it is turned about; goes with `angle`").default("none"),
+        Key::new("angle", ANY, "By how much it is turned about `axis`, by the right-hand rule")
+            .unit("degrees")
+            .default("none"),
+        Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w]; its length does not matter")
+            .default("[0, 0, 0, 1]"),
+    ],
+};
+
+static FORCE: TableSpec = TableSpec {
+    noun: "a force",
+    rule: Rule::ExactlyOne(&["constant", "spring"]),
+    keys: &[
+        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
+            .also(&["uniform"]),
+        Key::new(
+            "spring",
+            Table(&SPRING),
+            "A spring with a damper, between two bodies or a body and a point",
+        ),
+    ],
+};
+
+static CONSTANT: TableSpec = TableSpec {
+    noun: "a constant force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("force", VECTOR, "The force at the centre of each body, in world axes")
+            .unit("N")
+            .default("[0, 0, 0]"),
+        Key::new("torque", VECTOR, "The torque on each body, in world axes").unit("N·m").default("[0, 0, 0]"),
+        Key::new(
+            "on",
+            List { of: &Reference(Collection::Body), min: 1, max: usize::MAX },
+            "The bodies that it acts on",
+        )
+        .default("all that can move")
+        .also(&["bodies", "body"]),
+    ],
+};
+
+static SPRING: TableSpec = TableSpec {
+    noun: "a spring",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "between",
+            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: 2 },
+            "Its two ends: each the name of a body, or a point",
+        )
+        .unit("m")
+        .required()
+        .also(&["bodies", "ends", "connects"]),
+        Key::new("stiffness", NON_NEGATIVE, "Force per change of length")
+            .unit("N/m")
+            .required()
+            .also(&["k", "constant", "strength"]),
+        Key::new("damping", NON_NEGATIVE, "Force per speed of that change, against it")
+            .unit("N·s/m")
+            .default("0")
+            .also(&["c", "friction", "damper"]),
+        Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
+            .unit("m")
+            .default("its length at the start")
+            .also(&["length", "rest"]),
+    ],
+};
+
+static MATERIAL: TableSpec = TableSpec {
+    noun: "a material",
+    rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "texture", "sdl"]]),
+    keys: &[
+        Key::new("color", Color, "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", or a name")
+            .default("white")
+            .also(&["colour", "rgb", "pigment", "diffuse"]),
+        Key::new("finish", Choice(finishes), "How its surface throws light back").default("glossy"),
+        Key::new("texture", Identifier, "A texture that an include file declares, by its name")
+            .default("from `color` and `finish`"),
+        Key::new(
+            "sdl",
+            Sdl,
+            "POV-Ray's own words, to stand inside an object: `texture { … }`, `interior { … }`",
+        )
+        .default("from `color` and `finish`"),
+    ],
+};
+
+static CAMERA: TableSpec = TableSpec {
+    noun: "the camera",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("location", VECTOR, "Where the camera is")
+            .unit("m")
+            .default("so that the whole motion is in the picture")
+            .also(&["position", "pos", "eye", "from"]),
+        Key::new("look_at", VECTOR, "The point in the middle of the picture")
+            .unit("m")
+            .default("the middle of the motion")
+            .also(&["target", "lookat", "to"]),
+        Key::new("angle", Number(Bound::Between(0.0, 180.0)), "The horizontal field of view")
+            .unit("degrees")
+            .default("40")
+            .also(&["fov", "field_of_view"]),
+    ],
+};
+
+static LIGHT: TableSpec = TableSpec {
+    noun: "a light",
+    rule: Rule::ExactlyOne(&["point", "area", "sun"]),
+    keys: &[
+        Key::new("point", Table(&POINT_LIGHT), "A lamp without size: hard shadows"),
+        Key::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
+        Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
+            .also(&["directional", "parallel"]),
+        Key::new("color", Color, "Its color").default("white").also(&["colour"]),
+        Key::new(
+            "intensity",
+            NON_NEGATIVE,
+            "How bright it is: 1 shows a white surface that faces it as white",
+        )
+        .default("1")
+        .also(&["brightness", "power", "strength"]),
+        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only fills dark places")
+            .default("true")
+            .also(&["shadow"]),
+    ],
+};
+
+static POINT_LIGHT: TableSpec = TableSpec {
+    noun: "a point light",
+    rule: Rule::Any,
+    keys: &[Key::new("location", VECTOR, "Where it is").unit("m").required().also(&["position", "pos"])],
+};
+
+static AREA_LIGHT: TableSpec = TableSpec {
+    noun: "an area light",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("location", VECTOR, "Where it is").unit("m").required().also(&["position", "pos"]),
+        Key::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
+    ],
+};
+
+static SUN: TableSpec = TableSpec {
+    noun: "a sun",
+    rule: Rule::Any,
+    keys: &[Key::new("direction", AXIS, "The direction in which its light travels").required().also(&["to"])],
+};
+
+static ENVIRONMENT: TableSpec = TableSpec {
+    noun: "the environment",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
+            .default("true, and false where a body is a plane")
+            .also(&["floor"]),
+        Key::new("sky", Either(&[Boolean, Color]), "The sky: the usual one, a plain color, or none (black)")
+            .default("true")
+            .also(&["background"]),
+        Key::new("fog", Boolean, "Haze in which the ground fades towards the horizon")
+            .default("true")
+            .also(&["haze"]),
+    ],
+};
+
+static GROUND: TableSpec = TableSpec {
+    noun: "the ground",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("height", ANY, "Its height")
+            .unit("m")
+            .default("just under the lowest point of the motion")
+            .also(&["y", "level"]),
+        Key::new("tile", POSITIVE, "The edge of one tile")
+            .unit("m")
+            .default("1, 2 or 5 times a power of ten, after the size of the motion"),
+    ],
+};
+
+static POVRAY: TableSpec = TableSpec {
+    noun: "the part for POV-Ray",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "include",
+            List { of: &Include, min: 0, max: usize::MAX },
+            "Include files: POV-Ray's own, or files beside the scene, which go into the scripts",
+        )
+        .default("[]")
+        .also(&["includes"]),
+        Key::new("sdl", Sdl, "POV-Ray's own words, to stand in every script before the bodies")
+            .default("none"),
+        Key::new("unit", POSITIVE, "The length of one unit of POV-Ray's")
+            .unit("m")
+            .default("1, and a power of ten for scenes that POV-Ray finds too small or too large"),
+        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts").default("9"),
+    ],
+};
+
+static OUTPUT: TableSpec = TableSpec {
+    noun: "the output",
+    rule: Rule::Any,
+    keys: &[Key::new(
+        "size",
+        List { of: &Integer(1, 65535), min: 2, max: 2 },
+        "Width and height of the images",
+    )
+    .unit("pixels")
+    .default("[1280, 720]")
+    .also(&["resolution", "width", "height"])],
+};

@@ -1,0 +1,138 @@
+//! What the value of a key may be.
+
+use super::TableSpec;
+
+/// What the value of a key may be.
+#[derive(Debug)]
+pub enum Kind {
+    /// A string that is shown to people.
+    Text,
+    /// `true` or `false`.
+    Boolean,
+    /// A number within a bound.
+    Number(Bound),
+    /// A whole number in a range, both ends included.
+    Integer(i64, i64),
+    /// A list of so many numbers, each within a bound.
+    Numbers(usize, Bound),
+    /// Three or four numbers that are not all zero: their direction counts, not their length.
+    Direction(usize),
+    /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, or a name.
+    Color,
+    /// POV-Ray's own language, as it is.
+    Sdl,
+    /// A name that POV-Ray knows: letters, digits and underscores.
+    Identifier,
+    /// The name of an include file.
+    Include,
+    /// One of a list of words.
+    Choice(fn() -> Vec<&'static str>),
+    /// The name of something in the scene.
+    Reference(Collection),
+    /// A list of values of one kind; at least and at most so many.
+    List {
+        /// What each value may be.
+        of: &'static Kind,
+        /// The smallest number of values.
+        min: usize,
+        /// The largest number of values.
+        max: usize,
+    },
+    /// A table with the given keys.
+    Table(&'static TableSpec),
+    /// Tables of the given sort, each with a name of its own: `[body.ball]`.
+    Named(&'static TableSpec),
+    /// One of several kinds, told apart by the type that TOML gives the value.
+    Either(&'static [Kind]),
+}
+
+/// Which numbers are allowed. All numbers are finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// Every finite number.
+    Any,
+    /// Greater than zero.
+    Positive,
+    /// Zero or greater.
+    NonNegative,
+    /// Greater than the first, less than the second.
+    Between(f64, f64),
+    /// From the first to the second, both included.
+    From(f64, f64),
+}
+
+/// The named things that others refer to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Collection {
+    /// `[body.NAME]`
+    Body,
+    /// `[material.NAME]`
+    Material,
+}
+
+impl Bound {
+    /// Whether the bound admits a finite number.
+    pub fn admits(self, number: f64) -> bool {
+        match self {
+            Bound::Any => true,
+            Bound::Positive => number > 0.0,
+            Bound::NonNegative => number >= 0.0,
+            Bound::Between(low, high) => low < number && number < high,
+            Bound::From(low, high) => low <= number && number <= high,
+        }
+    }
+
+    /// What the bound admits, to follow the words «a number»: ` greater than 0`.
+    pub fn in_words(self) -> String {
+        match self {
+            Bound::Any => String::new(),
+            Bound::Positive => " greater than 0".to_owned(),
+            Bound::NonNegative => " of at least 0".to_owned(),
+            Bound::Between(low, high) => format!(" between {low} and {high}"),
+            Bound::From(low, high) => format!(" from {low} to {high}"),
+        }
+    }
+}
+
+impl Collection {
+    /// The key under which the things stand in a scene, which is also the word for one of them.
+    pub fn key(self) -> &'static str {
+        match self {
+            Collection::Body => "body",
+            Collection::Material => "material",
+        }
+    }
+}
+
+impl Kind {
+    /// What is expected, in words: `a number greater than 0`.
+    pub fn in_words(&self) -> String {
+        match self {
+            Kind::Text => "a string".to_owned(),
+            Kind::Boolean => "`true` or `false`".to_owned(),
+            Kind::Number(bound) => format!("a number{}", bound.in_words()),
+            Kind::Integer(low, high) => format!("a whole number from {low} to {high}"),
+            Kind::Numbers(count, bound) => match bound {
+                Bound::Any => format!("a list of {count} numbers"),
+                bound => format!("a list of {count} numbers, each{}", bound.in_words()),
+            },
+            Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
+            Kind::Color => "a color: [red, green, blue] from 0 to 1, \"#rrggbb\", or a name".to_owned(),
+            Kind::Sdl => "a string of POV-Ray's scene description language".to_owned(),
+            Kind::Identifier => "a name of POV-Ray's: letters, digits and underscores".to_owned(),
+            Kind::Include => "the name of an include file".to_owned(),
+            Kind::Choice(words) => format!("one of {}", quoted(&words())),
+            Kind::Reference(collection) => format!("the name of a {}", collection.key()),
+            Kind::List { of, min, max } if min == max => format!("a list of {min}, each {}", of.in_words()),
+            Kind::List { of, .. } => format!("a list, each {}", of.in_words()),
+            Kind::Table(table) => format!("a table ({})", table.noun),
+            Kind::Named(table) => format!("tables with names, each {}", table.noun),
+            Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(", or "),
+        }
+    }
+}
+
+/// Words in backquotes, with commas between them.
+pub(crate) fn quoted(words: &[&str]) -> String {
+    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,148 @@
+//! What a scene may say: the description of every key.
+//!
+//! One description of each key serves the validation of a scene, the reading of its values, and the suggestions
+//! for a key that does not exist. The description is data: [`SCENE`] is the root, and everything that a scene can
+//! hold is reached from it.
+
+mod keys;
+mod kind;
+
+pub use keys::SCENE;
+pub(crate) use kind::quoted;
+pub use kind::{Bound, Collection, Kind};
+
+/// One key of a table.
+#[derive(Debug)]
+pub struct Key {
+    /// The key as it is written.
+    pub name: &'static str,
+    /// What its value may be.
+    pub kind: Kind,
+    /// The unit of its value; empty where there is none.
+    pub unit: &'static str,
+    /// What holds where the key is absent, in words; empty where nothing does.
+    pub default: &'static str,
+    /// What it means, in one sentence without a full stop.
+    pub meaning: &'static str,
+    /// Whether the table makes no sense without it.
+    pub required: bool,
+    /// What people write instead of it, from other programs' habits.
+    pub also: &'static [&'static str],
+}
+
+/// A table and its keys.
+#[derive(Debug)]
+pub struct TableSpec {
+    /// How messages speak of such a table: `a body`.
+    pub noun: &'static str,
+    /// Its keys, in the order in which the reference lists them.
+    pub keys: &'static [Key],
+    /// How its keys go together.
+    pub rule: Rule,
+}
+
+/// How the keys of a table go together.
+#[derive(Debug)]
+pub enum Rule {
+    /// Any of them, in any combination.
+    Any,
+    /// Within each group, at most one.
+    AtMostOne(&'static [&'static [&'static str]]),
+    /// Exactly one of the named keys: the table says which of several kinds a thing is.
+    ExactlyOne(&'static [&'static str]),
+}
+
+impl TableSpec {
+    /// The description of a key, if the table has such a key.
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+}
+
+impl Key {
+    /// A key that may be absent.
+    const fn new(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
+        Key { name, kind, unit: "", default: "", meaning, required: false, also: &[] }
+    }
+
+    const fn unit(mut self, unit: &'static str) -> Key {
+        self.unit = unit;
+        self
+    }
+
+    const fn default(mut self, default: &'static str) -> Key {
+        self.default = default;
+        self
+    }
+
+    const fn required(mut self) -> Key {
+        self.required = true;
+        self
+    }
+
+    const fn also(mut self, also: &'static [&'static str]) -> Key {
+        self.also = also;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Visits every table that a scene can hold.
+    fn visit(table: &'static TableSpec, see: &mut impl FnMut(&'static TableSpec)) {
+        fn inside(kind: &'static Kind, see: &mut impl FnMut(&'static TableSpec)) {
+            match kind {
+                Kind::Table(table) | Kind::Named(table) => visit(table, see),
+                Kind::Either(kinds) => kinds.iter().for_each(|kind| inside(kind, see)),
+                Kind::List { of, .. } => inside(of, see),
+                _ => {}
+            }
+        }
+        see(table);
+        table.keys.iter().for_each(|key| inside(&key.kind, see));
+    }
+
+    #[test]
+    fn every_key_is_described_and_says_what_holds_without_it() {
+        visit(&SCENE, &mut |table| {
+            for key in table.keys {
+                assert!(!key.meaning.is_empty() && !key.meaning.ends_with('.'), "{}", key.name);
+                let variant = matches!(&table.rule, Rule::ExactlyOne(names) if names.contains(&key.name));
+                let table_like = matches!(key.kind, Kind::Table(_) | Kind::Named(_));
+                assert!(
+                    key.required || variant || table_like || !key.default.is_empty(),
+                    "`{}` of {} has no default",
+                    key.name,
+                    table.noun
+                );
+            }
+        });
+    }
+
+    #[test]
+    fn rules_speak_of_keys_that_exist() {
+        visit(&SCENE, &mut |table| {
+            let names: Vec<&str> = match &table.rule {
+                Rule::Any => vec![],
+                Rule::AtMostOne(groups) => groups.concat(),
+                Rule::ExactlyOne(names) => names.to_vec(),
+            };
+            for name in names {
+                assert!(table.key(name).is_some(), "{} has no key `{name}`", table.noun);
+            }
+        });
+    }
+
+    #[test]
+    fn no_key_is_what_people_write_instead_of_another() {
+        visit(&SCENE, &mut |table| {
+            for key in table.keys {
+                for also in key.also {
+                    assert!(table.key(also).is_none(), "`{also}` is a key of {}", table.noun);
+                }
+            }
+        });
+    }
+}

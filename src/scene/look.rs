@@ -1,0 +1,187 @@
+//! The part of a checked scene that is look.
+
+use glam::DVec3;
+
+use super::Color;
+
+/// What bodies look like.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Its name: that of the file, or one of the palette's.
+    pub name: String,
+    /// What it is made of.
+    pub look: Look,
+}
+
+/// What a material is made of.
+#[derive(Clone, Debug)]
+pub enum Look {
+    /// One color all over.
+    Plain {
+        /// The color.
+        color: Color,
+        /// How the surface throws light back.
+        finish: Finish,
+    },
+    /// The checkered look of the ground, for planes without a material.
+    Checkered,
+    /// A texture that an include file declares.
+    Texture(String),
+    /// POV-Ray's own words.
+    Sdl(String),
+}
+
+impl Look {
+    /// Whether a body of this look that is the same from all sides looks the same however it is turned.
+    pub fn is_uniform(&self) -> bool {
+        matches!(self, Look::Plain { .. })
+    }
+}
+
+/// How a surface throws light back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finish {
+    /// Like chalk.
+    Matte,
+    /// Like eggshell.
+    Satin,
+    /// Like enamel; the usual one.
+    Glossy,
+    /// Like polished, colored metal.
+    Metal,
+    /// Like a mirror.
+    Mirror,
+    /// Shines by itself.
+    Luminous,
+}
+
+impl Finish {
+    /// All of them.
+    pub const ALL: [Finish; 6] =
+        [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Mirror, Finish::Luminous];
+
+    /// Its name in scenes and templates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Finish::Matte => "matte",
+            Finish::Satin => "satin",
+            Finish::Glossy => "glossy",
+            Finish::Metal => "metal",
+            Finish::Mirror => "mirror",
+            Finish::Luminous => "luminous",
+        }
+    }
+}
+
+/// From where the scene is seen. What is not given follows from the motion.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// Where the camera is, m.
+    pub location: Option<DVec3>,
+    /// The point in the middle of the picture, m.
+    pub look_at: Option<DVec3>,
+    /// The horizontal field of view, degrees (as POV-Ray takes it).
+    pub angle: f64,
+}
+
+/// A light.
+#[derive(Clone, Debug)]
+pub struct Light {
+    /// Its name, unique among lights.
+    pub name: String,
+    /// What it is.
+    pub kind: LightKind,
+    /// Its color.
+    pub color: Color,
+    /// Its brightness: 1 shows a white surface that faces it as white.
+    pub intensity: f64,
+    /// Whether it casts shadows and highlights.
+    pub shadows: bool,
+}
+
+/// The kinds of lights.
+#[derive(Clone, Debug)]
+pub enum LightKind {
+    /// A lamp without size.
+    Point {
+        /// Where it is, m.
+        location: DVec3,
+    },
+    /// A lamp with a size.
+    Area {
+        /// Where its centre is, m.
+        location: DVec3,
+        /// Its diameter, m.
+        size: f64,
+    },
+    /// Parallel light.
+    Sun {
+        /// The unit vector in which the light travels.
+        direction: DVec3,
+    },
+}
+
+/// Ground, sky and fog.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    /// The ground, if there is one.
+    pub ground: Option<Ground>,
+    /// The sky.
+    pub sky: Sky,
+    /// Whether the ground fades into haze.
+    pub fog: bool,
+}
+
+/// The checkered ground. What is not given follows from the motion.
+#[derive(Clone, Debug, Default)]
+pub struct Ground {
+    /// Its height, m.
+    pub height: Option<f64>,
+    /// The edge of one tile, m.
+    pub tile: Option<f64>,
+}
+
+/// The sky.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sky {
+    /// Blue, paler towards the horizon.
+    Gradient,
+    /// The same color everywhere.
+    Plain(Color),
+}
+
+/// What goes to POV-Ray as it is.
+#[derive(Clone, Debug)]
+pub struct PovRay {
+    /// Include files.
+    pub include: Vec<Include>,
+    /// POV-Ray's own words, before the bodies.
+    pub sdl: Option<String>,
+    /// The length of one unit of POV-Ray's, m; none: it follows from the size of the scene.
+    pub unit: Option<f64>,
+    /// Significant digits of the numbers in scripts.
+    pub digits: usize,
+}
+
+/// An include file.
+#[derive(Clone, Debug)]
+pub enum Include {
+    /// One that POV-Ray finds by itself.
+    Standard(String),
+    /// One that was found beside the scene, and its text.
+    Text {
+        /// Its name as the scene gives it.
+        name: String,
+        /// Its text.
+        text: String,
+    },
+}
+
+/// The images that the scripts are meant for.
+#[derive(Clone, Copy, Debug)]
+pub struct Output {
+    /// Width, pixels.
+    pub width: u32,
+    /// Height, pixels.
+    pub height: u32,
+}

@@ -1,0 +1,108 @@
+//! Text → checked scene.
+//!
+//! A scene goes through three steps: [`source`] makes a tree of its text, `check::validate` holds the tree against
+//! the description of the language in [`grammar`], and `check` makes the [`Scene`]: names resolved, defaults
+//! filled in, SI units, radians. All mistakes of all steps are reported in one run.
+
+mod check;
+mod color;
+pub mod grammar;
+mod look;
+mod model;
+mod number;
+mod palette;
+pub mod source;
+
+use std::path::Path;
+
+pub use color::Color;
+pub use look::{
+    Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay, Sky,
+};
+pub use model::{Body, Force, ForceKind, Simulation, SpringEnd};
+pub use number::Number;
+pub use source::Override;
+
+use crate::diagnostic::Report;
+
+/// A checked scene: everything that there is to know, and nothing that could still be wrong.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The name of the scene's file without its ending; `scene` for a text without a file.
+    pub name: String,
+    /// What the scene shows.
+    pub title: Option<String>,
+    /// How the world is advanced.
+    pub simulation: Simulation,
+    /// The bodies, in the order of the file.
+    pub bodies: Vec<Body>,
+    /// The forces that are not a single body's own, in the order of the file.
+    pub forces: Vec<Force>,
+    /// The materials of the file in its order, then those of the palette that bodies without a material have.
+    pub materials: Vec<Material>,
+    /// From where the scene is seen.
+    pub camera: Camera,
+    /// The lights; none means the usual ones.
+    pub lights: Vec<Light>,
+    /// Ground, sky and fog.
+    pub environment: Environment,
+    /// What goes to POV-Ray as it is.
+    pub povray: PovRay,
+    /// The images that the scripts are meant for.
+    pub output: Output,
+    /// A digest (SHA-256, in hexadecimal) of all texts that the scene was read from.
+    pub digest: String,
+    /// What was noticed and is no error.
+    pub warnings: Report,
+}
+
+/// How a scene is read.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Values that replace those of the file.
+    pub overrides: Vec<Override>,
+    /// Whether the scene may contain SDL that opens, writes or includes files, and paths outside its folder.
+    pub trust: bool,
+}
+
+impl Scene {
+    /// Reads and checks the scene in a file.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, each at its place; or why the file cannot be read.
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Scene, Report> {
+        Scene::from_path_with(path, &Options::default())
+    }
+
+    /// Like [`Scene::from_path`], with options.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, each at its place; or why the file cannot be read.
+    pub fn from_path_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Report> {
+        let path = path.as_ref();
+        let text = source::load(path)?;
+        let folder =
+            path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+        let name = path.file_stem().map_or_else(|| "scene".into(), std::ffi::OsStr::to_string_lossy);
+        check::check(
+            &check::Input { name: &name, shown: &path.display().to_string(), folder, text: &text },
+            options,
+        )
+    }
+
+    /// Reads and checks a scene that is a text in memory. It has no folder, so it cannot include files of its own.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, each at its place.
+    pub fn parse(text: &str) -> Result<Scene, Report> {
+        Scene::parse_with(text, &Options::default())
+    }
+
+    /// Like [`Scene::parse`], with options.
+    ///
+    /// # Errors
+    /// All mistakes of the scene, each at its place.
+    pub fn parse_with(text: &str, options: &Options) -> Result<Scene, Report> {
+        check::check(&check::Input { name: "scene", shown: "scene.toml", folder: None, text }, options)
+    }
+}

@@ -1,0 +1,110 @@
+//! The part of a checked scene that is physics.
+
+use glam::{DQuat, DVec3};
+
+use crate::dynamics::{Method, Shape};
+
+/// How the world is advanced.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// The time of the last frame asked for, s.
+    pub duration: f64,
+    /// Frames per second.
+    pub frame_rate: f64,
+    /// The longest timestep allowed, s.
+    pub step: f64,
+    /// The method that advances the world.
+    pub method: &'static Method,
+    /// The acceleration of every body that can move, m/s².
+    pub gravity: DVec3,
+}
+
+impl Simulation {
+    /// The number of frames: both ends of the duration are drawn.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the check of a scene limits the number of frames"
+    )]
+    pub fn frames(&self) -> usize {
+        (self.duration * self.frame_rate).round() as usize + 1
+    }
+
+    /// The time of a frame, s.
+    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
+    pub fn time(&self, frame: usize) -> f64 {
+        frame as f64 / self.frame_rate
+    }
+}
+
+/// A rigid body at the start, and its look.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name, unique among bodies.
+    pub name: String,
+    /// Its form.
+    pub shape: Shape,
+    /// Its mass, kg.
+    pub mass: f64,
+    /// Its principal moments of inertia about its own x, y, z, kg·m².
+    pub inertia: DVec3,
+    /// Its centre of mass, m.
+    pub location: DVec3,
+    /// The rotation that takes its own axes to the world's.
+    pub orientation: DQuat,
+    /// Its velocity, m/s.
+    pub velocity: DVec3,
+    /// Its angular velocity in world axes, rad/s.
+    pub angular_velocity: DVec3,
+    /// A constant force at its centre, N.
+    pub force: DVec3,
+    /// A constant torque, N·m.
+    pub torque: DVec3,
+    /// Whether it stays where it is.
+    pub fixed: bool,
+    /// The number of its material among the scene's; none for axes, which have colors of their own.
+    pub material: Option<usize>,
+}
+
+/// A force that is not a single body's own.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Its name, unique among forces.
+    pub name: String,
+    /// What it is.
+    pub kind: ForceKind,
+}
+
+/// The kinds of forces.
+#[derive(Clone, Debug)]
+pub enum ForceKind {
+    /// The same force and torque on several bodies.
+    Constant {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// The force, N.
+        force: DVec3,
+        /// The torque, N·m.
+        torque: DVec3,
+    },
+    /// A spring with a damper.
+    Spring {
+        /// Its two ends.
+        between: [SpringEnd; 2],
+        /// Its stiffness, N/m.
+        stiffness: f64,
+        /// Its damping, N·s/m.
+        damping: f64,
+        /// The length at which it does not pull or push, m.
+        rest_length: f64,
+    },
+}
+
+/// One end of a spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpringEnd {
+    /// The centre of the body with this number.
+    Body(usize),
+    /// A point, m.
+    Point(DVec3),
+}

@@ -1,0 +1,62 @@
+//! File → text.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::diagnostic::{Diagnostic, Report, Sources, Span};
+
+/// The largest scene file that is read. Ten thousand bodies are one megabyte.
+pub const MAX_BYTES: u64 = 64 << 20;
+
+/// Reads a scene's text, or says why it cannot be one.
+pub fn load(path: &Path) -> Result<String, Report> {
+    let shown = path.display();
+    let cannot_read = |error: &std::io::Error| {
+        Report::of_error("cannot-read", format!("cannot read the scene `{shown}`: {}", reason(error)))
+    };
+    let metadata = std::fs::metadata(path).map_err(|error| cannot_read(&error))?;
+    if metadata.is_dir() {
+        let message = format!("`{shown}` is a folder, not a scene file");
+        return Err(Report::of_error("not-a-file", message));
+    }
+    if metadata.len() > MAX_BYTES {
+        return Err(too_large(path));
+    }
+    let mut bytes = Vec::new();
+    // The length is asked of what was read, too: a pipe has none before.
+    let read = File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+    read.map_err(|error| cannot_read(&error))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(too_large(path));
+    }
+    String::from_utf8(bytes).map_err(|error| not_utf8(path, &error))
+}
+
+fn reason(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+fn too_large(path: &Path) -> Report {
+    let most = MAX_BYTES >> 20;
+    let message = format!("`{}` is larger than {most} MiB, which no scene is", path.display());
+    Report::of_error("file-too-large", message)
+}
+
+/// Points at the first byte that is not UTF-8, in the line as far as it can be shown.
+fn not_utf8(path: &Path, error: &std::string::FromUtf8Error) -> Report {
+    let mut sources = Sources::default();
+    let valid = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+    let id = sources.add(path.display().to_string(), text);
+    // Before the first bad byte nothing was replaced, so its place is the same in the shown text.
+    let span = Span::new(id, valid..valid + char::REPLACEMENT_CHARACTER.len_utf8());
+    let diagnostic = Diagnostic::error("not-utf8", "the file is not UTF-8, which TOML asks for")
+        .at(span, "this byte is no character")
+        .help("save the file as UTF-8");
+    Report { sources, diagnostics: vec![diagnostic] }
+}

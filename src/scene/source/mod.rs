@@ -1,0 +1,11 @@
+//! The scene as written: texts become a tree of values that know where they stand.
+
+mod load;
+mod overrides;
+mod toml;
+mod tree;
+
+pub use load::{MAX_BYTES, load};
+pub use overrides::Override;
+pub use toml::parse;
+pub use tree::{Entry, Name, Node, Table, Value};

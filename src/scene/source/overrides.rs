@@ -1,0 +1,155 @@
+//! `--set KEY=VALUE`: values that replace those of the file.
+
+use super::{Entry, Name, Node, Table, Value, toml};
+use crate::diagnostic::{Diagnostic, SourceId, Sources, Span};
+
+/// A value that replaces one of the scene's: `simulation.step=0.001`.
+#[derive(Clone, Debug)]
+pub struct Override(String);
+
+impl Override {
+    /// An override as it is written on the command line: a dotted key, `=`, and a TOML value or else a string.
+    pub fn new(argument: impl Into<String>) -> Override {
+        Override(argument.into())
+    }
+
+    /// The override as it was written.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// Puts the value into the tree.
+    pub(crate) fn apply(&self, root: &mut Table, sources: &mut Sources, diagnostics: &mut Vec<Diagnostic>) {
+        let source = sources.add("--set", self.0.clone());
+        match self.parse(source) {
+            Ok((path, value)) => put(root, &path, value, diagnostics),
+            Err(diagnostic) => diagnostics.push(diagnostic),
+        }
+    }
+
+    fn parse(&self, source: SourceId) -> Result<(Vec<Name>, Node), Diagnostic> {
+        let whole = Span::new(source, 0..self.0.len());
+        let wrong = |message: &str| {
+            Diagnostic::error("bad-set", message)
+                .at(whole, "")
+                .help("write it as KEY=VALUE, as in simulation.step=0.001")
+        };
+        let (key, value) = self.0.split_once('=').ok_or_else(|| wrong("`--set` needs a `=`"))?;
+        // With a newline or a second `=` in it, a key would be more than a key.
+        let mut errors = Vec::new();
+        let document = toml::parse(&format!("{key}=0"), source, &mut errors);
+        let path = document.as_table().and_then(|table| path(table, Vec::new()));
+        let path = match path {
+            Some(path) if errors.is_empty() => path,
+            _ => return Err(wrong(&format!("`{}` is not a key", key.trim()))),
+        };
+        let span = Span::new(source, key.len() + 1..self.0.len());
+        let node = match toml::parse_value(value.trim(), source) {
+            Ok(node) => moved(node, key.len() + 1 + (value.len() - value.trim_start().len())),
+            Err(_) => Node { span, value: Value::String(value.to_owned()) },
+        };
+        Ok((path, node))
+    }
+}
+
+/// The keys that lead to the only value of a table of tables.
+fn path(table: &Table, mut names: Vec<Name>) -> Option<Vec<Name>> {
+    let [entry] = table.entries.as_slice() else { return None };
+    names.push(entry.name.clone());
+    match &entry.node.value {
+        Value::Table(inner) => path(inner, names),
+        _ => Some(names),
+    }
+}
+
+/// The node with every place moved by so many bytes.
+fn moved(mut node: Node, by: usize) -> Node {
+    let shift = |span: Span| Span { start: span.start + by, end: span.end + by, ..span };
+    node.span = shift(node.span);
+    node.value = match node.value {
+        Value::Array(items) => Value::Array(items.into_iter().map(|item| moved(item, by)).collect()),
+        Value::Table(table) => {
+            let entry = |entry: Entry| Entry {
+                name: Name { span: shift(entry.name.span), text: entry.name.text },
+                node: moved(entry.node, by),
+            };
+            Value::Table(Table { entries: table.entries.into_iter().map(entry).collect() })
+        }
+        value => value,
+    };
+    node
+}
+
+fn put(table: &mut Table, path: &[Name], value: Node, diagnostics: &mut Vec<Diagnostic>) {
+    let Some((name, rest)) = path.split_first() else { return };
+    if table.get(&name.text).is_none() {
+        let node = Node { span: value.span, value: Value::Table(Table::default()) };
+        table.entries.push(Entry { name: name.clone(), node });
+    }
+    let Some(entry) = table.get_mut(&name.text) else { return };
+    if rest.is_empty() {
+        // The name comes along: what is said of the value is said where it was set.
+        *entry = Entry { name: name.clone(), node: value };
+        return;
+    }
+    match &mut entry.node.value {
+        Value::Table(inner) => put(inner, rest, value, diagnostics),
+        _ => diagnostics.push(
+            Diagnostic::error(
+                "bad-set",
+                format!("`{}` is not a table, so nothing in it can be set", name.text),
+            )
+            .at(name.span, "")
+            .at(entry.node.span, "it is a value here"),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(text: &str, argument: &str) -> (Table, Vec<Diagnostic>) {
+        let (mut sources, mut diagnostics) = (Sources::default(), Vec::new());
+        let id = sources.add("scene.toml", text);
+        let node = toml::parse(text, id, &mut diagnostics);
+        let mut root = node.as_table().cloned().unwrap();
+        Override::new(argument).apply(&mut root, &mut sources, &mut diagnostics);
+        (root, diagnostics)
+    }
+
+    fn value<'a>(root: &'a Table, path: &[&str]) -> &'a Value {
+        let entry = root.get(path[0]).unwrap();
+        if path.len() == 1 { &entry.node.value } else { value(entry.node.as_table().unwrap(), &path[1..]) }
+    }
+
+    #[test]
+    fn a_value_is_toml_or_else_a_string() {
+        let (root, _) = set("[s]\nstep = 1", "s.step=0.5");
+        assert!(matches!(value(&root, &["s", "step"]), Value::Float(0.5)));
+        let (root, _) = set("", "s.integrator=rk4");
+        assert!(matches!(value(&root, &["s", "integrator"]), Value::String(s) if s == "rk4"));
+        let (root, _) = set("", "a.\"b.c\" = [1, 2]");
+        assert!(matches!(value(&root, &["a", "b.c"]), Value::Array(items) if items.len() == 2));
+        let (root, _) = set("", "title=a = b");
+        assert!(matches!(value(&root, &["title"]), Value::String(s) if s == "a = b"));
+    }
+
+    #[test]
+    fn a_value_knows_where_it_stands_in_the_argument() {
+        let (root, _) = set("", "s.size= [1, 22]");
+        let Value::Array(items) = value(&root, &["s", "size"]) else { panic!("not a list") };
+        assert_eq!((items[1].span.start, items[1].span.end), (12, 14));
+    }
+
+    #[test]
+    fn what_is_no_setting_is_refused() {
+        for argument in ["", "a", "=1", "a b=1", "a.=1", "a=1\nb"] {
+            let (_, diagnostics) = set("", argument);
+            let expected = usize::from(argument != "a=1\nb");
+            assert_eq!(diagnostics.len(), expected, "{argument:?}");
+        }
+        let (_, diagnostics) = set("title = 'x'", "title.y=1");
+        assert_eq!(diagnostics.len(), 1);
+    }
+}

@@ -1,0 +1,101 @@
+//! The tree of a scene as written.
+
+use crate::diagnostic::Span;
+
+/// A value and where it stands.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Where it stands.
+    pub span: Span,
+    /// What it is.
+    pub value: Value,
+}
+
+/// A value as TOML knows it.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// Text; where a number is wanted, a formula.
+    String(String),
+    /// A whole number that 64 bits hold.
+    Integer(i64),
+    /// Any other number, also one that is not finite.
+    Float(f64),
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A date or a time, for which a scene has no use.
+    Datetime,
+    /// A list.
+    Array(Vec<Node>),
+    /// A table.
+    Table(Table),
+    /// What could not be read; that has been said already.
+    Invalid,
+}
+
+/// A table: its entries in the order of the file.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// The entries; names are unique.
+    pub entries: Vec<Entry>,
+}
+
+/// One entry of a table.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Its key.
+    pub name: Name,
+    /// Its value.
+    pub node: Node,
+}
+
+/// A key and where it stands.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// Where it stands.
+    pub span: Span,
+    /// The key, without quotes.
+    pub text: String,
+}
+
+impl Table {
+    /// The entry with the given name.
+    pub fn get(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.name.text == name)
+    }
+
+    /// Like [`Table::get`], to change it.
+    pub fn get_mut(&mut self, name: &str) -> Option<&mut Entry> {
+        self.entries.iter_mut().find(|entry| entry.name.text == name)
+    }
+}
+
+impl Node {
+    /// The table that the value is, if it is one.
+    pub fn as_table(&self) -> Option<&Table> {
+        match &self.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The text that the value is, if it is one.
+    pub fn as_str(&self) -> Option<&str> {
+        match &self.value {
+            Value::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// What the value is, in words: `a string`.
+    pub fn in_words(&self) -> &'static str {
+        match &self.value {
+            Value::String(_) => "a string",
+            Value::Integer(_) | Value::Float(_) => "a number",
+            Value::Boolean(_) => "a boolean",
+            Value::Datetime => "a date or time",
+            Value::Array(_) => "a list",
+            Value::Table(_) => "a table",
+            Value::Invalid => "something unreadable",
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! Scene → world.
+
+use glam::DVec3;
+
+use crate::dynamics::{Anchor, ConstantForce, Spring, UniformGravity};
+use crate::dynamics::{BodyId, RigidBody, World};
+use crate::scene::{Body, Force, ForceKind, Scene, SpringEnd};
+
+/// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
+/// is the same in both.
+pub fn world(scene: &Scene) -> World {
+    let mut world = World::new();
+    world.set_integrator(scene.simulation.method);
+    world.set_step(scene.simulation.step);
+    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| world.add(rigid_body(body))).collect();
+    if scene.simulation.gravity != DVec3::ZERO {
+        world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
+    }
+    scene.forces.iter().for_each(|force| add_force(&mut world, force, &ids));
+    world
+}
+
+fn rigid_body(body: &Body) -> RigidBody {
+    RigidBody {
+        mass: body.mass,
+        inertia: body.inertia,
+        location: body.location,
+        orientation: body.orientation,
+        velocity: body.velocity,
+        angular_velocity: body.angular_velocity,
+        force: body.force,
+        torque: body.torque,
+        fixed: body.fixed,
+    }
+}
+
+fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
+    match &force.kind {
+        ForceKind::Constant { on, force, torque } => {
+            let bodies = on.iter().map(|&body| ids[body]).collect();
+            world.add_force(ConstantForce { bodies, force: *force, torque: *torque });
+        }
+        ForceKind::Spring { between, stiffness, damping, rest_length } => {
+            let between = between.map(|end| match end {
+                SpringEnd::Body(body) => Anchor::Body(ids[body]),
+                SpringEnd::Point(point) => Anchor::Point(point),
+            });
+            world.add_force(Spring {
+                between,
+                stiffness: *stiffness,
+                damping: *damping,
+                rest_length: *rest_length,
+            });
+        }
+    }
+}

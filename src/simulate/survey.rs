@@ -1,0 +1,163 @@
+//! A run looked over as a whole, before its frames are drawn.
+//!
+//! The scene is simulated once for this and once more for its frames: poses are not stored, so memory does not
+//! grow with the number of frames, and both runs are the same bit for bit.
+
+use glam::DVec3;
+
+use super::{BodyFrame, Diverged, Frame, Frames, world};
+use crate::dynamics::Shape;
+use crate::scene::{Body, Scene};
+
+/// What is known of a run as a whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// The box in which everything takes place; none if the scene has no body but planes.
+    pub bounds: Option<Bounds>,
+    /// The first passage of a body through each plane or ground that is given.
+    pub crossings: Vec<Crossing>,
+    /// The drift of the energy (see [`Balance`](crate::dynamics::Balance)) where it is largest.
+    pub drift: f64,
+    /// The real timestep, s.
+    pub timestep: f64,
+    /// The number of timesteps from one frame to the next.
+    pub steps_per_frame: u32,
+}
+
+/// A box along the axes, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub min: DVec3,
+    /// The corner with the largest coordinates.
+    pub max: DVec3,
+}
+
+/// That bodies go through a plane, since nothing keeps them from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
+    /// The name of the plane; none for the ground of the environment.
+    pub plane: Option<String>,
+    /// The name of the first body that goes through it.
+    pub body: String,
+    /// The time of the first frame in which it is seen to, s.
+    pub time: f64,
+    /// How many other bodies go through the plane later.
+    pub others: usize,
+}
+
+/// Simulates a scene to learn where it takes place; `seen` is told of every frame.
+///
+/// # Errors
+/// Where the run leaves the numbers.
+pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
+    let mut bounds: Option<Bounds> = None;
+    let mut planes = planes(scene);
+    let mut drift: f64 = 0.0;
+    for frame in Frames::new(scene) {
+        let frame = frame?;
+        for body in &frame.bodies {
+            let shape = &scene.bodies[body.id].shape;
+            if let Some(here) = Bounds::of(shape, body) {
+                bounds = Some(bounds.map_or(here, |all| all.union(here)));
+            }
+        }
+        planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
+        if frame.balance.drift.abs() > drift.abs() {
+            drift = frame.balance.drift;
+        }
+        seen(&frame);
+    }
+    let interval = 1.0 / scene.simulation.frame_rate;
+    let steps_per_frame = world(scene).steps_within(interval);
+    Ok(Survey {
+        bounds,
+        crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
+        drift,
+        timestep: interval / f64::from(steps_per_frame),
+        steps_per_frame,
+    })
+}
+
+impl Bounds {
+    /// The box around a body; none for a plane, which has no bounds.
+    fn of(shape: &Shape, body: &BodyFrame) -> Option<Bounds> {
+        let reach = |direction: DVec3| shape.support(body.orientation, direction);
+        let max = DVec3::new(reach(DVec3::X)?, reach(DVec3::Y)?, reach(DVec3::Z)?);
+        let min = DVec3::new(reach(-DVec3::X)?, reach(-DVec3::Y)?, reach(-DVec3::Z)?);
+        Some(Bounds { min: body.location - min, max: body.location + max })
+    }
+
+    fn union(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+/// A plane that is watched for bodies that go through it.
+struct Watched {
+    name: Option<String>,
+    point: DVec3,
+    normal: DVec3,
+    /// For each body: the side on which it began, and that it has not gone through yet.
+    beginners: Vec<Option<f64>>,
+    crossing: Option<Crossing>,
+}
+
+fn planes(scene: &Scene) -> Vec<Watched> {
+    let watched = |name: Option<String>, point: DVec3, normal: DVec3| Watched {
+        name,
+        point,
+        normal,
+        beginners: Vec::new(),
+        crossing: None,
+    };
+    let plane = |body: &Body| match body.shape {
+        Shape::Plane { normal } => {
+            Some(watched(Some(body.name.clone()), body.location, body.orientation * normal))
+        }
+        _ => None,
+    };
+    let height = scene.environment.ground.as_ref().and_then(|ground| ground.height);
+    let ground = height.map(|height| watched(None, DVec3::Y * height, DVec3::Y));
+    scene.bodies.iter().filter_map(plane).chain(ground).collect()
+}
+
+impl Watched {
+    fn watch(&mut self, scene: &Scene, frame: &Frame) {
+        if self.beginners.is_empty() {
+            self.beginners = frame.bodies.iter().map(|body| self.beginner(scene, body)).collect();
+        }
+        for body in &frame.bodies {
+            let Some(side) = self.beginners[body.id] else { continue };
+            if self.gap(&scene.bodies[body.id].shape, body, side) < -self.tolerance(body) {
+                self.beginners[body.id] = None;
+                match &mut self.crossing {
+                    Some(crossing) => crossing.others += 1,
+                    None => {
+                        let (plane, name) = (self.name.clone(), scene.bodies[body.id].name.clone());
+                        self.crossing = Some(Crossing { plane, body: name, time: frame.time, others: 0 });
+                    }
+                }
+            }
+        }
+    }
+
+    /// The side on which a body begins, if it can move and does not touch the plane from the start.
+    fn beginner(&self, scene: &Scene, body: &BodyFrame) -> Option<f64> {
+        let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
+        let Body { shape, fixed, .. } = &scene.bodies[body.id];
+        (!fixed && self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
+    }
+
+    /// The distance between the plane and the nearest point of a body that should be on the given side, m.
+    fn gap(&self, shape: &Shape, body: &BodyFrame, side: f64) -> f64 {
+        let towards_plane = -side * self.normal;
+        let reach = shape.support(body.orientation, towards_plane).unwrap_or(0.0);
+        side * (body.location - self.point).dot(self.normal) - reach
+    }
+
+    /// What rounding may make of a body that just touches, m.
+    fn tolerance(&self, body: &BodyFrame) -> f64 {
+        1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
+    }
+}

@@ -1,0 +1,2 @@
+// Renders the whole sequence, one script after another: see animation.ini.
+#include concat("frame_", str(frame_number, -${digits}, 0), ".pov")

@@ -1,0 +1,92 @@
+//! Motions whose end is known.
+
+use glam::DVec3;
+use jabuka::dynamics::{Dynamics, METHODS, UniformGravity};
+
+use crate::common::{LinearDrag, ball, method, tether, tolerance, worlds};
+
+/// The ball of the tutorial. Under a constant force Euler–Cromer is off by −½ a t dt exactly (the velocity is one
+/// step ahead), explicit Euler by +½ a t dt, and every method of second order or higher is exact. What remains is
+/// rounding: 200 sums of numbers up to 24, each rounded by 2e-15 at most.
+#[test]
+fn the_ball_of_the_tutorial() {
+    let ball = ball()
+        .with_location(DVec3::new(20.0, 0.0, 0.0))
+        .with_velocity(DVec3::new(2.0, 10.0, 0.0))
+        .with_force(DVec3::new(0.0, -1.0, 0.0));
+    for (method, mut world, id) in worlds(ball) {
+        world.set_step(0.01);
+        world.advance_to(2.0);
+        let y = match method.name {
+            "euler-cromer" => 17.99,
+            "explicit-euler" => 18.01,
+            _ => 18.0,
+        };
+        let off = (world.location(id) - DVec3::new(24.0, y, 0.0)).length();
+        assert!(off < 1e-12, "{}: {off:e}", method.name);
+    }
+}
+
+/// A force changed by hand, when a method still holds loads of the step before: methods of second order or higher
+/// stay exact. With the old loads in the first step they would be off by ½ · 1 N · dt · 1 s = 5e-3.
+#[test]
+fn a_force_applied_half_way_acts_from_then_on() {
+    for (method, mut world, id) in worlds(ball()).filter(|(method, ..)| method.order >= 2) {
+        world.set_step(0.01);
+        world.advance_to(1.0);
+        world.apply_force(id, DVec3::X);
+        world.advance_to(2.0);
+        let off = (world.location(id) - DVec3::new(0.5, 0.0, 0.0)).length();
+        assert!(off < 1e-12, "{}: {off:e}", method.name);
+    }
+}
+
+/// m x'' = −c x' − m g: x = u t + (v₀ − u)(1 − e^(−ct/m)) m/c, with u the terminal velocity −g m/c.
+#[test]
+fn a_projectile_with_linear_drag() {
+    const END: DVec3 = DVec3::new(77.754_533_795_484_6, 63.630_037_238_547_6, 0.0);
+    let (time, steps, rate) = (3.0, 300, 0.1);
+    for (method, mut world, id) in worlds(ball().with_velocity(DVec3::new(30.0, 40.0, 0.0))) {
+        world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -9.81, 0.0) });
+        world.add_force(LinearDrag { coefficient: rate });
+        world.set_step(time / f64::from(steps));
+        world.advance_to(time);
+        let off = (world.location(id) - END).length();
+        // What decays is v₀ − u, 141 m/s, over the distance (v₀ − u) m/c.
+        let allowed = 1410.0 * tolerance(method, rate * time, steps);
+        assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
+    }
+}
+
+/// m x'' + c x' + k x = 0 with m = 1, c = 2, k = 100, from x = 1 at rest. The ball goes through the anchor, where the
+/// length of the spring is 0, six times before t = 2.
+#[test]
+fn a_damped_spring() {
+    for (method, mut world, id) in worlds(ball().with_location(DVec3::X)) {
+        world.add_force(tether(id, 100.0, 2.0));
+        world.set_step(1e-3);
+        for (time, steps, x) in [(1.0, 1000, -0.336_851_680_590_413), (5.0, 5000, 0.005_526_103_306_932_69)] {
+            world.advance_to(time);
+            let off = (world.location(id) - DVec3::new(x, 0.0, 0.0)).length();
+            // ω = 10 rad/s; the amplitude has fallen to e^(−t).
+            let allowed = libm::exp(-time) * tolerance(method, 10.0 * time, steps);
+            assert!(off < allowed, "{} at {time}: {off:e} > {allowed:e}", method.name);
+        }
+    }
+}
+
+/// The method may be changed at any time: two halves, each with its own error. RK4 then Euler–Cromer has the error
+/// of Euler–Cromer's second, −½ a t dt with t = 1.
+#[test]
+fn the_method_is_exchanged_at_run_time() {
+    for (first, mut world, id) in worlds(ball().with_force(DVec3::Y)) {
+        world.set_step(0.01);
+        world.advance_to(1.0);
+        world.set_integrator(method("euler-cromer"));
+        assert_eq!(world.integrator().name, METHODS[0].name);
+        let before = world.location(id).y;
+        world.advance_to(2.0);
+        let way = world.location(id).y - before;
+        assert!((way - 1.505).abs() < 1e-12, "{} first: {way}", first.name);
+    }
+}

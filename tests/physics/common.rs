@@ -1,0 +1,90 @@
+//! What the tests share.
+
+use glam::DVec3;
+use jabuka::dynamics::{
+    Anchor, BodyId, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, World,
+};
+
+/// Linear drag, F = −c v on every body. Defined here, from outside: the list of forces is open.
+pub(crate) struct LinearDrag {
+    /// The coefficient c, N s/m.
+    pub coefficient: f64,
+}
+
+impl Force for LinearDrag {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        for (force, &velocity) in loads.force.iter_mut().zip(&moment.state.velocity) {
+            let drag = -self.coefficient * velocity;
+            *force += drag;
+            loads.power += drag.dot(velocity);
+        }
+    }
+
+    fn potential(&self, _: &Moment) -> f64 {
+        0.0
+    }
+}
+
+/// A field B that swings with time; on each body, a force B and, as on a magnet along its x axis, a torque R x × B:
+/// loads that depend on time and on orientation.
+pub(crate) struct SwingingField;
+
+impl Force for SwingingField {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let (sin, cos) = libm::sincos(2.0 * moment.time);
+        let field = DVec3::new(cos, 1.0, sin);
+        for (i, orientation) in moment.state.orientation.iter().enumerate() {
+            let torque = (orientation * DVec3::X).cross(field);
+            loads.torque[i] += torque;
+            loads.force[i] += field;
+            loads.power += torque.dot(moment.model.angular_velocity(i, moment.state));
+            loads.power += field.dot(moment.state.velocity[i]);
+        }
+    }
+
+    fn potential(&self, _: &Moment) -> f64 {
+        0.0
+    }
+}
+
+/// A relative error to allow over a time of `angle` (rate × time, for an oscillation its phase) in `steps` steps.
+///
+/// One step of a method of order p is off by C z^(p+1), z = rate × dt, and there are `steps` of them: C angle zᵖ in
+/// all. C is the first coefficient that the method's expansion has wrong, ½ for Euler, 1/12 for Verlet, 1/120 for
+/// RK4, and at most 1 for any method worth having; 1 is taken. A method that loses an order exceeds it 1/z-fold.
+pub(crate) fn tolerance(method: &Method, angle: f64, steps: u32) -> f64 {
+    let z = angle / f64::from(steps);
+    let mut tolerance = angle;
+    for _ in 0..method.order {
+        tolerance *= z;
+    }
+    // Rounding, where a method is better than that.
+    tolerance + 1e-13 * f64::from(steps).sqrt()
+}
+
+/// A method by its name.
+#[allow(clippy::panic, reason = "only tests call it")]
+pub(crate) fn method(name: &str) -> &'static Method {
+    Method::by_name(name).unwrap_or_else(|| panic!("no method {name}"))
+}
+
+/// A ball of 1 kg.
+pub(crate) fn ball() -> RigidBody {
+    RigidBody::new(&Shape::Sphere { radius: 0.1 }, 1.0)
+}
+
+/// A world of one body, for each of the methods.
+pub(crate) fn worlds(body: RigidBody) -> impl Iterator<Item = (&'static Method, World, BodyId)> {
+    METHODS.iter().map(move |method| {
+        let mut world = World::new();
+        world.set_integrator(method);
+        let id = world.add(body);
+        (method, world, id)
+    })
+}
+
+/// A spring of rest length 0 from the origin to a body.
+pub(crate) fn tether(body: BodyId, stiffness: f64, damping: f64) -> Spring {
+    let between = [Anchor::Point(DVec3::ZERO), Anchor::Body(body)];
+    Spring { between, stiffness, damping, rest_length: 0.0 }
+}

@@ -1,0 +1,116 @@
+//! Energy: how methods keep it, and whether its books are right.
+
+use glam::{DQuat, DVec3};
+use jabuka::dynamics::{Dynamics, METHODS, Method, RigidBody, Shape, World};
+
+use crate::common::{LinearDrag, ball, method, tether};
+
+/// An oscillator with ω = 2 rad/s, E = 2 J, at its turning point.
+fn oscillator(method: &'static Method) -> World {
+    let mut world = World::new();
+    world.set_integrator(method);
+    let id = world.add(ball().with_location(DVec3::X));
+    world.add_force(tether(id, 4.0, 0.0));
+    world
+}
+
+/// The largest drift of the oscillator in 10,000 steps of 0.01 s, 32 periods; every step is observed.
+fn largest_drift(method: &'static Method) -> f64 {
+    let mut world = oscillator(method);
+    // Once round, so that the largest kinetic energy, E within 2 %, has been seen before drifts are compared.
+    let mut largest: f64 = 0.0;
+    for step in 0..10_000 {
+        world.step(0.01);
+        let drift = world.balance().drift.abs();
+        if step > 400 {
+            largest = largest.max(drift);
+        }
+    }
+    largest
+}
+
+/// Each symplectic method keeps a modified energy exactly, close to the true one (Hairer, Lubich & Wanner, *Geometric
+/// Numerical Integration*, I.5 and IX.3); with z = ωh = 0.02:
+/// Euler–Cromer H − ½ h ω² x v, off from H by ½ z E at most to either side; from the turning point, where it is not
+/// off, that is 0.01 E. Verlet H − ⅛ z² ω² x²: ¼ z² E = 1e-4 E at most. The 2 % are for the kinetic energy.
+#[test]
+fn symplectic_methods_have_bounded_drift() {
+    for (name, bound) in [("euler-cromer", 0.01), ("velocity-verlet", 1e-4)] {
+        let drift = largest_drift(method(name));
+        // And it is attained: the drift is measured, not just small.
+        assert!(drift < 1.02 * bound && drift > 0.98 * bound, "{name}: {drift:e}");
+    }
+}
+
+/// A step of explicit Euler multiplies the energy of an oscillator by exactly 1 + ω² h²: 54.5-fold after 10,000
+/// steps. Rounding is 10,000 times 1e-16.
+#[test]
+fn explicit_euler_gains_energy() {
+    let mut world = oscillator(method("explicit-euler"));
+    for n in 1..=10_000 {
+        world.step(0.01);
+        if n % 1000 == 0 {
+            let gain = libm::pow(1.0 + 4.0 * 0.01 * 0.01, f64::from(n));
+            let total = world.balance().total / 2.0;
+            assert!((total / gain - 1.0).abs() < 1e-11, "{total} {gain}");
+        }
+    }
+}
+
+/// A step of RK4 multiplies it by |R(iz)|² = 1 − z⁶/72 + z⁸/576 (Hairer & Wanner, *Solving Ordinary Differential
+/// Equations II*, IV.2): 1e-8 in all; its expansion is exact, and what remains is rounding.
+#[test]
+fn rk4_loses_energy_slowly() {
+    let mut world = oscillator(method("rk4"));
+    let start = world.balance().total;
+    for _ in 0..10_000 {
+        world.step(0.01);
+    }
+    let z2 = 0.02 * 0.02;
+    let loss = 10_000.0 * z2 * z2 * z2 / 72.0 * (1.0 - z2 / 8.0);
+    let measured = 1.0 - world.balance().total / start;
+    assert!((measured - loss).abs() < 1e-3 * loss, "{measured:e} {loss:e}");
+}
+
+/// Where forces without a potential do work, the drift is still only the method's error, and goes to 0 with its order.
+/// Tolerance of the slope as in `order`; not booking the work would leave a drift of order 0.
+fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
+    for method in METHODS {
+        let run = |steps: u32| {
+            let mut world = build();
+            world.set_integrator(method);
+            world.set_step(1.0 / f64::from(steps));
+            world.advance_to(1.0);
+            world.balance()
+        };
+        let (coarse, fine) = (run(128), run(256));
+        assert!(fine.work.abs() > 0.5, "{}: {}", method.name, fine.work);
+        let slope = libm::log2(coarse.drift / fine.drift);
+        let off = (slope - f64::from(method.order)).abs();
+        assert!(off < 0.1, "{}: order {slope}, drifts {:e}, {:e}", method.name, coarse.drift, fine.drift);
+    }
+}
+
+#[test]
+fn the_work_of_drag_is_booked() {
+    assert_drift_is_of_the_methods_order(|| {
+        let mut world = World::new();
+        world.add(ball().with_velocity(DVec3::new(3.0, 4.0, 0.0)));
+        world.add_force(LinearDrag { coefficient: 2.0 });
+        world
+    });
+}
+
+#[test]
+fn the_work_of_a_torque_is_booked() {
+    assert_drift_is_of_the_methods_order(|| {
+        let mut world = World::new();
+        let body = RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0)
+            .with_inertia(DVec3::new(1.0, 2.0, 3.0))
+            .with_orientation(DQuat::from_rotation_x(1.0))
+            .with_angular_velocity(DVec3::new(1.0, 1.5, -1.0))
+            .with_torque(DVec3::new(1.0, -2.0, 3.0));
+        world.add(body);
+        world
+    });
+}

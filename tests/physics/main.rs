@@ -1,0 +1,12 @@
+//! The physics against closed forms and published values, for every method of integration.
+//!
+//! Tests that loop over `METHODS` take in a new method by its being in the table: its order p is all they ask for.
+//! Unless said otherwise, a tolerance is that of [`common::tolerance`].
+
+mod closed_forms;
+mod common;
+mod conservation;
+mod energy;
+mod order;
+mod rotation;
+mod same_bits;
