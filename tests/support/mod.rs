@@ -5,41 +5,41 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The `jabuka` command, as built for the tests.
-pub fn jabuka() -> Command {
+pub(crate) fn jabuka() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_jabuka"));
     command.current_dir(root());
     command
 }
 
 /// The project's folder.
-pub fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 /// A scene of the gallery, by its name.
-pub fn scene(name: &str) -> PathBuf {
+pub(crate) fn scene(name: &str) -> PathBuf {
     root().join("scenes").join(name).with_extension("toml")
 }
 
 /// What a command said to standard output.
-pub fn stdout(output: &Output) -> String {
+pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
 /// What a command said to standard error.
-pub fn stderr(output: &Output) -> String {
+pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 /// Compiles a scene into a folder, which must succeed.
-pub fn compile(scene: &Path, folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn compile(scene: &Path, folder: &Path, arguments: &[&str]) -> Output {
     let output = jabuka().arg("compile").arg(scene).arg("-o").arg(folder).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     output
 }
 
 /// All files of a folder: names and bytes, in the order of the names.
-pub fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| {

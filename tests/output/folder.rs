@@ -1,0 +1,120 @@
+//! Whose folder it is: nothing is overwritten or removed that jabuka did not write, and no link is followed.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+
+use crate::support::{compile, contents, jabuka, scene, stderr};
+
+/// Compiles, which must be refused with exit code 1 and the given words.
+fn refused(folder: &Path, words: &str) {
+    let output = jabuka().arg("compile").arg(scene("damped_spring")).arg("-o").arg(folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains(words), "{}", stderr(&output));
+}
+
+#[test]
+fn a_folder_of_somebody_elses_is_refused_and_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("frame_0000.pov"), "years of work").unwrap();
+    refused(folder.path(), "is not empty, and jabuka did not make it");
+    // A manifest that is not ours does not make it ours.
+    for manifest in ["{}", "[]", "not json", "{\"generator\": \"another program\", \"state\": \"complete\"}"]
+    {
+        fs::write(folder.path().join("manifest.json"), manifest).unwrap();
+        refused(folder.path(), "is not empty, and jabuka did not make it");
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("frame_0000.pov")).unwrap(), "years of work");
+    assert_eq!(contents(folder.path()).len(), 2);
+}
+
+#[test]
+fn a_file_where_a_folder_should_be_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "mine").unwrap();
+    refused(&file, "is not a folder");
+    refused(&file.join("below"), "file");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+}
+
+#[test]
+fn a_manifest_that_names_files_elsewhere_removes_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("a/b");
+    let outside = folder.path().join("x");
+    fs::write(&outside, "mine").unwrap();
+    compile(&scene("damped_spring"), &out, &["--frames", "0-2"]);
+    let manifest = fs::read_to_string(out.join("manifest.json")).unwrap();
+    let forged = manifest.replace("frame_0001.pov", "../../x").replace("frame_0002.pov", "/etc/hostname");
+    assert_ne!(manifest, forged);
+    fs::write(out.join("manifest.json"), forged).unwrap();
+    compile(&scene("damped_spring"), &out, &["--frames", "0", "--set", "body.ball.mass=2"]);
+    assert_eq!(fs::read_to_string(&outside).unwrap(), "mine");
+    assert!(Path::new("/etc/hostname").exists());
+}
+
+#[test]
+fn links_are_replaced_or_refused_and_never_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, outside) = (folder.path().join("out"), folder.path().join("mine"));
+    fs::write(&outside, "mine").unwrap();
+    compile(&scene("damped_spring"), &out, &["--frames", "0-2"]);
+    let plain = contents(&out);
+
+    for name in ["frame_0001.pov", "animation.ini", ".jabuka-frame_0002.pov.tmp"] {
+        let _ = fs::remove_file(out.join(name));
+        symlink(&outside, out.join(name)).unwrap();
+    }
+    compile(&scene("damped_spring"), &out, &["--frames", "0-2"]);
+    assert!(plain == contents(&out), "the links are replaced by files");
+
+    // Through these two the folder would be read as ours, or a file elsewhere be opened for writing.
+    for name in ["manifest.json", ".jabuka-lock"] {
+        let original = fs::read(out.join(name)).unwrap();
+        fs::rename(out.join(name), folder.path().join("moved")).unwrap();
+        symlink(folder.path().join("moved"), out.join(name)).unwrap();
+        let words = if name == "manifest.json" { "jabuka did not make it" } else { "is a link" };
+        refused(&out, words);
+        fs::remove_file(out.join(name)).unwrap();
+        fs::write(out.join(name), original).unwrap();
+    }
+    assert_eq!(fs::read_to_string(&outside).unwrap(), "mine");
+}
+
+#[test]
+fn a_scene_that_is_wrong_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let bad = folder.path().join("bad.toml");
+    fs::write(&bad, "[body.ball]\n").unwrap();
+    let output = jabuka().current_dir(folder.path()).arg("compile").arg(&bad).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn a_run_that_diverges_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let wild = folder.path().join("wild.toml");
+    // ω dt = 100: every step multiplies the amplitude by about as much.
+    let text = "
+        [simulation]
+        duration = 100
+        step = 1
+        integrator = 'explicit-euler'
+        frame_rate = 1
+        [body.ball]
+        shape.sphere.radius = 1
+        location = [1, 0, 0]
+        [force.spring]
+        spring.between = ['ball', [0, 0, 0]]
+        spring.stiffness = 1e10
+        spring.rest_length = 0
+    ";
+    fs::write(&wild, text).unwrap();
+    let output = jabuka().current_dir(folder.path()).arg("compile").arg(&wild).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("error[diverged]: the run diverged"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("`ball`"), "{}", stderr(&output));
+    assert!(!folder.path().join("out").exists());
+}

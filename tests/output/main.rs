@@ -1,0 +1,12 @@
+//! The output folder: the same bytes whatever happens, and nothing touched that is not ours.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod check;
+mod folder;
+mod frames;
+mod kill;
+mod memory;
+mod sameness;

@@ -1,0 +1,40 @@
+//! Memory does not grow with the number of frames.
+
+use std::process::{Child, Stdio};
+
+use crate::support::{jabuka, scene};
+
+/// The most memory that a process has used by the time it ends, in bytes: its high-water mark only ever rises, so the
+/// last look before the end is the one that counts.
+fn peak(mut child: Child) -> u64 {
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak = 0;
+    while child.try_wait().unwrap().is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let mark = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kibibytes = mark.and_then(|mark| mark.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok());
+        peak = kibibytes.map_or(peak, |kib| kib * 1024).max(peak);
+    }
+    assert!(child.wait().unwrap().success());
+    peak
+}
+
+#[test]
+fn ten_thousand_frames_need_the_memory_of_a_hundred() {
+    let folder = tempfile::tempdir().unwrap();
+    let compile = |frames: u32| {
+        let duration = format!("simulation.duration={}", f64::from(frames - 1) / 25.0);
+        let child = jabuka()
+            .arg("compile")
+            .arg(scene("damped_spring"))
+            .args(["--set", &duration, "-o"])
+            .arg(folder.path().join(frames.to_string()))
+            .stdout(Stdio::null())
+            .spawn();
+        peak(child.unwrap())
+    };
+    let (few, many) = (compile(100), compile(10_000));
+    assert!(few > 1_000_000, "a process needs more than {few} bytes: nothing was measured");
+    let most = few as f64 * 1.1 + 2e6;
+    assert!(many as f64 <= most, "100 frames need {few} bytes, 10,000 frames {many}");
+}

@@ -1,0 +1,74 @@
+//! The same scene gives the same bytes: on any run, thread count, user, locale, and from any folder.
+
+use std::fs;
+
+use crate::support::{compile, contents, jabuka, scene};
+
+#[test]
+fn any_run_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let compile_with = |threads: &str| {
+        let path = folder.path().join(threads);
+        let output = jabuka()
+            .env("RAYON_NUM_THREADS", threads)
+            .arg("compile")
+            .arg(scene("tumbling_box"))
+            .arg("-o")
+            .arg(&path)
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        contents(&path)
+    };
+    let one = compile_with("1");
+    // The scripts, the two files of the sequence, the manifest and the lock.
+    assert_eq!(one.len(), 301 + 2 + 2);
+    for threads in ["2", "8"] {
+        assert!(one == compile_with(threads), "{threads} threads give other bytes than one");
+    }
+}
+
+#[test]
+fn any_folder_user_and_locale() {
+    let here = tempfile::tempdir().unwrap();
+    compile(&scene("parabola"), &here.path().join("out"), &["--frames", "0-20"]);
+
+    let there = tempfile::tempdir().unwrap();
+    fs::create_dir_all(there.path().join("a b/é")).unwrap();
+    fs::copy(scene("parabola"), there.path().join("a b/é/parabola.toml")).unwrap();
+    let output = jabuka()
+        .current_dir(there.path())
+        .env_clear()
+        .envs([
+            ("USER", "someone_else"),
+            ("HOME", "/nowhere"),
+            ("LC_ALL", "de_DE.UTF-8"),
+            ("TZ", "Asia/Tokyo"),
+        ])
+        .args(["compile", "a b/é/parabola.toml", "--frames", "0-20"])
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    // Without `-o` the folder is named after the scene's file.
+    assert!(contents(&here.path().join("out")) == contents(&there.path().join("out/parabola")));
+}
+
+#[test]
+fn nothing_of_the_machine_is_in_the_files() {
+    let folder = tempfile::tempdir().unwrap();
+    compile(&scene("parabola"), folder.path(), &["--frames", "0"]);
+    let path = folder.path().to_str().unwrap();
+    for (name, bytes) in contents(folder.path()) {
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(!text.contains(path) && !text.contains(env!("CARGO_MANIFEST_DIR")), "{name}");
+    }
+}
+
+#[test]
+fn compiled_again_into_the_same_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    compile(&scene("damped_spring"), folder.path(), &[]);
+    let first = contents(folder.path());
+    compile(&scene("damped_spring"), folder.path(), &[]);
+    assert!(first == contents(folder.path()));
+}
