@@ -70,11 +70,6 @@ impl Block {
         Block { style, groups: together.iter().map(plan).collect() }
     }
 
-    /// How the block writes numbers and lengths.
-    pub(super) fn style(&self) -> Style {
-        self.style
-    }
-
     /// Appends the bodies of a frame. The first body that cannot be written in these units is an error.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
         for group in &self.groups {

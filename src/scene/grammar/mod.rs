@@ -6,10 +6,12 @@
 
 mod keys;
 mod kind;
+mod reference;
 
 pub use keys::SCENE;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
+pub use reference::reference;
 
 /// One key of a table.
 #[derive(Debug)]

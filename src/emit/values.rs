@@ -1,0 +1,217 @@
+//! The values that templates see: together with the names of the templates, an interface for people who change them.
+//! It is documented in `templates/README.md`, and a test holds the two together.
+
+use minijinja::context;
+use minijinja::value::{Serde, Value};
+use serde::Serialize;
+
+use super::materials::MaterialText;
+use super::names;
+use super::sdl::Style;
+use super::stage::Stage;
+use crate::dynamics::Shape;
+use crate::scene::{Body, Include, Scene};
+use crate::simulate::{BodyFrame, Frame};
+
+/// The values of `common.inc`.
+pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -> Value {
+    let include = |include: &Include| match include {
+        Include::Standard(name) => context! { name => name.clone(), text => () },
+        Include::Text { name, text } => context! { name => name.clone(), text => text.clone() },
+    };
+    context! {
+        title => scene.title.clone(),
+        includes => scene.povray.include.iter().map(include).collect::<Vec<_>>(),
+        sdl => scene.povray.sdl.clone(),
+        materials => Value::from(Serde(materials)),
+        axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
+        ..Value::from(Serde(stage))
+    }
+}
+
+/// The values of `animation.pov` and `animation.ini`.
+pub(super) fn sequence(scene: &Scene) -> Value {
+    let frames = scene.simulation.frames();
+    let last = frames.saturating_sub(1);
+    let digits = names::width(frames);
+    context! {
+        title => scene.title.clone(),
+        frames,
+        last,
+        digits,
+        // POV-Ray numbers images with the digits of the last number: these make up for the others.
+        padding => "0".repeat(digits - last.to_string().len()),
+        width => scene.output.width,
+        height => scene.output.height,
+        frame_rate => scene.simulation.frame_rate,
+        end => scene.simulation.time(last),
+    }
+}
+
+/// The values of `frame.pov`, but for those that change with the frame.
+pub(super) struct FrameConstants {
+    title: Value,
+    frames: usize,
+    common: Value,
+    style: Style,
+    /// Made for templates that look at `bodies`; the built-in ones do not.
+    bodies: Option<Vec<BodyConstants>>,
+}
+
+/// What stays the same about a body.
+#[derive(Serialize)]
+struct BodyConstants {
+    name: String,
+    shape: &'static str,
+    material: Option<String>,
+}
+
+/// A body as templates see it.
+#[derive(Serialize)]
+struct BodyValues<'a> {
+    #[serde(flatten)]
+    constants: &'a BodyConstants,
+    location: [f64; 3],
+    matrix: String,
+    velocity: [f64; 3],
+    angular_velocity: [f64; 3],
+    force: [f64; 3],
+}
+
+impl FrameConstants {
+    /// The constants of a scene; `common` is the text of `common.inc`, and `with_bodies` says whether a template looks
+    /// at `bodies`.
+    pub(super) fn new(
+        scene: &Scene,
+        common: String,
+        materials: &[MaterialText],
+        style: Style,
+        with_bodies: bool,
+    ) -> FrameConstants {
+        let body = |body: &Body| BodyConstants {
+            name: body.name.clone(),
+            shape: shape_name(&body.shape),
+            material: body.material.map(|material| materials[material].identifier.clone()),
+        };
+        FrameConstants {
+            title: Value::from(scene.title.clone()),
+            frames: scene.simulation.frames(),
+            common: Value::from(common),
+            style,
+            bodies: with_bodies.then(|| scene.bodies.iter().map(body).collect()),
+        }
+    }
+
+    /// All values of a frame; `bodies_sdl` is the block of its bodies.
+    pub(super) fn of(&self, frame: &Frame, bodies_sdl: String) -> Value {
+        let bodies = self.bodies.as_ref().map(|constants| {
+            let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
+            Value::from(Serde(values.collect::<Vec<_>>()))
+        });
+        context! {
+            frame => frame.index,
+            time => frame.time,
+            frames => self.frames,
+            title => self.title.clone(),
+            common => self.common.clone(),
+            bodies_sdl,
+            bodies,
+        }
+    }
+
+    fn body<'a>(&self, constants: &'a BodyConstants, body: &BodyFrame) -> BodyValues<'a> {
+        let mut matrix = String::new();
+        self.style.matrix(&mut matrix, body.orientation, body.location);
+        BodyValues {
+            constants,
+            location: (body.location / self.style.unit).to_array(),
+            matrix,
+            velocity: body.velocity.to_array(),
+            angular_velocity: body.angular_velocity.to_array(),
+            force: body.force.to_array(),
+        }
+    }
+}
+
+fn shape_name(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Sphere { .. } => "sphere",
+        Shape::Box { .. } => "box",
+        Shape::Plane { .. } => "plane",
+        Shape::Axes { .. } => "axes",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use minijinja::value::ValueKind;
+
+    use super::*;
+    use crate::emit::materials;
+    use crate::simulate::{Frames, survey};
+
+    /// Adds the names of all values within a value: `camera.angle`, `lights[].name`.
+    fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
+        match value.kind() {
+            ValueKind::Map => {
+                for key in value.try_iter().unwrap() {
+                    let dot = if path.is_empty() { "" } else { "." };
+                    names(&value.get_item(&key).unwrap(), &format!("{path}{dot}{key}"), found);
+                }
+            }
+            ValueKind::Seq if value.try_iter().unwrap().any(|item| item.kind() == ValueKind::Map) => {
+                value.try_iter().unwrap().for_each(|item| names(&item, &format!("{path}[]"), found));
+            }
+            _ => {
+                found.insert(path.to_owned());
+            }
+        }
+    }
+
+    /// The names in the first column of the table below a heading of `templates/README.md`.
+    fn documented(heading: &str) -> BTreeSet<String> {
+        let page = include_str!("../../templates/README.md");
+        let (_, rest) = page.split_once(heading).unwrap();
+        let section = rest.split("\n## ").next().unwrap();
+        let rows = section.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
+        rows.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    #[test]
+    fn the_documentation_names_every_value_and_no_other() {
+        let scene = Scene::parse(
+            "
+            [body.ball]
+            shape.sphere.radius = 1
+            [light.lamp]
+            point.location = [1, 2, 3]
+            [povray]
+            include = ['colors.inc']
+            ",
+        )
+        .unwrap();
+        let stage = Stage::new(&scene, &survey(&scene, |_| {}).unwrap());
+        let materials = materials::texts(&scene.materials);
+        let style = Style { unit: 1.0, digits: 9 };
+        let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
+        let frame = Frames::new(&scene).next().unwrap().unwrap();
+
+        for (heading, value) in [
+            ("## The values of `common.inc`", common(&scene, &stage, &materials)),
+            ("## The values of `frame.pov`", constants.of(&frame, String::new())),
+            ("## The values of `animation.pov` and `animation.ini`", sequence(&scene)),
+        ] {
+            let mut found = BTreeSet::new();
+            names(&value, "", &mut found);
+            assert_eq!(found, documented(heading), "{heading}");
+        }
+    }
+
+    #[test]
+    fn the_documentation_names_every_template_and_no_other() {
+        let names = crate::emit::TEMPLATES.iter().map(|(name, _)| (*name).to_owned());
+        assert_eq!(names.collect::<BTreeSet<_>>(), documented("# The templates"));
+    }
+}

@@ -1,0 +1,85 @@
+//! Every scene, command and output that the README shows is real.
+//!
+//! A `toml` block is written to the file that its first line names; of a `console` block every command is run, in the
+//! order of the page, and must print what stands below it. To see what the page should say:
+//! `JABUKA_UPDATE_DOCS=1 cargo test --test readme` writes the outputs into it.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+#[path = "support/mod.rs"]
+mod support;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use support::root;
+
+#[test]
+fn every_command_prints_what_the_page_shows() {
+    let folder = tempfile::tempdir().unwrap();
+    let copy = Command::new("cp").arg("-r").arg(root().join("scenes")).arg(folder.path()).status();
+    assert!(copy.unwrap().success());
+    let page = fs::read_to_string(root().join("README.md")).unwrap();
+
+    let mut real = String::new();
+    let mut rest = page.as_str();
+    while let Some((before, block)) = rest.split_once("```") {
+        let (block, after) = block.split_once("\n```").expect("a block ends");
+        let (language, text) = block.split_once('\n').expect("a block has lines");
+        real.push_str(before);
+        let text = match language {
+            "toml" => write_scene(folder.path(), text),
+            "console" => run_commands(folder.path(), text),
+            _ => text.to_owned(),
+        };
+        real.push_str(&format!("```{language}\n{}\n```", text.trim_end()));
+        rest = after;
+    }
+    real.push_str(rest);
+
+    if std::env::var_os("JABUKA_UPDATE_DOCS").is_some() {
+        fs::write(root().join("README.md"), &real).unwrap();
+    } else {
+        assert_same(&page, &real);
+    }
+}
+
+/// Writes a scene to the file that its first line names: `# ball.toml`.
+fn write_scene(folder: &Path, text: &str) -> String {
+    let name = text.lines().next().and_then(|line| line.strip_prefix("# ")).expect("a scene names its file");
+    fs::write(folder.join(name), text).unwrap();
+    text.to_owned()
+}
+
+/// Runs the commands of a block, and returns it as it should be.
+fn run_commands(folder: &Path, block: &str) -> String {
+    let bin = Path::new(env!("CARGO_BIN_EXE_jabuka")).parent().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let commands = block.lines().filter_map(|line| line.strip_prefix("$ "));
+    let run = |command: &str| {
+        // The binary is built already; building it in the folder of the test would need the whole project.
+        let short = command.replace("cargo run --release --", "jabuka");
+        let output = Command::new("bash")
+            .args(["-c", &format!("exec 2>&1; {short}")])
+            .current_dir(folder)
+            .env("PATH", &path)
+            .output()
+            .unwrap();
+        format!("$ {command}\n{}", String::from_utf8(output.stdout).unwrap().trim_end_matches('\n'))
+    };
+    commands.map(run).map(|text| text.trim_end().to_owned() + "\n").collect()
+}
+
+/// Asserts that two pages are equal, but for the seconds that a run took.
+fn assert_same(page: &str, real: &str) {
+    let untimed = |line: &str| match line.strip_suffix(" s").and_then(|line| line.rsplit_once(" in ")) {
+        Some((what, seconds)) if seconds.parse::<f64>().is_ok() => what.to_owned(),
+        _ => line.to_owned(),
+    };
+    let mut real_lines = real.lines();
+    for (number, line) in page.lines().enumerate() {
+        let real_line = real_lines.next().unwrap_or_default();
+        assert_eq!(untimed(line), untimed(real_line), "README.md, line {}", number + 1);
+    }
+    assert_eq!(real_lines.next(), None, "README.md ends too early");
+}
