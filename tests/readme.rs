@@ -3,7 +3,7 @@
 //! A `toml` block is written to the file that its first line names; of a `console` block every command is run, in the
 //! order of the page, and must print what stands below it. To see what the page should say:
 //! `JABUKA_UPDATE_DOCS=1 cargo test --test readme` writes the outputs into it.
-#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 #[path = "support/mod.rs"]
 mod support;
