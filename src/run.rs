@@ -1,9 +1,10 @@
 //! A scene on its way to scripts.
 
+use crate::diagnostic::Diagnostic;
 use crate::emit::{EmitError, Emitter};
 use crate::output::Selection;
 use crate::scene::Scene;
-use crate::simulate::{Diverged, Frame, Frames, Survey, survey};
+use crate::simulate::{Crossing, Diverged, Frame, Frames, Survey, survey};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {
@@ -55,6 +56,17 @@ impl<'a> Run<'a> {
         &self.emitter
     }
 
+    /// What was noticed of the run and is no error: bodies that go through planes, and bodies too thin to be drawn.
+    pub fn warnings(&self) -> Vec<Diagnostic> {
+        let crossings = self.survey.crossings.iter().map(crossing);
+        let thin = self.emitter.too_thin().map(|body| {
+            let message =
+                format!("POV-Ray may not draw `{body}`: it is too thin against the size of the whole scene");
+            Diagnostic::warning("too-thin", message).help("look from nearer, or make the body larger")
+        });
+        crossings.chain(thin).collect()
+    }
+
     /// The frames, from the initial state.
     pub fn frames(&self) -> Frames<'a> {
         Frames::new(self.scene)
@@ -76,6 +88,18 @@ impl<'a> Run<'a> {
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         self.emitter.script(frame)
     }
+}
+
+/// That a body goes through a plane.
+fn crossing(crossing: &Crossing) -> Diagnostic {
+    let plane = crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
+    let others = match crossing.others {
+        0 => String::new(),
+        1 => ", and 1 other body later".to_owned(),
+        others => format!(", and {others} other bodies later"),
+    };
+    let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
+    Diagnostic::warning("crossing", message).help("bodies do not collide yet: nothing stops it")
 }
 
 impl From<Diverged> for RunError {

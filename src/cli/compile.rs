@@ -6,7 +6,6 @@ use std::time::Instant;
 use jabuka::diagnostic::{Diagnostic, Report};
 use jabuka::output::{self, Folder, OutputError, Selection};
 use jabuka::scene::{Options, Override};
-use jabuka::simulate::Crossing;
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;
@@ -62,7 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let written = output::write(&run, &folder, &selection, &|| progress.step());
     let written = written.map_err(|error| failed(&progress, &error))?;
     progress.finish();
-    say::report(&crossings(&run.survey().crossings));
+    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     say::result(&summary::summary(&run, folder.path(), &written, start.elapsed()));
     Ok(())
 }
@@ -98,22 +97,6 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     }
     say::result(&format!("{}: {} of {compared} scripts differ\n", folder.display(), differences.len()));
     Err(Failure::Errors)
-}
-
-/// Warnings of bodies that go through planes.
-fn crossings(crossings: &[Crossing]) -> Report {
-    let warning = |crossing: &Crossing| {
-        let plane =
-            crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
-        let others = match crossing.others {
-            0 => String::new(),
-            1 => ", and 1 other body later".to_owned(),
-            others => format!(", and {others} other bodies later"),
-        };
-        let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
-        Diagnostic::warning("crossing", message).help("bodies do not collide yet: nothing stops it")
-    };
-    Report { diagnostics: crossings.iter().map(warning).collect(), ..Report::default() }
 }
 
 /// Says the errors of a scene.

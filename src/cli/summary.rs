@@ -14,8 +14,11 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
     let kept = if written.kept > 0 { format!(", {} others kept", written.kept) } else { String::new() };
     let unit = run.emitter().unit();
     #[allow(clippy::float_cmp, reason = "a unit that is not chosen is exactly 1")]
-    let unit =
-        if unit == 1.0 { String::new() } else { format!("unit      1 unit of POV-Ray's is {unit:e} m\n") };
+    let unit = if unit == 1.0 {
+        String::new()
+    } else {
+        format!("unit      1 unit of POV-Ray's is {} m\n", short(unit))
+    };
     format!(
         "{folder}: {scripts} of {frames} frames{kept}\n\
          bodies    {bodies}\n\
@@ -38,7 +41,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
 /// A number to four digits, without trailing zeros.
 fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    if number == 0.0 || (1e-4..1e6).contains(&number.abs()) {
+    if number == 0.0 || (1e-5..1e6).contains(&number.abs()) {
         format!("{rounded}")
     } else {
         format!("{rounded:e}")

@@ -31,6 +31,9 @@ pub enum Shape {
     },
 }
 
+/// The radius of an arm of the axes, at its thickest, in lengths of an arm.
+const ARM_RADIUS: f64 = 0.078;
+
 impl Shape {
     /// The volume in m³; `None` for a plane, which has no finite one.
     #[must_use]
@@ -69,8 +72,8 @@ impl Shape {
             Shape::Sphere { radius } => Some(radius),
             Shape::Box { size } => Some(0.5 * size.dot(direction.abs())),
             Shape::Plane { .. } => None,
-            // The points that count are the three tips and the origin, whose p · direction is 0.
-            Shape::Axes { length } => Some(length * direction.max_element().max(0.0)),
+            // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
+            Shape::Axes { length } => Some(length * (direction.max_element().max(0.0) + ARM_RADIUS)),
         }
     }
 
@@ -153,11 +156,12 @@ mod tests {
         let cube = Shape::Box { size: DVec3::new(1.0, 1.0, 4.0) };
         assert!((reach(cube, DVec3::NEG_Y) - 0.5_f64.sqrt()).abs() < 1e-15);
         assert!((reach(cube, DVec3::NEG_Z) - 2.0).abs() < 1e-15);
-        // Arms x and y point up to either side; downward there is but the origin.
+        // Arms x and y point up to either side; downward there is but the origin, as thick as an arm.
         let axes = Shape::Axes { length: 2.0 };
-        assert!((reach(axes, DVec3::Y) - 2.0_f64.sqrt()).abs() < 1e-15);
-        assert_eq!(reach(axes, DVec3::NEG_Z), 0.0);
-        assert!(reach(axes, DVec3::NEG_Y) < 1e-15);
+        let thick = 2.0 * ARM_RADIUS;
+        assert!((reach(axes, DVec3::Y) - 2.0_f64.sqrt() - thick).abs() < 1e-15);
+        assert_eq!(reach(axes, DVec3::NEG_Z), thick);
+        assert!((reach(axes, DVec3::NEG_Y) - thick).abs() < 1e-15);
         assert_eq!(reach(Shape::Sphere { radius: 3.0 }, DVec3::X), 3.0);
     }
 }

@@ -33,6 +33,7 @@ pub struct Emitter {
     constants: FrameConstants,
     block: Block,
     unit: f64,
+    too_thin: Option<usize>,
     /// The names of the bodies.
     names: Vec<String>,
 }
@@ -71,6 +72,7 @@ impl Emitter {
             constants: FrameConstants::new(scene, common, &materials, style, with_bodies),
             block: Block::new(scene, &materials, style),
             unit: stage.unit,
+            too_thin: stage.too_thin,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             templates,
         })
@@ -79,6 +81,12 @@ impl Emitter {
     /// The length of one unit of POV-Ray's in the scripts, m.
     pub fn unit(&self) -> f64 {
         self.unit
+    }
+
+    /// The name of a body that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
+    /// enough.
+    pub fn too_thin(&self) -> Option<&str> {
+        self.too_thin.map(|body| self.names[body].as_str())
     }
 
     /// The script of a frame.
@@ -106,7 +114,14 @@ impl Emitter {
 
 impl From<minijinja::Error> for EmitError {
     fn from(error: minijinja::Error) -> EmitError {
-        EmitError::Template(format!("{error:#}"))
+        // The innermost cause says what is wrong; the others say on the way from which template to which.
+        let mut message = error.to_string();
+        let mut cause = std::error::Error::source(&error);
+        while let Some(error) = cause {
+            message = format!("{message}: {error}");
+            cause = error.source();
+        }
+        EmitError::Template(message)
     }
 }
 

@@ -26,6 +26,9 @@ pub(super) struct Stage {
     tile: f64,
     sky: SkyText,
     fog: bool,
+    /// The number of a body that POV-Ray may not draw.
+    #[serde(skip)]
+    pub(super) too_thin: Option<usize>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -85,7 +88,9 @@ impl Stage {
         let center = (bounds.min + bounds.max) / 2.0;
         let size = two_digits_up((bounds.max - bounds.min).length());
         let distance = camera.location.distance(center);
-        let unit = scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest(scene)));
+        let thinnest = thinnest(scene);
+        let unit =
+            scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest.map(|(_, half)| half)));
 
         let ground = scene.environment.ground.as_ref().map(|ground| GroundText {
             height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
@@ -113,6 +118,7 @@ impl Stage {
             tile: tile(size) / unit,
             sky,
             fog: scene.environment.fog,
+            too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
     }
 }
@@ -149,8 +155,8 @@ fn linear(color: Color) -> [f64; 3] {
     color.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
 }
 
-/// Half the thickness of the thinnest body, m; none where there is no body with a size.
-fn thinnest(scene: &Scene) -> Option<f64> {
+/// The thinnest body and half its thickness, m; none where there is no body with a size.
+fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let half = |shape: &Shape| match shape {
         Shape::Sphere { radius } => Some(*radius),
         Shape::Box { size } => Some(size.min_element() / 2.0),
@@ -158,7 +164,8 @@ fn thinnest(scene: &Scene) -> Option<f64> {
         Shape::Axes { length } => Some(length * 0.03),
         Shape::Plane { .. } => None,
     };
-    scene.bodies.iter().filter_map(|body| half(&body.shape)).reduce(f64::min)
+    let halves = scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, half(&body.shape)?)));
+    halves.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
@@ -169,12 +176,14 @@ fn reach(bounds: Bounds, camera: Framing) -> f64 {
     points.into_iter().map(farthest).fold(size, f64::max)
 }
 
+/// Half the thickness, in POV-Ray's units, below which it gets edges and shadows wrong, since places nearer than 0.001
+/// are one to it. Measured on POV-Ray 3.7.
+const THINNEST: f64 = 0.01;
+
 /// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.
 ///
-/// Measured on POV-Ray 3.7: what is thinner than 0.01 gets wrong edges and shadows, since places nearer than 0.001
-/// are one to it; what is farther than 10⁵ comes near to the 10⁷ at which it stops to look.
+/// What is farther than 10⁵ comes near to the 10⁷ at which POV-Ray 3.7 stops to look.
 fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
-    const THINNEST: f64 = 0.01;
     const FARTHEST: f64 = 1e5;
     let thinnest = thinnest.unwrap_or(THINNEST);
     // The powers of ten at or above what the far, at or below what the thin asks for; the far is asked first.
@@ -202,4 +211,56 @@ fn tile(size: f64) -> f64 {
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
     let nearness = |step: &f64| (libm::log(step / wanted)).abs();
     steps.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_1_where_povray_can_draw_so() {
+        assert_eq!([unit(100.0, Some(0.01)), unit(1e5, Some(1.0)), unit(1.0, None)], [1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn other_units_keep_the_scene_within_reach_and_thin_bodies_thick_enough() {
+        for (reach, thinnest) in
+            [(1e-9, 1e-10), (1e13, 6e6), (1e11, 1e8), (2.0, 0.004), (3e5, 50.0), (0.2, 1e-4)]
+        {
+            let unit = unit(reach, Some(thinnest));
+            assert!(
+                reach / unit <= 1.000_001e5 && thinnest / unit >= THINNEST * 0.99,
+                "{reach} {thinnest}: {unit}"
+            );
+            assert!((libm::log10(unit) - libm::log10(unit).round()).abs() < 1e-9, "{unit} is a power of ten");
+        }
+    }
+
+    #[test]
+    fn the_ground_is_under_the_lowest_point_but_not_far() {
+        for (lowest, size) in [(-2.0, 84.0), (0.0, 3.0), (1.234, 0.5), (-1e-9, 1e-9), (7e12, 1e13)] {
+            let ground = just_under(lowest, size);
+            assert!(ground < lowest && lowest - ground < size / 50.0, "{lowest} {size}: {ground}");
+        }
+    }
+
+    #[test]
+    fn tiles_are_round_and_about_a_twelfth_of_the_scene() {
+        assert_eq!([tile(84.0), tile(12.0), tile(30.0)], [5.0, 1.0, 2.0]);
+        for size in [0.003, 0.7, 55.0, 1e4] {
+            assert!(
+                (size / tile(size) / 12.0).clamp(0.6, 1.7) == size / tile(size) / 12.0,
+                "{size}: {}",
+                tile(size)
+            );
+        }
+    }
+
+    #[test]
+    fn linear_light_is_darker_than_srgb_in_between() {
+        let [black, middle, white] = linear(Color([0.0, 0.5, 1.0]));
+        assert_eq!([black, white], [0.0, 1.0]);
+        // IEC 61966-2-1: sRGB 0.5 is 21.4 % of the light.
+        assert!((middle - 0.214_041).abs() < 1e-6, "{middle}");
+    }
 }

@@ -75,3 +75,50 @@ impl std::fmt::Display for Diverged {
 }
 
 impl std::error::Error for Diverged {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TUMBLE: &str = "
+        [simulation]
+        duration = 1
+        gravity = [0, -9.81, 0]
+        [body.box]
+        shape.box.size = [3, 1, 2]
+        angular_velocity = [0.1, 0.2, 5]
+        torque = [1, 0, 0]
+        ";
+
+    #[test]
+    fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
+        for method in crate::dynamics::METHODS {
+            let set = crate::scene::Override::new(format!("simulation.integrator={}", method.name));
+            let options = crate::scene::Options { overrides: vec![set], trust: false };
+            let scene = Scene::parse_with(TUMBLE, &options).unwrap();
+            let mut frames = Frames::new(&scene);
+            let first: Vec<Frame> = frames.by_ref().map(Result::unwrap).collect();
+            assert_eq!(first.len(), 26);
+            assert_ne!(first[0].bodies, first[25].bodies);
+            frames.reset();
+            assert_eq!(frames.map(Result::unwrap).collect::<Vec<_>>(), first, "{}", method.name);
+        }
+    }
+
+    #[test]
+    fn frames_know_their_time_and_the_forces() {
+        let scene = Scene::parse(TUMBLE).unwrap();
+        let last = Frames::new(&scene).last().unwrap().unwrap();
+        assert_eq!((last.index, last.time), (25, 1.0));
+        assert_eq!(last.bodies[0].force, glam::DVec3::new(0.0, -9.81, 0.0));
+    }
+
+    #[test]
+    fn a_run_that_leaves_the_numbers_ends_there() {
+        let scene = Scene::parse("[body.far]\nshape.sphere.radius = 1\nvelocity = [1e308, 0, 0]").unwrap();
+        let frames: Vec<_> = Frames::new(&scene).collect();
+        let Some(Err(diverged)) = frames.last() else { panic!("the run did not diverge") };
+        assert_eq!(diverged.body, "far");
+        assert!(frames.len() < 251 && frames[..frames.len() - 1].iter().all(Result::is_ok));
+    }
+}

@@ -9,6 +9,11 @@ use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
 use crate::scene::{Color, Number};
 
+/// The smallest magnitude beside zero: its square, and products of three, are still numbers.
+const SMALLEST: f64 = 1e-100;
+/// The largest magnitude: its square, and products of three, are still numbers.
+const LARGEST: f64 = 1e100;
+
 /// That a value is of another type than it should be.
 pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     let message = format!("expected {}, found {}", expected.in_words(), node.in_words());
@@ -29,6 +34,11 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     if !number.is_finite() {
         let message = format!("expected a finite number{}, found {number}", bound.in_words());
         return Err(Diagnostic::error("not-finite", message).at(node.span, ""));
+    }
+    if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
+        let message =
+            format!("a scene's numbers are 0, or from {SMALLEST:e} to {LARGEST:e}; this one is {number:e}");
+        return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
     }
     if !bound.admits(number) {
         let message = format!("expected a number{}, found {number}", bound.in_words());
