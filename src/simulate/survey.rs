@@ -16,7 +16,9 @@ pub struct Survey {
     pub bounds: Option<Bounds>,
     /// The first passage of a body through each plane or ground that is given.
     pub crossings: Vec<Crossing>,
-    /// The drift of the energy (see [`Balance`](crate::dynamics::Balance)) where it is largest.
+    /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
+    /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
+    /// run begins at rest.)
     pub drift: f64,
     /// The real timestep, s.
     pub timestep: f64,
@@ -53,7 +55,7 @@ pub struct Crossing {
 pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
     let mut bounds: Option<Bounds> = None;
     let mut planes = planes(scene);
-    let mut drift: f64 = 0.0;
+    let (mut error, mut largest_kinetic): (f64, f64) = (0.0, 0.0);
     for frame in Frames::new(scene) {
         let frame = frame?;
         for body in &frame.bodies {
@@ -63,8 +65,10 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
             }
         }
         planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
-        if frame.balance.drift.abs() > drift.abs() {
-            drift = frame.balance.drift;
+        largest_kinetic = largest_kinetic.max(frame.balance.kinetic);
+        let error_now = frame.balance.drift * largest_kinetic;
+        if error_now.abs() > error.abs() {
+            error = error_now;
         }
         seen(&frame);
     }
@@ -73,7 +77,7 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     Ok(Survey {
         bounds,
         crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
-        drift,
+        drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
         timestep: interval / f64::from(steps_per_frame),
         steps_per_frame,
     })
@@ -191,6 +195,23 @@ mod tests {
         let Bounds { min, max } = survey.bounds.unwrap();
         assert!((min - DVec3::new(-2f64.sqrt(), -0.5, -1.0)).length() < 1e-12, "{min}");
         assert!((max - DVec3::new(6.5, 4.0 + 2f64.sqrt(), 1.0)).length() < 1e-12, "{max}");
+    }
+
+    #[test]
+    fn the_drift_is_relative_to_the_whole_run() {
+        let survey = surveyed(
+            "
+            [simulation]
+            duration = 10
+            step = 0.01
+            gravity = [0, -10, 0]
+            [body.ball]
+            shape.sphere.radius = 1
+            ",
+        );
+        // Per kilogram: Euler–Cromer falls ½ g t dt too far, so its energy is g × that too small, 5 J at the end of 10 s;
+        // and ½ (g t)² is 5000 J. At the first frame, relative to what was kinetic by then, it would be a quarter.
+        assert!((survey.drift + 1e-3).abs() < 1e-9, "{}", survey.drift);
     }
 
     #[test]
