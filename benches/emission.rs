@@ -13,7 +13,8 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use jabuka::output::{self, Folder, Selection};
+use jabuka::output::{self, Folder};
+use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
 const BODIES: usize = 1_000;

@@ -2,9 +2,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::emit::{EmitError, Emitter};
-use crate::output::Selection;
 use crate::scene::Scene;
-use crate::simulate::{Crossing, Diverged, Frame, Frames, Survey, survey};
+use crate::simulate::{Crossing, Diverged, Frame, Frames, Selection, Survey, survey};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {

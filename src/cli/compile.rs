@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use jabuka::diagnostic::{Diagnostic, Report};
-use jabuka::output::{self, Folder, OutputError, Selection};
+use jabuka::output::{self, Folder, OutputError};
 use jabuka::scene::{Options, Override};
+use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;

@@ -7,9 +7,10 @@ use std::path::Path;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use similar::{ChangeTag, TextDiff};
 
-use super::{OutputError, Selection, folder};
+use super::{OutputError, folder};
 use crate::Run;
 use crate::emit::frame_name;
+use crate::simulate::Selection;
 
 /// How the script of a frame differs from the one in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,12 +7,10 @@ mod compare;
 mod error;
 mod folder;
 mod manifest;
-mod selection;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
 pub use manifest::{Entry, MANIFEST};
-pub use selection::Selection;
 pub use write::{Written, write};

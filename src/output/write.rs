@@ -5,9 +5,10 @@ use std::fs;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::manifest::{self, Entry, Head, MANIFEST, State};
-use super::{Folder, OutputError, Selection};
+use super::{Folder, OutputError};
 use crate::Run;
 use crate::emit::frame_name;
+use crate::simulate::Selection;
 
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]

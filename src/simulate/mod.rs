@@ -4,6 +4,7 @@
 
 mod build;
 mod frame;
+mod selection;
 mod survey;
 
 use crate::dynamics::Dynamics;
@@ -11,6 +12,7 @@ use crate::scene::Scene;
 
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
+pub use selection::Selection;
 pub use survey::{Bounds, Crossing, Survey, survey};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.
