@@ -2,6 +2,7 @@
 //!
 //! Every scene in tests/bad holds one mistake, or one kind of mistake. What `jabuka check` says of it is held against
 //! the snapshot of its name, so adding a test is dropping a file.
+#![allow(clippy::unwrap_used, unreachable_pub, reason = "helpers of tests are tests")]
 
 mod support;
 

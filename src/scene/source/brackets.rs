@@ -33,6 +33,7 @@ pub(super) fn look(text: &str, source: SourceId) -> Brackets {
 /// A list or an inline table that has begun.
 struct Open {
     start: usize,
+    is_list: bool,
     /// The last comma, while nothing follows it.
     comma: Option<toml_parser::Span>,
     /// Whether a line ends directly in it.
@@ -50,12 +51,16 @@ impl Looker<'_> {
     fn see(&mut self, event: Event) {
         let span = event.span();
         match event.kind() {
-            EventKind::ArrayOpen | EventKind::InlineTableOpen => {
+            kind @ (EventKind::ArrayOpen | EventKind::InlineTableOpen) => {
                 self.no_comma();
-                self.open.push(Open { start: span.start(), comma: None, several_lines: false });
+                let is_list = kind == EventKind::ArrayOpen;
+                self.open.push(Open { start: span.start(), is_list, comma: None, several_lines: false });
             }
-            EventKind::ArrayClose => self.close(span, "list", "]"),
-            EventKind::InlineTableClose => {
+            // Where the parser skips what it cannot read, brackets close that have not been opened.
+            EventKind::ArrayClose if self.open.last().is_some_and(|open| open.is_list) => {
+                self.close(span, "list", "]");
+            }
+            EventKind::InlineTableClose if self.open.last().is_some_and(|open| !open.is_list) => {
                 if let (Some(table), false) = (self.open.last(), span.is_empty()) {
                     let (lines, comma, start) = (table.several_lines, table.comma, table.start);
                     if lines {

@@ -66,6 +66,13 @@ fn words(what: &str, expected: &str, found: &str) -> (String, String) {
         "unquoted keys cannot be empty" => ("a key is missing", ""),
         "invalid unquoted key" => ("a key cannot contain this character, unless it stands in quotes", ""),
         "unclosed table" | "unclosed array table" => ("the header of a table is not closed", ""),
+        "missing table open" | "missing array opening" => {
+            ("a bracket is closed that has not been opened", "")
+        }
+        "missing comma between key-value pairs" => ("a comma is missing between the keys of a table", ""),
+        "invalid key-value pair" => {
+            ("a line of a scene is a key and its value, or the header of a table", "")
+        }
         "missing comma between array elements" => ("a comma is missing between the values of a list", ""),
         "extra comma in array" => ("a value is missing between two commas", ""),
         what if what.starts_with("cannot recurse") || what == "recursion limit" => {
