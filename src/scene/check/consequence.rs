@@ -25,7 +25,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         let line = sources.position(span.source, span.start).line;
         lines.insert((span.source, line));
         // After a header that cannot be read, keys are counted as those of another table.
-        let header = sources.line(span.source, line).trim_start().starts_with(['[', ']']);
+        let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
         if (header && diagnostic.code == "toml-syntax") || diagnostic.code == "toml-unclosed" {
             end = end.into_iter().chain([span]).min();
         }

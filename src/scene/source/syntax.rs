@@ -10,7 +10,8 @@ pub(super) fn diagnose(error: &Error, text: &str, source: SourceId) -> Diagnosti
     let found = range.clone().and_then(|range| text.get(range)).unwrap_or_default();
     let (what, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
     let code = if what == "duplicate key" { "duplicate-key" } else { "toml-syntax" };
-    let (message, help) = words(what, expected, found);
+    let next = range.clone().and_then(|range| text.get(range.start..)?.chars().next());
+    let (message, help) = words(what, expected, found, next);
     let label = match (what, expected) {
         (_, "" | "nothing") => String::new(),
         ("string values must be quoted" | "missing value for key", _) if found.is_empty() => {
@@ -33,8 +34,8 @@ fn is_unclosed(expected: &str) -> bool {
     matches!(expected, "`\"`" | "`'`" | "'''")
 }
 
-/// What is wrong, and how to mend it.
-fn words(what: &str, expected: &str, found: &str) -> (String, String) {
+/// What is wrong, and how to mend it; `found` is the text that is wrong, `next` the first character there.
+fn words(what: &str, expected: &str, found: &str, next: Option<char>) -> (String, String) {
     let (message, help): (&str, &str) = match what {
         "string values must be quoted" | "missing value for key" if found.is_empty() => {
             ("a value is missing", "")
@@ -53,7 +54,7 @@ fn words(what: &str, expected: &str, found: &str) -> (String, String) {
             return (format!("`{found}` is a value already, so it cannot be a table"), String::new());
         }
         "missing escaped value" => (
-            "no escape begins so",
+            "a string contains an unknown escape",
             "write `\\\\` for a backslash, or put the text in single quotes, where a backslash is itself",
         ),
         what if what.ends_with("string") && is_unclosed(expected) => ("the string is not closed", ""),
@@ -61,7 +62,14 @@ fn words(what: &str, expected: &str, found: &str) -> (String, String) {
             ("a string cannot contain this control character", "write `\\u` and four hexadecimal digits")
         }
         "invalid comment character" => ("a comment cannot contain this control character", ""),
+        "unexpected key or value" if next == Some(',') => (
+            "a comma where the line should end",
+            "a decimal point is a point: `1.5`; a list stands in brackets",
+        ),
         "unexpected key or value" => ("something follows where the line should end", ""),
+        "extra `=`" => ("one `=` too many", ""),
+        "invalid float" | "invalid exponent" => ("this is not a number", ""),
+        "unexpected leading zero" => ("a number cannot begin with a zero that does not count", ""),
         "key with no value" => ("a key without a value", ""),
         "unquoted keys cannot be empty" => ("a key is missing", ""),
         "invalid unquoted key" => ("a key cannot contain this character, unless it stands in quotes", ""),

@@ -65,7 +65,8 @@ impl Reader<'_> {
         let value = match value.get_ref() {
             DeValue::Array(items) => self.list(items),
             DeValue::Table(table) => Value::Table(self.table(table)),
-            _ if self.is_wrong(span) => Value::Invalid,
+            // Where there is no value at all, the parser makes one up, without extent.
+            _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
             DeValue::String(text) => Value::String(text.clone().into_owned()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(number) => Value::Integer(number),
