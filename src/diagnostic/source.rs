@@ -7,6 +7,8 @@ pub struct Source {
     pub name: String,
     /// The whole text.
     pub text: String,
+    /// Where its lines start.
+    lines: Vec<usize>,
 }
 
 /// The texts that one scene was read from. The scene's own file is the first.
@@ -14,7 +16,7 @@ pub struct Source {
 pub struct Sources(Vec<Source>);
 
 /// The number of a text within its [`Sources`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(usize);
 
 /// A range of bytes in one of the [`Sources`].
@@ -40,7 +42,9 @@ pub struct Position {
 impl Sources {
     /// Adds a text and returns its number.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
-        self.0.push(Source { name: name.into(), text: text.into() });
+        let text = text.into();
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1));
+        self.0.push(Source { name: name.into(), lines: lines.collect(), text });
         SourceId(self.0.len() - 1)
     }
 
@@ -51,12 +55,20 @@ impl Sources {
 
     /// The line and column at which a byte of a text stands.
     pub fn position(&self, source: SourceId, byte: usize) -> Position {
-        let before = self.get(source).text.as_bytes();
-        let before = &before[..byte.min(before.len())];
-        let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |newline| newline + 1);
+        let Source { text, lines, .. } = self.get(source);
+        let byte = byte.min(text.len());
+        let line = lines.partition_point(|&start| start <= byte);
+        let start = lines[line - 1];
         // Every character has exactly one byte that is not a continuation byte.
-        let column = before[line_start..].iter().filter(|&&b| b & 0xC0 != 0x80).count();
-        Position { line: 1 + before.iter().filter(|&&b| b == b'\n').count(), column: 1 + column }
+        let column = text.as_bytes()[start..byte].iter().filter(|&&b| b & 0xC0 != 0x80).count();
+        Position { line, column: 1 + column }
+    }
+
+    /// The text of a line, counted from 1.
+    pub fn line(&self, source: SourceId, line: usize) -> &str {
+        let Source { text, lines, .. } = self.get(source);
+        let start = |line: usize| lines.get(line).copied().unwrap_or(text.len());
+        &text[start(line.saturating_sub(1))..start(line)]
     }
 }
 

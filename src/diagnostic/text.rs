@@ -1,18 +1,36 @@
 //! Diagnostics as text, in the manner of rustc.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::{Diagnostic, Label, Report, Severity, Sources};
+use super::{Diagnostic, Label, Report, Severity, SourceId, Sources};
+
+/// So many diagnostics are shown of one line; each shows the line, which may be very long.
+const MOST_OF_A_LINE: usize = 50;
 
 /// Renders every diagnostic of a report, with an empty line after each.
 pub(super) fn render(report: &Report, color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut text = String::new();
+    let mut lines: BTreeMap<(SourceId, usize), usize> = BTreeMap::new();
     for diagnostic in &report.diagnostics {
+        if let Some(span) = diagnostic.span() {
+            let line = report.sources.position(span.source, span.start).line;
+            let shown = lines.entry((span.source, line)).or_default();
+            *shown += 1;
+            if *shown > MOST_OF_A_LINE {
+                continue;
+            }
+        }
         text.push_str(&renderer.render(&groups(diagnostic, &report.sources)));
         text.push_str("\n\n");
+    }
+    for ((source, line), count) in lines.into_iter().filter(|(_, count)| *count > MOST_OF_A_LINE) {
+        let name = &report.sources.get(source).name;
+        let more = count - MOST_OF_A_LINE;
+        text.push_str(&format!("… and {more} more in line {line} of {name}\n\n"));
     }
     text
 }
@@ -90,6 +108,32 @@ mod tests {
             .at(Span::new(set, 2..3), "and that")
             .help("mend it");
         let report = Report { sources, diagnostics: vec![diagnostic] };
-        insta::assert_snapshot!(report.to_text(false), @"");
+        insta::assert_snapshot!(report.to_text(false), @r"
+        error[test]: three things
+         --> scene.toml:2:1
+          |
+        2 | b = 2
+          | ^ this
+        3 | c = 3
+          | - and this
+          |
+         ::: --set:1:3
+          |
+        1 | b=4
+          |   - and that
+          |
+          = help: mend it
+        ");
+    }
+
+    #[test]
+    fn of_a_line_with_very_many_mistakes_not_all_are_shown() {
+        let mut sources = Sources::default();
+        let id = sources.add("scene.toml", "a = 1\n");
+        let error = Diagnostic::error("test", "wrong").at(Span::new(id, 0..1), "");
+        let report = Report { sources, diagnostics: vec![error; MOST_OF_A_LINE + 3] };
+        let text = report.to_text(false);
+        assert_eq!(text.matches("error[test]").count(), MOST_OF_A_LINE);
+        assert!(text.ends_with("… and 3 more in line 1 of scene.toml\n\n"), "{text}");
     }
 }

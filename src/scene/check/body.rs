@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Context;
+use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::Shape;
@@ -37,7 +38,8 @@ fn body(
     Body {
         name: name.to_owned(),
         mass,
-        inertia: inertia(name, view, context).unwrap_or_else(|| shape.inertia(mass)),
+        inertia: inertia(name, view, context)
+            .unwrap_or_else(|| inertia_of_shape(name, span, &shape, mass, fixed, context)),
         location: view.vector("location").unwrap_or(DVec3::ZERO),
         orientation: orientation(name, view, context),
         velocity: view.vector("velocity").unwrap_or(DVec3::ZERO),
@@ -78,8 +80,10 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
     if fixed {
         let why = if plane { "a plane is always fixed" } else { "it is fixed" };
         for key in MOTION.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO)) {
-            let error =
-                Diagnostic::error("fixed-moves", format!("`{name}` is fixed, so it cannot have a `{key}`"));
+            let error = Diagnostic::error(
+                "fixed-moves",
+                format!("`{name}` is fixed, so its `{key}` must be [0, 0, 0]"),
+            );
             context.diagnostics.extend(view.key_span(key).map(|span| error.at(span, why)));
         }
         for key in PUSHING.into_iter().filter(|key| view.has(key)) {
@@ -98,10 +102,34 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     if mass.is_finite() && mass > 0.0 {
         return mass;
     }
-    let message = format!("the mass of `{name}`, density × volume, is {mass} kg");
-    let error = Diagnostic::error("impossible-mass", message);
-    context.diagnostics.push(error.at(view.span("density").unwrap_or(span), ""));
+    let error = Diagnostic::error("impossible-mass", format!("the mass of `{name}` is {}", extreme(mass)));
+    let label = "mass = density × volume";
+    context.diagnostics.push(error.at(view.span("density").unwrap_or(span), label));
     1.0
+}
+
+/// What is wrong with a number that should be positive and finite, and has been computed.
+fn extreme(number: f64) -> &'static str {
+    if number > 0.0 { "larger than any number" } else { "smaller than any number" }
+}
+
+/// The inertia that follows from shape and mass, which must be one that a computer can divide by.
+fn inertia_of_shape(
+    name: &str,
+    span: Span,
+    shape: &Shape,
+    mass: f64,
+    fixed: bool,
+    context: &mut Context<'_>,
+) -> DVec3 {
+    let inertia = shape.inertia(mass);
+    let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
+    if let (Some(moment), false) = (wrong, fixed) {
+        let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
+        let error = Diagnostic::error("impossible-inertia", message);
+        context.diagnostics.push(error.at(span, "its shape or its mass is too extreme"));
+    }
+    inertia
 }
 
 /// The inertia that is given, if it is one that a body can have.
@@ -110,10 +138,14 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
     // body reaches it, and rounding may exceed it a little.
     const ROUNDING: f64 = 1e-9;
     let inertia = view.vector("inertia")?;
-    let (largest, sum) = (inertia.max_element(), inertia.x + inertia.y + inertia.z);
-    if largest > (sum - largest) * (1.0 + ROUNDING) {
+    let mut moments = inertia.to_array();
+    moments.sort_unstable_by(f64::total_cmp);
+    let [smallest, middle, largest] = moments;
+    let others = smallest + middle;
+    if largest > others * (1.0 + ROUNDING) {
         let message = format!("no body has the moments of inertia of `{name}`");
-        let label = format!("{largest} is larger than the sum of the other two, {}", sum - largest);
+        let label =
+            format!("{} is larger than the sum of the other two, {}", figure(largest), figure(others));
         let help = "Ix + Iy ≥ Iz, and likewise for the others, holds for every distribution of mass";
         let error = Diagnostic::error("impossible-inertia", message).help(help);
         context.diagnostics.extend(view.span("inertia").map(|span| error.at(span, label)));

@@ -30,7 +30,9 @@ fn constant(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Forc
                 let Some(body) = named_body(item, context) else { continue };
                 if on.contains(&body) {
                     let message = format!("the body `{}` is named twice", bodies[body].name);
-                    context.diagnostics.push(Diagnostic::error("named-twice", message).at(item.span, ""));
+                    context
+                        .diagnostics
+                        .push(Diagnostic::error("named-twice", message).at(item.span, "the second time"));
                 } else if bodies[body].fixed {
                     let message = format!("the force has no effect on `{}`", bodies[body].name);
                     context

@@ -1,6 +1,7 @@
 //! Tree → [`Scene`], or all that is wrong with it.
 
 mod body;
+mod consequence;
 mod force;
 mod look;
 mod povray;
@@ -39,6 +40,8 @@ struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
     names: Names,
+    /// How many more names may be compared with unknown ones.
+    comparisons: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -70,9 +73,11 @@ impl Names {
 pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Report> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    let id = sources.add(input.shown, input.text);
-    let mut tree = source::parse(input.text, id, &mut diagnostics);
-    let readable = diagnostics.is_empty();
+    // An editor does not show a byte order mark, and does not count it as a column.
+    let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
+    let id = sources.add(input.shown, text);
+    let mut tree = source::parse(text, id, &mut diagnostics);
+    let unreadable = diagnostics.len();
     let mut root = match &mut tree.value {
         source::Value::Table(table) => std::mem::take(table),
         _ => Table::default(),
@@ -85,15 +90,13 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         folder: input.folder,
         trust: options.trust,
         names: Names::of(&root),
+        comparisons: suggest::MAX_COMPARISONS,
         diagnostics: Vec::new(),
     };
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &mut context);
     let mut found = context.diagnostics;
-    if !readable {
-        // What could not be read is not there: that it is missing need not be said as well.
-        found.retain(|d| !matches!(d.code, "missing-key" | "unknown-name" | "no-bodies"));
-    }
+    consequence::drop(&mut found, &diagnostics[..unreadable], &sources);
     diagnostics.append(&mut found);
 
     let mut report = Report { sources, diagnostics };

@@ -71,12 +71,12 @@ pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
     // The name stands in a string of the script.
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
-        return Err(error(
-            "bad-include",
-            format!("`{}` cannot be the name of an include file", name.escape_debug()),
-        ));
+        let message = format!("`{name}` cannot be the name of an include file");
+        let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
+        return Err(error("bad-include", message).help(help));
     }
-    let below = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+    let below =
+        Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     if !below && !trust {
         return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));

@@ -20,19 +20,34 @@ pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     Diagnostic::error("wrong-type", message).at(node.span, "")
 }
 
+/// A number as a message shows it: as a scene would write it, and never with hundreds of zeros.
+pub(super) fn figure(number: f64) -> String {
+    if number.is_nan() {
+        "nan".to_owned()
+    } else if number == 0.0 || !number.is_finite() || (1e-5..1e15).contains(&number.abs()) {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    }
+}
+
 /// A finite number within a bound.
 pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     let number = match Number::of(node) {
         Some(Number::Literal(number)) => number,
-        Some(Number::Formula(_)) => {
-            let message = "formulas are not there yet: a number is expected here";
-            let help = "write the number without quotes; a later version will know formulas in strings";
-            return Err(Diagnostic::error("formula-not-yet", message).at(node.span, "not yet").help(help));
+        Some(Number::Formula(formula)) => {
+            let message = format!("expected a number{}, found a string", bound.in_words());
+            let error = Diagnostic::error("formula-not-yet", message);
+            let is_number = formula.trim().parse::<f64>().is_ok();
+            return Err(match is_number {
+                true => error.at(node.span, "").help("write the number without quotes"),
+                false => error.at(node.span, "formulas are not known yet").help("write a number instead"),
+            });
         }
         None => return Err(wrong_type(node, &Kind::Number(bound))),
     };
     if !number.is_finite() {
-        let message = format!("expected a finite number{}, found {number}", bound.in_words());
+        let message = format!("expected a finite number{}, found {}", bound.in_words(), figure(number));
         return Err(Diagnostic::error("not-finite", message).at(node.span, ""));
     }
     if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
@@ -41,7 +56,7 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
         return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
     }
     if !bound.admits(number) {
-        let message = format!("expected a number{}, found {number}", bound.in_words());
+        let message = format!("expected a number{}, found {}", bound.in_words(), figure(number));
         return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
     }
     Ok(number)
@@ -56,6 +71,10 @@ pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnosti
             Err(Diagnostic::error("out-of-range", message).at(node.span, ""))
         }
         Value::String(_) => number(node, Bound::Any).map(|_| low),
+        Value::Float(_) => {
+            let message = format!("expected a whole number from {low} to {high}, found a decimal number");
+            Err(Diagnostic::error("wrong-type", message).at(node.span, "").help("write it without a point"))
+        }
         _ => Err(wrong_type(node, &Kind::Integer(low, high))),
     }
 }
@@ -66,7 +85,11 @@ fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<
     if (min..=max).contains(&items.len()) {
         return Ok(items);
     }
-    let message = format!("expected {}, found {} of them", expected.in_words(), items.len());
+    let found = match items.len() {
+        0 => "an empty list".to_owned(),
+        length => format!("a list of {length}"),
+    };
+    let message = format!("expected {}, found {found}", expected.in_words());
     Err(Diagnostic::error("wrong-length", message).at(node.span, ""))
 }
 
@@ -97,8 +120,9 @@ pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Dia
     // Dividing by the largest first keeps squares from overflowing or vanishing.
     let largest = numbers.iter().fold(0.0, |largest: f64, n| largest.max(n.abs()));
     if largest == 0.0 {
-        let message = "a direction is expected here, and this one has no length";
-        return Err(vec![Diagnostic::error("zero-length", message).at(node.span, "")]);
+        let message = format!("expected {}", Kind::Direction(N).in_words());
+        let error = Diagnostic::error("zero-length", message);
+        return Err(vec![error.at(node.span, "this has no direction")]);
     }
     let scaled = numbers.map(|n| n / largest);
     let length = scaled.iter().map(|n| n * n).sum::<f64>().sqrt();

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::Diagnostic;
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
@@ -22,20 +22,19 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Simulation {
         method,
         gravity: view.vector("gravity").unwrap_or(DVec3::ZERO),
     };
-    let place = |keys: &[&str]| keys.iter().find_map(|key| view.span(key));
     let frames = (simulation.duration * simulation.frame_rate).round() + 1.0;
+    let steps = simulation.duration / simulation.step.min(1.0 / simulation.frame_rate);
     if frames > MAX_FRAMES {
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
-        let help = "frames = duration × frame_rate + 1";
-        refuse("too-many-frames", message, place(&["duration", "frame_rate"]), help, context);
-    }
-    let steps = simulation.duration / simulation.step.min(1.0 / simulation.frame_rate);
-    if steps > MAX_STEPS {
+        let error = Diagnostic::error("too-many-frames", message).help("frames = duration × frame_rate + 1");
+        context.diagnostics.push(point(error, view, &["duration", "frame_rate"]));
+    } else if steps > MAX_STEPS {
         let message =
             format!("the scene has {} timesteps; at most {} are taken", count(steps), count(MAX_STEPS));
-        let help = "timesteps = duration / step, where a step is at most one frame long";
-        refuse("too-many-steps", message, place(&["step", "duration", "frame_rate"]), help, context);
+        let error = Diagnostic::error("too-many-steps", message)
+            .help("timesteps = duration / step, where a step is at most one frame long");
+        context.diagnostics.push(point(error, view, &["step", "duration", "frame_rate"]));
     }
     if frames > MAX_FRAMES || steps > MAX_STEPS {
         // So that nothing later counts what cannot be counted.
@@ -44,15 +43,24 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Simulation {
     simulation
 }
 
-fn refuse(code: &'static str, message: String, span: Option<Span>, help: &str, context: &mut Context<'_>) {
-    let error = Diagnostic::error(code, message).help(help);
-    context.diagnostics.push(match span {
-        Some(span) => error.at(span, ""),
-        None => error,
-    });
+/// Points at the values of those keys that are given.
+fn point(error: Diagnostic, view: &View<'_>, keys: &[&str]) -> Diagnostic {
+    keys.iter().filter_map(|key| view.span(key)).fold(error, |error, span| error.at(span, ""))
 }
 
-/// A number that may be large, so that it can be read.
+/// A number that may be large, so that it can be read: `1,000,001`.
 fn count(number: f64) -> String {
-    if number < 1e15 { format!("{number:.0}") } else { format!("{number:.1e}") }
+    if number >= 1e15 {
+        let most = f64::MAX.min(number);
+        return format!("{}{most:.1e}", if number.is_finite() { "" } else { "more than " });
+    }
+    let digits = format!("{number:.0}");
+    let mut text = String::new();
+    for (place, digit) in digits.char_indices() {
+        if place > 0 && (digits.len() - place) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
 }

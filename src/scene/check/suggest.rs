@@ -2,14 +2,25 @@
 
 use crate::scene::grammar::{TableSpec, quoted};
 
+/// So many names are compared with unknown ones in one scene: a tenth of a second's work. Who has more unknown names
+/// has another problem than their spelling.
+pub(super) const MAX_COMPARISONS: usize = 200_000;
+
+/// Longer words are no names that anyone types.
+const MAX_LENGTH: usize = 64;
+
 /// The best of the candidates for a word that is none of them, if one is near enough.
 pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&folded, &candidate.to_lowercase());
     // A third of the letters may differ, as rustc has it; of two letters, one.
-    let most = (word.chars().count() / 3).max(1);
+    let length = word.chars().count();
+    let most = (length / 3).max(1);
+    let comparable =
+        |candidate: &&str| length <= MAX_LENGTH && candidate.chars().count().abs_diff(length) <= most;
     candidates
         .into_iter()
+        .filter(comparable)
         .map(|candidate| (distance(candidate), candidate))
         .filter(|&(distance, _)| distance <= most)
         .min_by_key(|&(distance, _)| distance)
@@ -24,20 +35,14 @@ pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     same.map(|key| key.name).or_else(|| nearest(&folded, names()))
 }
 
-/// What to say of an unknown word, given those that are known.
-pub(super) fn label<'a>(word: &str, known: impl Iterator<Item = &'a str> + Clone, noun: &str) -> String {
-    match nearest(word, known.clone()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => expected(&known.collect::<Vec<_>>(), noun),
-    }
-}
-
-/// The words that were expected; of many, that there are many.
-fn expected(known: &[&str], noun: &str) -> String {
-    match known {
-        [] => format!("the scene has no {noun}"),
-        known if known.len() <= 12 => format!("expected one of {}", quoted(known)),
-        known => format!("expected the name of one of {} {noun}s", known.len()),
+/// What to say of an unknown word, given those that are known; `plural` is the word for all of them.
+pub(super) fn label(word: &str, known: &[&str], noun: &str, plural: &str) -> String {
+    match (nearest(word, known.iter().copied()), known) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, []) => format!("the scene has no {plural}"),
+        (None, [only]) => format!("the only {noun} is `{only}`"),
+        (None, known) if known.len() <= 12 => format!("there are {}", quoted(known)),
+        (None, known) => format!("none of the {} {plural} is called so", known.len()),
     }
 }
 

@@ -13,30 +13,38 @@ pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
 
 /// Validates a table; `at` is where it is named, `path` how messages call it.
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
+    // What an unknown key was meant to be is not missing as well.
+    let mut meant = Vec::new();
     for entry in &table.entries {
-        match spec.key(&entry.name.text) {
-            Some(key) => value(&entry.node, &key.kind, Some(entry), path, context),
-            None => context.diagnostics.push(unknown_key(entry, spec, path)),
+        if let Some(key) = spec.key(&entry.name.text) {
+            value(&entry.node, &key.kind, Some(entry), path, context);
+        } else {
+            let near = suggest::key(&entry.name.text, spec);
+            meant.extend(near);
+            context.diagnostics.push(unknown_key(entry, near, spec, path));
         }
     }
     for key in spec.keys.iter().filter(|key| key.required && table.get(key.name).is_none()) {
-        context.diagnostics.push(missing_key(key, at, path));
+        if !meant.contains(&key.name) {
+            context.diagnostics.push(missing_key(key, at, path));
+        }
     }
-    rule(table, spec, at, path, context);
+    rule(table, spec, &meant, at, path, context);
 }
 
-fn unknown_key(entry: &Entry, spec: &TableSpec, path: &str) -> Diagnostic {
-    let name = &entry.name.text;
-    let message = format!("unknown key `{name}` in {path}");
-    let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
-    match suggest::key(name, spec) {
-        Some(near) => {
-            Diagnostic::error("unknown-key", message).at(entry.name.span, format!("did you mean `{near}`?"))
-        }
-        None => Diagnostic::error("unknown-key", message)
-            .at(entry.name.span, format!("not a key of {}", spec.noun))
-            .help(format!("{} knows {}", spec.noun, quoted(&names))),
+fn unknown_key(entry: &Entry, near: Option<&str>, spec: &TableSpec, path: &str) -> Diagnostic {
+    let error = Diagnostic::error("unknown-key", format!("unknown key `{}` in {path}", entry.name.text));
+    match near {
+        Some(near) => error.at(entry.name.span, format!("did you mean `{near}`?")),
+        None => error.at(entry.name.span, format!("not a key of {}", spec.noun)).help(known_keys(spec)),
     }
+}
+
+/// The keys of a table, in words.
+fn known_keys(spec: &TableSpec) -> String {
+    let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
+    let s = if names.len() == 1 { "" } else { "s" };
+    format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }
 
 fn missing_key(key: &Key, at: Option<Span>, path: &str) -> Diagnostic {
@@ -55,24 +63,32 @@ fn lower_first(text: &str) -> String {
     chars.next().map_or_else(String::new, |first| first.to_lowercase().chain(chars).collect())
 }
 
-fn rule(table: &Table, spec: &TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
+fn rule(
+    table: &Table,
+    spec: &TableSpec,
+    meant: &[&str],
+    at: Option<Span>,
+    path: &str,
+    context: &mut Context<'_>,
+) {
     let present = |names: &[&str]| {
         table.entries.iter().filter(|e| names.contains(&e.name.text.as_str())).collect::<Vec<_>>()
     };
     match &spec.rule {
         Rule::Any => {}
         Rule::AtMostOne(groups) => {
-            let mut said = Vec::new();
+            let mut said: Vec<Span> = Vec::new();
             for entries in groups.iter().map(|names| present(names)).filter(|entries| entries.len() > 1) {
-                let pair = (entries[0].name.span, entries[1].name.span);
-                if !said.contains(&pair) {
-                    said.push(pair);
+                // Groups overlap: of keys that have been named once, enough has been said.
+                if !entries.iter().any(|entry| said.contains(&entry.name.span)) {
+                    said.extend(entries.iter().map(|entry| entry.name.span));
                     context.diagnostics.push(exclusive(&entries, path));
                 }
             }
         }
         Rule::ExactlyOne(names) => match present(names).as_slice() {
             [_] => {}
+            [] if names.iter().any(|name| meant.contains(name)) => {}
             [] => {
                 let message = format!("{} needs one of {}", spec.noun, quoted(names));
                 let error = Diagnostic::error("missing-key", message);
@@ -88,13 +104,21 @@ fn rule(table: &Table, spec: &TableSpec, at: Option<Span>, path: &str, context: 
 
 fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| entry.name.text.as_str()).collect();
-    let message = format!("{} exclude each other in {path}", quoted(&names));
+    let message = format!("{} exclude each other in {path}", all_of(&names));
     let error = Diagnostic::error("exclusive-keys", message);
     // The first is right as far as anyone can tell; the later ones are too many.
     let (first, rest) = (entries[0], &entries[1..]);
     let error =
         rest.iter().fold(error, |error, entry| error.at(entry.name.span, "only one of them can hold"));
     error.at(first.name.span, "the other is here")
+}
+
+/// Words in backquotes: `a`, `b` and `c`.
+fn all_of(words: &[&str]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first)),
+        words => quoted(words),
+    }
 }
 
 fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, context: &mut Context<'_>) {
@@ -128,9 +152,9 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         },
         Kind::Table(spec) => match node.as_table() {
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
-            None => context.diagnostics.push(read::wrong_type(node, kind)),
+            None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
         },
-        Kind::Named(spec) => named(node, kind, spec, entry, context),
+        Kind::Named(spec) => named(node, spec, entry, context),
         Kind::Either(kinds) => match kinds.iter().find(|kind| fits(node, kind)) {
             Some(kind) => value(node, kind, entry, path, context),
             None => context.diagnostics.push(read::wrong_type(node, kind)),
@@ -149,37 +173,58 @@ fn inner_path(entry: Option<&Entry>, path: &str) -> String {
     if path == "the scene" {
         return format!("[{}]", entry.name.text);
     }
-    let table = path.rsplit_once(" of ").map_or(path, |(_, table)| table);
+    // Only the keys of the language stand in front of « of »; the name behind it may be anything.
+    let table = match path.split_once("` of ") {
+        Some((_, table)) if path.starts_with('`') => table,
+        _ => path,
+    };
     format!("`{}` of {table}", entry.name.text)
 }
 
-fn named(
-    node: &Node,
-    kind: &Kind,
-    spec: &'static TableSpec,
-    entry: Option<&Entry>,
-    context: &mut Context<'_>,
-) {
+fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: &mut Context<'_>) {
     let word = entry.map_or("", |entry| entry.name.text.as_str());
     let Some(tables) = node.as_table() else {
-        context.diagnostics.push(read::wrong_type(node, kind));
+        let found = node.in_words();
+        let message = format!("expected tables with names, as in `[{word}.NAME]`, found {found}");
+        context.diagnostics.push(Diagnostic::error("wrong-type", message).at(node.span, ""));
         return;
     };
     for entry in &tables.entries {
-        let path = format!("[{word}.{}]", entry.name.text);
+        let path = format!("[{word}.{}]", as_key(&entry.name.text));
         match entry.node.as_table() {
-            Some(inner) => table(inner, spec, Some(entry.name.span), &path, context),
+            Some(inner) if !is_unnamed(entry, inner, spec) => {
+                table(inner, spec, Some(entry.name.span), &path, context);
+            }
             None if matches!(entry.node.value, Value::Invalid) => {}
-            None => {
+            _ => {
                 let name = &entry.name.text;
                 let message = format!("`{name}` stands in [{word}], where only tables with names do");
                 let help = format!("name {} with `[{word}.NAME]`, and write `{name}` below it", spec.noun);
+                let label = format!("of which {}?", spec.noun.trim_start_matches("a "));
                 context
                     .diagnostics
-                    .push(Diagnostic::error("unnamed-table", message).at(entry.name.span, "").help(help));
+                    .push(Diagnostic::error("unnamed-table", message).at(entry.name.span, label).help(help));
             }
         }
     }
+}
+
+/// Whether a table is a value of a thing without a name, rather than a thing with a name: `[body] shape.sphere…`.
+fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
+    let Some(key) = spec.key(&entry.name.text) else { return false };
+    let tables = match &key.kind {
+        Kind::Either(kinds) => kinds,
+        kind => std::slice::from_ref(kind),
+    };
+    let holds = |spec: &TableSpec| inner.entries.iter().all(|entry| spec.key(&entry.name.text).is_some());
+    let fits = |kind: &Kind| matches!(kind, Kind::Table(inner) if holds(inner));
+    !inner.entries.is_empty() && tables.iter().any(fits) && !holds(spec)
+}
+
+/// A name as TOML writes it in a header.
+fn as_key(name: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+    if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { format!("\"{name}\"") }
 }
 
 fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, context: &mut Context<'_>) {
@@ -188,10 +233,12 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
         Some(word) if words.contains(&word) => {}
         Some(word) => {
             let noun = entry.map_or("word", |entry| entry.name.text.as_str());
-            let label = suggest::label(word, words.iter().copied(), noun);
-            let message = format!("unknown {noun} `{word}`");
-            let error = Diagnostic::error("unknown-name", message).at(node.span, label);
-            context.diagnostics.push(error.help(format!("there are {}", quoted(words))));
+            let error = Diagnostic::error("unknown-name", format!("unknown {noun} `{word}`"));
+            let known = format!("there are {}", quoted(words));
+            context.diagnostics.push(match suggest::nearest(word, words.iter().copied()) {
+                Some(near) => error.at(node.span, format!("did you mean `{near}`?")).help(known),
+                None => error.at(node.span, known),
+            });
         }
     }
 }
@@ -206,9 +253,14 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
         return;
     }
     let noun = collection.key();
-    let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
-    known.sort_unstable_by_key(|name| names[*name]);
-    let label = suggest::label(word, known.into_iter(), noun);
+    let label = if names.len() > context.comparisons {
+        String::new()
+    } else {
+        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        known.sort_unstable_by_key(|name| names[*name]);
+        context.comparisons -= known.len();
+        suggest::label(word, &known, noun, collection.plural())
+    };
     let message = format!("there is no {noun} `{word}`");
     context.diagnostics.push(Diagnostic::error("unknown-name", message).at(node.span, label));
 }

@@ -102,6 +102,14 @@ impl Collection {
             Collection::Material => "material",
         }
     }
+
+    /// The word for all of them.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Collection::Body => "bodies",
+            Collection::Material => "materials",
+        }
+    }
 }
 
 impl Kind {
@@ -117,17 +125,22 @@ impl Kind {
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
-            Kind::Color => "a color: [red, green, blue] from 0 to 1, \"#rrggbb\", or a name".to_owned(),
+            Kind::Color => "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name)".to_owned(),
             Kind::Sdl => "a string of POV-Ray's scene description language".to_owned(),
-            Kind::Identifier => "a name of POV-Ray's: letters, digits and underscores".to_owned(),
+            Kind::Identifier => {
+                "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
+            }
             Kind::Include => "the name of an include file".to_owned(),
             Kind::Choice(words) => format!("one of {}", quoted(&words())),
             Kind::Reference(collection) => format!("the name of a {}", collection.key()),
-            Kind::List { of, min, max } if min == max => format!("a list of {min}, each {}", of.in_words()),
-            Kind::List { of, .. } => format!("a list, each {}", of.in_words()),
-            Kind::Table(table) => format!("a table ({})", table.noun),
+            Kind::List { of, min, max } if min == max => {
+                format!("a list of {min} values, each {}", of.in_words())
+            }
+            Kind::List { of, min: 0, .. } => format!("a list of values, each {}", of.in_words()),
+            Kind::List { of, min, .. } => format!("a list of at least {min} value, each {}", of.in_words()),
+            Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),
-            Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(", or "),
+            Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(" or "),
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The scene as written: texts become a tree of values that know where they stand.
 
+mod brackets;
 mod load;
 mod overrides;
+mod syntax;
 mod toml;
 mod tree;
 

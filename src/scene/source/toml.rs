@@ -1,38 +1,52 @@
 //! TOML text → tree.
 
+use std::num::IntErrorKind;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::{Entry, Name, Node, Table, Value};
+use super::{Entry, Name, Node, Table, Value, brackets, syntax};
 use crate::diagnostic::{Diagnostic, SourceId, Span};
 
 /// Parses a text as far as it goes: what cannot be read becomes a diagnostic, and the rest a tree.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
-    let (document, errors) = DeTable::parse_recoverable(text);
-    diagnostics.extend(errors.iter().map(|error| syntax_error(error, text, source)));
+    let (document, mut errors) = DeTable::parse_recoverable(text);
+    errors.sort_by_key(|error| error.span().map(|range| range.start));
+    let brackets = brackets::look(text, source);
     let span = Span::new(source, 0..text.len());
-    Node { span, value: Value::Table(Reader { source, diagnostics }.table(document.get_ref())) }
+    let mut reader = Reader {
+        source,
+        wrong: errors.iter().filter_map(|error| Some(error.span()?.start)).collect(),
+        diagnostics,
+    };
+    let root = Node { span, value: Value::Table(reader.table(document.get_ref())) };
+
+    let end = brackets.unclosed.as_ref().and_then(Diagnostic::span).map_or(text.len() + 1, |span| span.start);
+    let mut last_line = None;
+    for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
+        // What comes second on a line is mostly a consequence of what comes first.
+        let line = error.span().map(|range| text[..range.start].rfind('\n'));
+        if line.is_none() || line != last_line {
+            diagnostics.push(syntax::diagnose(error, text, source));
+        }
+        last_line = line;
+    }
+    diagnostics.extend(brackets.unclosed);
+    diagnostics.extend(brackets.too_new);
+    root
 }
 
 /// Parses a text that is one value, as it would stand after `key = `.
 pub(super) fn parse_value(text: &str, source: SourceId) -> Result<Node, Error> {
     let value = DeValue::parse(text)?;
     // A number that is too large is refused later, at its place; here it only becomes `Invalid`.
-    Ok(Reader { source, diagnostics: &mut Vec::new() }.node(&value))
-}
-
-fn syntax_error(error: &Error, text: &str, source: SourceId) -> Diagnostic {
-    let range = error.span().unwrap_or(text.len()..text.len());
-    let mut message = error.message().to_owned();
-    if let Some(first) = message.get_mut(..1) {
-        first.make_ascii_lowercase();
-    }
-    let code = if message.starts_with("duplicate key") { "duplicate-key" } else { "toml-syntax" };
-    Diagnostic::error(code, message).at(Span::new(source, range), "")
+    Ok(Reader { source, wrong: Vec::new(), diagnostics: &mut Vec::new() }.node(&value))
 }
 
 struct Reader<'a> {
     source: SourceId,
+    /// Where syntax errors stand, in order: a value that one touches is not to be trusted.
+    wrong: Vec<usize>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
@@ -49,10 +63,17 @@ impl Reader<'_> {
     fn node(&mut self, value: &Spanned<DeValue<'_>>) -> Node {
         let span = Span::new(self.source, value.span());
         let value = match value.get_ref() {
+            DeValue::Array(items) => self.list(items),
+            DeValue::Table(table) => Value::Table(self.table(table)),
+            // Where there is no value at all, the parser makes one up, without extent.
+            _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
             DeValue::String(text) => Value::String(text.clone().into_owned()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(number) => Value::Integer(number),
-                Err(_) => self.too_large(span),
+                Err(error) => match error.kind() {
+                    IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => self.too_large(span),
+                    _ => Value::Invalid,
+                },
             },
             DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
                 // `1e999` is a typing error, while `inf` was meant; that one is refused where it is read.
@@ -64,10 +85,22 @@ impl Reader<'_> {
             },
             DeValue::Boolean(value) => Value::Boolean(*value),
             DeValue::Datetime(_) => Value::Datetime,
-            DeValue::Array(items) => Value::Array(items.iter().map(|item| self.node(item)).collect()),
-            DeValue::Table(table) => Value::Table(self.table(table)),
         };
         Node { span, value }
+    }
+
+    /// A list, of which either all can be read or nothing is.
+    fn list(&mut self, items: &[Spanned<DeValue<'_>>]) -> Value {
+        let items: Vec<Node> = items.iter().map(|item| self.node(item)).collect();
+        if items.iter().any(|item| matches!(item.value, Value::Invalid)) {
+            return Value::Invalid;
+        }
+        Value::Array(items)
+    }
+
+    fn is_wrong(&self, span: Span) -> bool {
+        let next = self.wrong.partition_point(|&place| place < span.start);
+        self.wrong.get(next).is_some_and(|&place| place <= span.end)
     }
 
     fn too_large(&mut self, span: Span) -> Value {

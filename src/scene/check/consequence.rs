@@ -1,0 +1,45 @@
+//! Errors that only follow from others.
+
+use std::collections::HashSet;
+
+use crate::diagnostic::{Diagnostic, Severity, Sources};
+
+/// What the lack of something that could not be read may lead to.
+const OF_LACK: [&str; 4] = ["missing-key", "unknown-name", "undeclared-texture", "no-bodies"];
+
+/// Drops, of what was found in a tree, what only follows from that the text could not be read in full.
+pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {
+    let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
+    if found.iter().chain(unreadable).any(is_error) {
+        // Bodies that are there, and wrong, may not count as such.
+        found.retain(|diagnostic| diagnostic.code != "no-bodies");
+    }
+    let syntax: Vec<&Diagnostic> = unreadable.iter().filter(|d| is_syntax(d.code)).collect();
+    if syntax.is_empty() {
+        return;
+    }
+    let mut lines = HashSet::new();
+    let mut end = None;
+    for diagnostic in syntax {
+        let Some(span) = diagnostic.span() else { continue };
+        let line = sources.position(span.source, span.start).line;
+        lines.insert((span.source, line));
+        // After a header that cannot be read, keys are counted as those of another table.
+        let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
+        if (header && diagnostic.code == "toml-syntax") || diagnostic.code == "toml-unclosed" {
+            end = end.into_iter().chain([span]).min();
+        }
+    }
+    found.retain(|diagnostic| {
+        let readable = diagnostic.span().is_none_or(|span| {
+            let line = sources.position(span.source, span.start).line;
+            let before = end.is_none_or(|end| span.source != end.source || span < end);
+            before && !lines.contains(&(span.source, line))
+        });
+        readable && !OF_LACK.contains(&diagnostic.code)
+    });
+}
+
+fn is_syntax(code: &str) -> bool {
+    matches!(code, "toml-syntax" | "toml-unclosed" | "duplicate-key")
+}

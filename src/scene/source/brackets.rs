@@ -1,0 +1,204 @@
+//! What is to be said of a text's brackets and quotes, beyond what the parser says.
+//!
+//! The parser knows TOML 1.1, which editors and the schema's users do not: what is new in it is refused. And where a
+//! bracket is never closed, the parser reads on to the end of the file and finds fault with every line: the place to
+//! mend is the bracket.
+
+use toml_parser::decoder::Encoding;
+use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
+
+use crate::diagnostic::{Diagnostic, SourceId, Span};
+
+/// As deep as the crate `toml` goes.
+const MAX_DEPTH: u32 = 80;
+
+/// What a text's brackets and quotes tell.
+pub(super) struct Brackets {
+    /// What is new in TOML 1.1.
+    pub(super) too_new: Vec<Diagnostic>,
+    /// The first bracket or quote that is never closed: what follows it cannot be trusted.
+    pub(super) unclosed: Option<Diagnostic>,
+}
+
+/// Looks through a text.
+pub(super) fn look(text: &str, source: SourceId) -> Brackets {
+    let tokens = toml_parser::Source::new(text).lex().into_vec();
+    let found = Brackets { too_new: Vec::new(), unclosed: None };
+    let mut looker = Looker { text, source, open: Vec::new(), found };
+    let mut see = |event: Event| looker.see(event);
+    parse_document(&tokens, &mut RecursionGuard::new(&mut see, MAX_DEPTH), &mut ());
+    looker.found
+}
+
+/// A list or an inline table that has begun.
+struct Open {
+    start: usize,
+    is_list: bool,
+    /// The last comma, while nothing follows it.
+    comma: Option<toml_parser::Span>,
+    /// Whether a line ends directly in it.
+    several_lines: bool,
+}
+
+struct Looker<'a> {
+    text: &'a str,
+    source: SourceId,
+    open: Vec<Open>,
+    found: Brackets,
+}
+
+impl Looker<'_> {
+    fn see(&mut self, event: Event) {
+        let span = event.span();
+        match event.kind() {
+            kind @ (EventKind::ArrayOpen | EventKind::InlineTableOpen) => {
+                self.no_comma();
+                let is_list = kind == EventKind::ArrayOpen;
+                self.open.push(Open { start: span.start(), is_list, comma: None, several_lines: false });
+            }
+            // Where the parser skips what it cannot read, brackets close that have not been opened.
+            EventKind::ArrayClose if self.open.last().is_some_and(|open| open.is_list) => {
+                self.close(span, "list", "]");
+            }
+            EventKind::InlineTableClose if self.open.last().is_some_and(|open| !open.is_list) => {
+                if let (Some(table), false) = (self.open.last(), span.is_empty()) {
+                    let (lines, comma, start) = (table.several_lines, table.comma, table.start);
+                    if lines {
+                        let help = "write it on one line, or as a `[table]` of its own";
+                        self.too_new("a table in braces has to end on its line", start..start + 1, help);
+                    }
+                    if let Some(comma) = comma {
+                        let place = comma.start()..comma.end();
+                        self.too_new("a table in braces cannot end with a comma", place, "leave it out");
+                    }
+                }
+                self.close(span, "table", "}");
+            }
+            EventKind::ValueSep => {
+                if let Some(open) = self.open.last_mut() {
+                    open.comma = Some(span);
+                }
+            }
+            EventKind::Newline => {
+                if let Some(open) = self.open.last_mut() {
+                    open.several_lines = true;
+                }
+            }
+            EventKind::Scalar | EventKind::SimpleKey => {
+                self.no_comma();
+                self.string(span, event.encoding());
+            }
+            _ => {}
+        }
+    }
+
+    fn no_comma(&mut self) {
+        if let Some(open) = self.open.last_mut() {
+            open.comma = None;
+        }
+    }
+
+    /// A list or table ends; the parser gives one that is never closed an end without extent.
+    fn close(&mut self, span: toml_parser::Span, noun: &str, bracket: &str) {
+        if let (Some(open), true) = (self.open.pop(), span.is_empty()) {
+            self.unclosed(open.start..open.start + 1, noun, bracket);
+        }
+    }
+
+    fn unclosed(&mut self, range: std::ops::Range<usize>, noun: &str, closing: &str) {
+        // The outermost comes last, and is the first in the text.
+        if self.found.unclosed.as_ref().and_then(Diagnostic::span).is_none_or(|span| range.start < span.start)
+        {
+            let error = Diagnostic::error("toml-unclosed", format!("the {noun} is never closed"));
+            let label = format!("its `{closing}` is missing");
+            self.found.unclosed = Some(error.at(Span::new(self.source, range), label));
+        }
+    }
+
+    fn string(&mut self, span: toml_parser::Span, encoding: Option<Encoding>) {
+        let raw = self.text.get(span.start()..span.end()).unwrap_or_default();
+        let quotes = match encoding {
+            Some(Encoding::MlBasicString) => "\"\"\"",
+            Some(Encoding::MlLiteralString) => "'''",
+            _ => "",
+        };
+        if !quotes.is_empty() && (raw.len() < 6 || !raw.ends_with(quotes)) {
+            self.unclosed(span.start()..span.start() + quotes.len(), "string", quotes);
+        }
+        if matches!(encoding, Some(Encoding::BasicString | Encoding::MlBasicString)) {
+            self.escapes(raw, span.start());
+        }
+    }
+
+    fn escapes(&mut self, raw: &str, start: usize) {
+        let mut bytes = raw.bytes().enumerate();
+        while let Some((at, byte)) = bytes.next() {
+            if byte == b'\\'
+                && let Some((_, escaped @ (b'e' | b'x'))) = bytes.next()
+            {
+                let message = format!("a string cannot contain the escape `\\{}`", char::from(escaped));
+                let help = "write `\\u` and four hexadecimal digits, or `\\\\` for a backslash";
+                self.too_new(&message, start + at..start + at + 2, help);
+            }
+        }
+    }
+
+    fn too_new(&mut self, message: &str, range: std::ops::Range<usize>, help: &str) {
+        let error = Diagnostic::error("toml-1.1", message);
+        let error = error.at(Span::new(self.source, range), "only TOML 1.1 has this; a scene is TOML 1.0");
+        self.found.too_new.push(error.help(help));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Sources;
+
+    fn places(text: &str) -> (Vec<usize>, Option<usize>) {
+        let found = look(text, Sources::default().add("scene.toml", text));
+        let start = |diagnostic: &Diagnostic| diagnostic.span().unwrap().start;
+        (found.too_new.iter().map(start).collect(), found.unclosed.as_ref().map(start))
+    }
+
+    #[test]
+    fn what_is_new_in_toml_1_1_is_found() {
+        for (text, place) in [
+            ("a = {\nb = 1 }", 4),
+            ("a = { b = 1, }", 11),
+            ("a = { b = [1], # c\n }", 4),
+            ("a = \"\\e\"", 5),
+            ("a = \"\"\"\\\\\\x41\"\"\"", 9),
+            ("\"\\e\" = 1", 1),
+            ("a = [{ b = { c = 1, } }]", 18),
+        ] {
+            assert_eq!(places(text).0.first(), Some(&place), "{text}");
+        }
+    }
+
+    #[test]
+    fn toml_1_0_that_looks_like_it_passes() {
+        for text in [
+            "a = {}",
+            "a = { b = [\n1,\n], c = '\\e' }",
+            "a = \"\\\\e { , }\" # { \\e , }",
+            "a = { b = \"\"\"\n\"\"\" }",
+            "a = [1,\n]",
+        ] {
+            assert_eq!(places(text), (vec![], None), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_first_bracket_that_is_never_closed_is_found() {
+        for (text, place) in [
+            ("a = [1", 4),
+            ("a = [[1]\nb = [2]", 4),
+            ("a = { b = [", 4),
+            ("a = [1]\nb = {", 12),
+            ("a = '''b", 4),
+        ] {
+            assert_eq!(places(text).1, Some(place), "{text}");
+        }
+    }
+}

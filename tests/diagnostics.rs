@@ -1,0 +1,247 @@
+//! Bad scenes and what is said of them.
+//!
+//! Every scene in tests/bad holds one mistake, or one kind of mistake. What `jabuka check` says of it is held against
+//! the snapshot of its name, so adding a test is dropping a file.
+#![allow(clippy::unwrap_used, unreachable_pub, reason = "helpers of tests are tests")]
+
+mod support;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use support::{jabuka, root, stderr, stdout};
+
+/// Codes that no scene alone can show: each with the place of its test.
+const ELSEWHERE: [(&str, &str); 5] = [
+    ("cannot-read", "a_missing_file_is_said_to_be_missing"),
+    ("not-a-file", "a_folder_is_no_scene"),
+    ("not-utf8", "what_is_not_utf_8_is_refused_at_its_first_byte"),
+    ("file-too-large", "a_huge_file_is_refused_before_it_is_read"),
+    ("bad-set", "a_setting_is_refused_at_its_place_in_the_argument"),
+];
+
+/// Every scene, what is said of it to people, and that an error fails the command.
+#[test]
+fn every_bad_scene_is_told_what_is_wrong_with_it() {
+    insta::glob!("bad/*.toml", |path| {
+        let output = check(path, &[]);
+        let said = stderr(&output);
+        let errors = said.lines().filter(|line| line.starts_with("error[")).count();
+        assert_eq!(output.status.code(), Some(i32::from(errors > 0)), "{said}");
+        insta::assert_snapshot!("check", format!("{said}{}", stdout(&output)));
+    });
+}
+
+/// Some scenes, and what is said of them to editors.
+#[test]
+fn editors_are_told_the_same_as_data() {
+    insta::glob!(
+        "bad/{ten_mistakes,byte_order_mark,unicode_before_the_error,camera_at_its_look_at}.toml",
+        |path| {
+            let output = check(path, &["--format", "json"]);
+            assert_eq!(output.status.code(), Some(1));
+            assert_eq!(stderr(&output), "");
+            insta::assert_snapshot!("json", stdout(&output));
+        }
+    );
+}
+
+#[test]
+fn every_code_that_a_scene_can_get_is_in_some_snapshot() {
+    let source = root().join("src/scene");
+    let mut codes = codes(&source);
+    // The code of a syntax error is chosen among two.
+    codes.extend(["toml-syntax", "duplicate-key"].map(str::to_owned));
+    assert!(codes.len() > 25, "{codes:?}");
+    let mut snapshots = String::new();
+    for entry in std::fs::read_dir(root().join("tests/snapshots")).unwrap() {
+        snapshots.push_str(&std::fs::read_to_string(entry.unwrap().path()).unwrap());
+    }
+    let tests = include_str!("diagnostics.rs");
+    for code in codes {
+        let shown = snapshots.contains(&format!("[{code}]: "));
+        match ELSEWHERE.iter().find(|(elsewhere, _)| *elsewhere == code) {
+            Some((_, test)) => assert!(tests.contains(&format!("fn {test}()")), "{test} is not there"),
+            None => assert!(shown, "no scene in tests/bad shows `{code}`"),
+        }
+    }
+}
+
+#[test]
+fn ten_mistakes_are_ten_errors_each_at_its_line() {
+    let output = check(&bad("ten_mistakes"), &[]);
+    let said = stderr(&output);
+    let lines: BTreeSet<&str> = said.lines().filter(|line| line.contains("--> ")).collect();
+    assert_eq!((said.matches("error[").count(), lines.len()), (10, 10), "{said}");
+}
+
+#[test]
+fn a_missing_file_is_said_to_be_missing() {
+    let output = jabuka().args(["check", "no/such/scene.toml"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = "error[cannot-read]: cannot read the scene `no/such/scene.toml`: there is no such file\n\n";
+    assert_eq!(stderr(&output), said);
+}
+
+#[test]
+fn a_folder_is_no_scene() {
+    let output = jabuka().args(["check", "scenes"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stderr(&output), "error[not-a-file]: `scenes` is a folder, not a scene file\n\n");
+}
+
+#[test]
+fn what_is_not_utf_8_is_refused_at_its_first_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("latin1.toml");
+    std::fs::write(&scene, b"# 1\ntitle = \"caf\xe9\"\n").unwrap();
+    let output = check(&scene, &[]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = stderr(&output);
+    assert!(said.starts_with("error[not-utf8]: ") && said.contains("latin1.toml:2:13\n"), "{said}");
+}
+
+#[test]
+fn a_huge_file_is_refused_before_it_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("huge.toml");
+    std::fs::File::create(&scene).unwrap().set_len(100_000_000).unwrap();
+    let output = check(&scene, &[]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = stderr(&output);
+    assert!(said.starts_with("error[file-too-large]: ") && said.contains("64 MiB"), "{said}");
+}
+
+#[test]
+fn a_setting_is_refused_at_its_place_in_the_argument() {
+    for (setting, expected) in [
+        (
+            "simulation.step=true",
+            "error[wrong-type]: expected a number greater than 0, found a boolean\n --> --set:1:17\n",
+        ),
+        (
+            "simulation.stepp=1",
+            "--> --set:1:12\n  |\n1 | simulation.stepp=1\n  |            ^^^^^ did you mean `step`?",
+        ),
+        ("simulation..step=1", "error[bad-set]: `simulation..step` is not a key"),
+        ("a b=1", "error[bad-set]: `a b` is not a key"),
+        ("title.x=1", "error[bad-set]: `title` is not a table, so nothing in it can be set"),
+        ("simulation.integrator=euler", "error[unknown-name]: unknown integrator `euler`\n --> --set:1:23\n"),
+        (
+            "body.ball.velocity=[1, 2]",
+            "error[wrong-length]: expected a list of 3 numbers, found a list of 2\n --> --set:1:20\n",
+        ),
+        ("output.size=[640, 0]", "--> --set:1:19\n"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("out");
+        let mut command = jabuka();
+        command.arg("compile").arg(support::scene("parabola")).arg("-o").arg(&out).args(["--set", setting]);
+        let output = command.output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{setting}: {said}");
+        assert!(said.contains(expected), "{setting}: {said}");
+        assert!(!out.exists(), "{setting}");
+    }
+}
+
+#[test]
+fn a_setting_without_an_equals_sign_is_wrong_usage() {
+    for setting in ["simulation.step", "", "=1"] {
+        let mut command = jabuka();
+        let output = command.arg("compile").arg(support::scene("parabola")).args(["--set", setting]).output();
+        let output = output.unwrap();
+        assert_eq!(output.status.code(), Some(2), "{setting:?}");
+        assert!(stderr(&output).contains("KEY=VALUE"), "{setting:?}");
+        assert_eq!(stdout(&output), "");
+    }
+}
+
+#[test]
+fn several_scenes_are_checked_in_one_run_and_one_bad_one_fails_it() {
+    let output = jabuka();
+    let mut output = output;
+    let output =
+        output.args(["check", "scenes/parabola.toml", "tests/bad/empty.toml", "tests/bad/two_shapes.toml"]);
+    let output = output.output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let verdicts =
+        "scenes/parabola.toml: ok\ntests/bad/empty.toml: ok, 1 warning\ntests/bad/two_shapes.toml: 1 error\n";
+    assert_eq!(stdout(&output), verdicts);
+    assert_eq!(stderr(&output).matches("error[").count(), 1);
+
+    let output = jabuka().args(["check", "scenes/parabola.toml", "tests/bad/empty.toml"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let output = jabuka().arg("check").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn compiling_a_bad_scene_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let output = jabuka().arg("compile").arg(bad("two_shapes")).arg("-o").arg(&out).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stdout(&output), "");
+    assert!(stderr(&output).ends_with("nothing was written: 1 error\n"));
+    assert!(!out.exists());
+}
+
+/// The bound is loose, for slow machines; what grows with the square of the errors would take minutes.
+#[test]
+fn ten_thousand_mistakes_are_told_in_seconds() {
+    use std::fmt::Write;
+    let folder = tempfile::tempdir().unwrap();
+    let (mut keys, mut names) = (String::new(), String::new());
+    for i in 0..10_000 {
+        writeln!(keys, "[body.b{i}]\nshape.sphere.radius = 1\nlocatoin = [{i}, 0, 0]\n").unwrap();
+        writeln!(names, "[body.b{i}]\nshape.sphere.radius = 1\nmaterial = \"m{i}x\"\n[material.m{i}]")
+            .unwrap();
+    }
+    let on: Vec<String> = (0..10_000).map(|i| format!("\"b{i}\"")).collect();
+    let line = format!("[force.wind.constant]\non = [{}]\n", on.join(", "));
+    for (name, text) in [("keys", keys), ("names", names), ("line", line)] {
+        let scene = folder.path().join(name).with_extension("toml");
+        std::fs::write(&scene, text).unwrap();
+        let start = std::time::Instant::now();
+        let output = check(&scene, &[]);
+        assert!(start.elapsed().as_secs() < 20, "{name}: {:?}", start.elapsed());
+        assert!(stdout(&output).ends_with(": 10000 errors\n"), "{name}");
+    }
+}
+
+/// A scene of the folder, by its name.
+fn bad(name: &str) -> PathBuf {
+    root().join("tests/bad").join(name).with_extension("toml")
+}
+
+/// Checks a scene; those of the project are called by their path in it, so that messages are the same everywhere.
+fn check(scene: &Path, arguments: &[&str]) -> Output {
+    let root = root().canonicalize().unwrap();
+    let scene = scene.strip_prefix(&root).or_else(|_| scene.strip_prefix(support::root())).unwrap_or(scene);
+    jabuka().arg("check").arg(scene).args(arguments).output().unwrap()
+}
+
+/// Every code in the sources below a folder, of whatever is made there: the word in quotes after what makes it.
+fn codes(folder: &Path) -> BTreeSet<String> {
+    let mut codes = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            codes.extend(self::codes(&path));
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let text = text.split("#[cfg(test)]").next().unwrap();
+        for maker in ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error("] {
+            for (at, _) in text.match_indices(maker) {
+                let after = text[at + maker.len()..].trim_start();
+                codes.extend(
+                    after.strip_prefix('"').and_then(|code| code.split('"').next()).map(str::to_owned),
+                );
+            }
+        }
+    }
+    codes
+}
