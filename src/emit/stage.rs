@@ -87,12 +87,16 @@ impl Stage {
         let distance = camera.location.distance(center);
         let unit = scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest(scene)));
 
-        let ground = scene.environment.ground.as_ref().map(|ground| GroundText {
-            height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
-            tile: ground.tile.unwrap_or_else(|| tile(size)) / unit,
-            tiles_fade: 4.5 * size / unit,
-            // From far away, more of the ground is to be seen.
-            fade: 11.0 * size.max(distance / 2.0) / unit,
+        let ground = scene.environment.ground.as_ref().map(|ground| {
+            let tile = ground.tile.unwrap_or_else(|| tile(size));
+            GroundText {
+                height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
+                tile: tile / unit,
+                // Tiles that are given may be larger than all that moves.
+                tiles_fade: (4.5 * size).max(38.0 * tile) / unit,
+                // From far away, more of the ground is to be seen.
+                fade: 11.0 * size.max(distance / 2.0) / unit,
+            }
         });
         let sky = match scene.environment.sky {
             Sky::Gradient => SkyText { color: None },
