@@ -24,6 +24,10 @@ pub(super) struct Stage {
     ground: Option<GroundText>,
     /// The edge of a tile of a checkered plane.
     tile: f64,
+    /// The distance from the middle over which its tiles fade.
+    tiles_fade: f64,
+    /// The distance from the middle over which ground and checkered planes fade into the horizon.
+    fade: f64,
     sky: SkyText,
     fog: bool,
 }
@@ -58,8 +62,6 @@ struct GroundText {
     tile: f64,
     /// The distance from the middle over which the tiles fade.
     tiles_fade: f64,
-    /// The distance from the middle over which the ground fades into the horizon.
-    fade: f64,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -94,8 +96,6 @@ impl Stage {
                 tile: tile / unit,
                 // Tiles that are given may be larger than all that moves.
                 tiles_fade: (4.5 * size).max(38.0 * tile) / unit,
-                // From far away, more of the ground is to be seen.
-                fade: 11.0 * size.max(distance / 2.0) / unit,
             }
         });
         let sky = match scene.environment.sky {
@@ -115,6 +115,9 @@ impl Stage {
             lights: scene.lights.iter().map(|l| light(l, center, size.max(distance), unit)).collect(),
             ground,
             tile: tile(size) / unit,
+            tiles_fade: 4.5 * size / unit,
+            // From far away, more of the ground is to be seen.
+            fade: 11.0 * size.max(distance / 2.0) / unit,
             sky,
             fog: scene.environment.fog,
         }

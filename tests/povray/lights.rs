@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::image::brightness;
+use crate::image::{Image, brightness};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
 use crate::scene::script;
@@ -47,7 +47,7 @@ fn a_shadow_falls_where_it_should_and_only_where_it_is_wanted() {
     for light in from_above {
         let [with, without] = render_all([lit(light), lit(&format!("{light}\nshadows = false"))], SIZE);
         let ground = |x: f64| front().sees(DVec3::new(x, 0.0, 0.05));
-        let at = |image: &crate::image::Image, x| brightness(image.at(ground(x)));
+        let at = |image: &Image, x| brightness(image.at(ground(x)));
         assert!(at(&with, 0.02) < at(&without, 0.02) - 40.0, "{light}");
         let beside = (at(&with, 1.5) - at(&without, 1.5)).abs();
         assert!(beside < 1.5, "{light}: {beside} beside the shadow");
@@ -65,13 +65,17 @@ fn light_has_its_color_and_intensity() {
     assert_eq!((red[0], red[1], red[2]), (white[0], none[1], none[2]), "red is only red");
 }
 
-/// Without any light of the scene's, there are the usual ones, and nothing is black.
+/// Without any light of the scene's, there are the usual ones: the upper left is the bright side, and nothing is
+/// black.
 #[test]
 fn the_usual_lights_are_pleasant() {
-    let ball =
-        "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1.2, 0]\nmaterial = \"m\"\n[material.m]\n";
-    let image = render(&script(ball), SIZE);
+    let ball = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1.2, 0]\nmaterial = \"m\"\n";
+    let camera = front();
+    let image = render(&script(&format!("{ball}[material.m]\nfinish = \"matte\"\n{}", camera.toml())), SIZE);
     assert!((110.0..220.0).contains(&image.brightness()), "{}", image.brightness());
     let black = image.spot(|rgb| brightness(rgb) < 20.0).area();
     assert!(black < 1.0, "{black} black pixels");
+    let at = |x: f64, y: f64| brightness(image.at(camera.sees(DVec3::new(x, y, 0.6))));
+    let (bright, dark) = (at(-0.45, 1.75), at(0.45, 0.65));
+    assert!(bright > dark + 40.0 && dark > 40.0, "{bright} and {dark}");
 }

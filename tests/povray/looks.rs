@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::image::{brightness, is_blue, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
-use crate::scene::script;
+use crate::scene::{script, shining_ball};
 
 fn front() -> Pinhole {
     Pinhole::new([0.0, 1.5, 8.0], [0.0, 0.5, 0.0])
@@ -61,7 +61,7 @@ fn a_texture_of_an_include_file_is_to_be_seen() {
 fn a_material_in_povrays_words_is_to_be_seen() {
     let pigment = "sdl = \"pigment { color rgb <0, 1, 0> } finish { emission 1 }\"\n";
     let glass = "sdl = '''\nmaterial {\n  texture { pigment { rgbf <1, 1, 1, 0.9> } }\n  interior { ior 1.5 }\n}'''\n";
-    let behind = crate::scene::shining_ball("behind", [0.0, 1.0, -4.0], 4.0, "#0000ff");
+    let behind = shining_ball("behind", [0.0, 1.0, -4.0], 4.0, "#0000ff");
     let scripts = [script(&ball_of(pigment)), script(&(ball_of(glass) + &behind))];
     let [green, glass] = render_all(scripts, SIZE);
     let (middle, _) = middle_and_crown();

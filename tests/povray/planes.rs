@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::image::{brightness, is_green};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
-use crate::scene::script;
+use crate::scene::{script, shining_ball};
 
 const PLAIN: &str = "material = \"m\"\n[material.m]\ncolor = \"#00ff00\"\nfinish = \"luminous\"\n";
 const PATTERN: &str = "material = \"m\"\n[material.m]
@@ -54,7 +54,7 @@ fn a_turned_plane_is_where_it_should_be() {
 fn a_plane_cuts_a_ball_where_it_should() {
     let camera = Pinhole::new([0.0, 3.0, 8.0], [0.0, 1.0, 0.0]);
     let scene = |height: f64, material: &str| {
-        let ball = crate::scene::shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
+        let ball = shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
         script(&format!(
             "[body.p]\nshape.plane = {{}}\nlocation = [3, {height}, 0]\n{material}{ball}{}",
             camera.toml()
@@ -90,4 +90,24 @@ fn a_plane_without_a_material_is_checkered() {
         let (dark, light) = (count(0.0..middle), count(middle..256.0));
         assert!(dark > all / 4 && light > all / 4, "{dark} dark and {light} light of {all}");
     }
+}
+
+/// It fades into the horizon as the ground does, wherever its own location is, or does not where there is no fog.
+#[test]
+fn a_plane_without_a_material_looks_like_the_ground() {
+    let camera = Pinhole::new([0.0, 2.0, 10.0], [0.0, 1.0, 0.0]);
+    let ball = shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
+    let of = |floor: &str| script(&format!("{ball}{floor}{}", camera.toml()));
+    // The tiles of this scene are 0.2 m long, so the plane is moved by an even number of them.
+    let plane = "[body.p]\nshape.plane = {}\nlocation = [40, 0, -20]\n";
+    let no_fog = "[environment]\nfog = false\n";
+    let grounds = ["ground.height = 0\n", "ground.height = 0\nfog = false\n"];
+    let [ground, clear_ground] = grounds.map(|words| of(&format!("[environment]\n{words}")));
+    let scripts = [ground, of(plane), clear_ground, of(&format!("{plane}{no_fog}"))];
+    let [ground, plane, clear_ground, clear_plane] = render_all(scripts, SIZE);
+    for (a, b) in [(&ground, &plane), (&clear_ground, &clear_plane)] {
+        let difference = a.difference(b);
+        assert!(difference < 1.0, "{difference}");
+    }
+    assert!(plane.difference(&clear_plane) > 5.0, "{}", plane.difference(&clear_plane));
 }

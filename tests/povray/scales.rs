@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::image::{is_blue, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
-use crate::scene::script;
+use crate::scene::{script, shining_ball};
 
 /// A red ball on the ground and a blue box in the air, all lengths times a scale.
 fn scene(scale: f64, rest: &str) -> String {
@@ -64,7 +64,7 @@ fn the_unit_of_the_scripts_changes_no_picture() {
 fn bodies_far_from_the_origin_are_to_be_seen() {
     let far = DVec3::new(1000.0, -500.0, 2000.0);
     let camera = Pinhole::new((far + DVec3::new(0.0, 1.0, 8.0)).to_array(), far.to_array());
-    let ball = crate::scene::shining_ball("ball", far.to_array(), 0.5, "#ff0000");
+    let ball = shining_ball("ball", far.to_array(), 0.5, "#ff0000");
     let [image] = render_all([script(&(ball + &camera.toml()))], SIZE);
     let off = image.spot(|rgb| rgb == [255, 0, 0]).middle().distance(camera.sees(far));
     assert!(off < 0.4, "{off} pixels off");

@@ -1,8 +1,8 @@
 //! Ground, sky and fog.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use crate::image::{Rgb, brightness, is_red};
+use crate::image::{Image, Rgb, brightness, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
 use crate::scene::{script, shining_ball};
@@ -39,13 +39,13 @@ fn the_ball_is_to_be_seen_in_all_surroundings() {
 fn the_sky_has_its_color() {
     let words = ["sky = \"#204060\"", "sky = false", "", "ground = false\nsky = \"#204060\""];
     let [plain, none, usual, all_around] = render_all(words.map(scene), SIZE);
-    let top = |image: &crate::image::Image| image.at(glam::DVec2::new(10.0, 1.0));
+    let top = |image: &Image| image.at(DVec2::new(10.0, 1.0));
     let near = |a: Rgb, b: Rgb| (0..3).all(|i| a[i].abs_diff(b[i]) <= 1);
     assert!(near(top(&plain), [0x20, 0x40, 0x60]), "{:?}", top(&plain));
     assert_eq!(top(&none), [0; 3]);
     let [r, _, b] = top(&usual);
     assert!(b > r && b > 150, "the usual sky is blue: {:?}", top(&usual));
-    let bottom = all_around.at(glam::DVec2::new(10.0, 98.0));
+    let bottom = all_around.at(DVec2::new(10.0, 98.0));
     assert!(near(bottom, [0x20, 0x40, 0x60]), "without ground there is sky below: {bottom:?}");
 }
 
@@ -72,8 +72,7 @@ fn tiles_are_as_large_as_they_should_be() {
         script(&format!("{ball}{sun}{ground}{}", down.toml()))
     };
     let [one, two] = render_all([scene(1.0), scene(2.0)], SIZE);
-    let shade =
-        |image: &crate::image::Image, x: f64, z: f64| brightness(image.at(down.sees(DVec3::new(x, 0.0, z))));
+    let shade = |image: &Image, x: f64, z: f64| brightness(image.at(down.sees(DVec3::new(x, 0.0, z))));
     let same = |a: f64, b: f64| (a - b).abs() < 4.0;
     assert!(!same(shade(&one, 0.5, 0.5), shade(&one, 1.5, 0.5)));
     assert!(same(shade(&one, 0.5, 0.5), shade(&one, 1.5, 1.5)));
@@ -87,8 +86,7 @@ fn fog_hides_the_horizon() {
     let [fog, clear] = render_all(["fog = true", "fog = false"].map(scene), SIZE);
     // The camera looks down by 0.1: the horizon is 0.1 above the middle.
     let along = |over: f64| front().sees(DVec3::new(-3.0, 2.0 + over, 0.0));
-    let step =
-        |image: &crate::image::Image| brightness(image.at(along(0.08))) - brightness(image.at(along(-0.08)));
+    let step = |image: &Image| brightness(image.at(along(0.08))) - brightness(image.at(along(-0.08)));
     assert!(step(&clear) > 30.0, "{}", step(&clear));
     assert!(step(&fog).abs() < 15.0, "{}", step(&fog));
 }
