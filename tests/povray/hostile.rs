@@ -38,7 +38,7 @@ point.location = [3, 4, 5]
 
 [povray]
 include = ["x; #fopen D; y.inc"]
-sdl = "#declare Two = 2; // no line break at the end"
+sdl = "#declare Two = One + 1; // no line break at the end"
 "##;
 
 #[test]

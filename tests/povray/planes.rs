@@ -25,26 +25,29 @@ fn a_turned_plane_is_where_it_should_be() {
         (format!("{with_normal}{turned}"), by_turn * upright),
     ];
     let camera = Pinhole { angle: 110.0, ..Pinhole::new([0.5, 0.5, 6.0], [0.5, -0.4, 0.0]) };
-    for material in [PLAIN, PATTERN] {
+    // The last of these fades into the black sky: it is to be seen where it is near.
+    let materials = [(PLAIN, false, 0.03), (PATTERN, false, 0.03), ("", false, 0.03), ("", true, 0.3)];
+    for (material, fog, under) in materials {
         let scene = |words: &str| {
             format!(
-                "[body.p]\nlocation = {location}\n{words}{material}[environment]\nsky = false\n{}",
+                "[body.p]\nlocation = {location}\n{words}{material}[environment]\nsky = false\nfog = {fog}\n{}",
                 camera.toml()
             )
         };
+        let is_there = |rgb| if material.is_empty() { brightness(rgb) > 40.0 } else { is_green(rgb) };
         let scripts = cases.each_ref().map(|(words, _)| script(&scene(words)));
         for (image, (words, normal)) in render_all(scripts, SIZE).iter().zip(&cases) {
             let back = (camera.location - camera.look_at).normalize();
             let along = normal.cross(back).normalize();
             for step in -3..=3 {
                 let pixel = image.at(camera.sees(location + along * (0.4 * f64::from(step))));
-                assert!(is_green(pixel), "{words}: {pixel:?} on the plane");
+                assert!(is_there(pixel), "{words}: {pixel:?} on the plane");
             }
             // Far away, the plane ends at its horizon; two degrees over it there is nothing.
             let away = (-back - normal * (-back).dot(*normal)).normalize();
             let horizon = |over: f64| camera.sees(camera.location + away + normal * over);
-            let (over, under) = (image.at(horizon(0.03)), image.at(horizon(-0.03)));
-            assert!(is_green(under) && over == [0, 0, 0], "{words}: {over:?} over {under:?}");
+            let (over, under) = (image.at(horizon(0.03)), image.at(horizon(-under)));
+            assert!(is_there(under) && over == [0, 0, 0], "{words}: {over:?} over {under:?}");
         }
     }
 }
@@ -69,6 +72,23 @@ fn a_plane_cuts_a_ball_where_it_should() {
     }
     for image in [&under_plain, &under_pattern] {
         assert!(image.at(low) == [255, 0, 0] && image.at(high) == [255, 0, 0]);
+    }
+}
+
+/// Turned towards the viewer by 45°, it leaves free the front of the ball, which a level one hides.
+#[test]
+fn a_turned_plane_cuts_a_ball_where_it_should() {
+    let camera = Pinhole::new([0.0, 3.0, 8.0], [0.0, 1.0, 0.0]);
+    let scene = |turn: &str, material: &str| {
+        let ball = shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
+        let plane = format!("[body.p]\nshape.plane = {{}}\nlocation = [0, 1, 0]\n{turn}{material}");
+        script(&(plane + &ball + &camera.toml()))
+    };
+    let front = camera.sees(DVec3::new(0.0, 0.8, 0.95));
+    for material in [PLAIN, PATTERN, ""] {
+        let scripts = [scene("orientation = [45, 0, 0]\n", material), scene("", material)];
+        let [turned, level] = render_all(scripts, SIZE).map(|image| image.at(front));
+        assert!(turned == [255, 0, 0] && level != [255, 0, 0], "{turned:?} and {level:?}");
     }
 }
 
@@ -99,9 +119,9 @@ fn a_plane_without_a_material_looks_like_the_ground() {
     let ball = shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
     let of = |floor: &str| script(&format!("{ball}{floor}{}", camera.toml()));
     // The tiles of this scene are 0.2 m long, so the plane is moved by an even number of them.
-    let plane = "[body.p]\nshape.plane = {}\nlocation = [40, 0, -20]\n";
+    let plane = "[body.p]\nshape.plane = {}\nlocation = [40, -0.5, -20]\n";
     let no_fog = "[environment]\nfog = false\n";
-    let grounds = ["ground.height = 0\n", "ground.height = 0\nfog = false\n"];
+    let grounds = ["ground.height = -0.5\n", "ground.height = -0.5\nfog = false\n"];
     let [ground, clear_ground] = grounds.map(|words| of(&format!("[environment]\n{words}")));
     let scripts = [ground, of(plane), clear_ground, of(&format!("{plane}{no_fog}"))];
     let [ground, plane, clear_ground, clear_plane] = render_all(scripts, SIZE);

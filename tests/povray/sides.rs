@@ -65,9 +65,9 @@ fn x_is_on_the_right_for_a_camera_that_looks_straight_down_or_up() {
 /// A camera that the scene does not place shows the whole motion, from the first frame to the last.
 #[test]
 fn the_usual_camera_sees_the_whole_motion() {
-    let ball = shining_ball("ball", [-5.0, 0.0, 3.0], 0.5, "#ff0000");
-    let thrown = ball.replace("shape", "velocity = [3, 10, -2]\nshape");
-    let simulation = "[simulation]\nduration = 4\nframe_rate = 1\ngravity = [0, -5, 0]\n";
+    let ball = shining_ball("ball", [-5.0, 0.0, 0.0], 0.5, "#ff0000");
+    let thrown = ball.replace("shape", "velocity = [2.5, 1, 0]\nshape");
+    let simulation = "[simulation]\nduration = 4\nframe_rate = 1\n";
     let scene = format!("{simulation}{thrown}{DARK}");
     let images = render_all([0, 2, 4].map(|frame| script_of(&scene, frame)), SIZE);
     for image in &images {
