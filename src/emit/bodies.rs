@@ -121,6 +121,13 @@ fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style)
 fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) -> Group {
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
+    let name = text::comment(&body.name);
+    if let (Shape::Plane { normal }, Some(material)) = (body.shape, material.filter(|m| m.makes_plane)) {
+        let before = format!("{}(transform {{ ", material.identifier);
+        let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
+        let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
+        return Group { before: String::new(), bodies: vec![item], after: String::new() };
+    }
     let (mut before, place, mut after) = shape(body, material.is_none_or(|m| m.is_uniform), style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage));
     // A pattern moves with the body: the transform comes after it.
@@ -131,7 +138,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
         }
         Place::Centre | Place::Plane(_) => after.push_str(&usage),
     }
-    let after = format!("{after} }} // {}\n", text::comment(&body.name));
+    let after = format!("{after} }} // {name}\n");
     Group { before: String::new(), bodies: vec![Item { id, before, place, after }], after: String::new() }
 }
 

@@ -28,6 +28,9 @@ pub(super) struct MaterialText {
     /// Whether it looks the same however it is turned.
     #[serde(skip)]
     pub(super) is_uniform: bool,
+    /// Whether it is a macro that makes a whole plane of a transform.
+    #[serde(skip)]
+    pub(super) makes_plane: bool,
 }
 
 /// The materials of a scene, each with an identifier of its own.
@@ -53,6 +56,7 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         sdl: None,
         usage,
         is_uniform: material.look.is_uniform(),
+        makes_plane: matches!(material.look, Look::Checkered),
     };
     match &material.look {
         Look::Plain { color, finish } => {

@@ -24,6 +24,10 @@ pub(super) struct Stage {
     ground: Option<GroundText>,
     /// The edge of a tile of a checkered plane.
     tile: f64,
+    /// The distance from the middle over which its tiles fade.
+    tiles_fade: f64,
+    /// The distance from the middle over which ground and checkered planes fade into the horizon.
+    fade: f64,
     sky: SkyText,
     fog: bool,
     /// The number of a body that POV-Ray may not draw.
@@ -61,8 +65,6 @@ struct GroundText {
     tile: f64,
     /// The distance from the middle over which the tiles fade.
     tiles_fade: f64,
-    /// The distance from the middle over which the ground fades into the horizon.
-    fade: f64,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -92,12 +94,14 @@ impl Stage {
         let unit =
             scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest.map(|(_, half)| half)));
 
-        let ground = scene.environment.ground.as_ref().map(|ground| GroundText {
-            height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
-            tile: ground.tile.unwrap_or_else(|| tile(size)) / unit,
-            tiles_fade: 4.5 * size / unit,
-            // From far away, more of the ground is to be seen.
-            fade: 11.0 * size.max(distance / 2.0) / unit,
+        let ground = scene.environment.ground.as_ref().map(|ground| {
+            let tile = ground.tile.unwrap_or_else(|| tile(size));
+            GroundText {
+                height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
+                tile: tile / unit,
+                // Tiles that are given may be larger than all that moves.
+                tiles_fade: (4.5 * size).max(38.0 * tile) / unit,
+            }
         });
         let sky = match scene.environment.sky {
             Sky::Gradient => SkyText { color: None },
@@ -116,6 +120,9 @@ impl Stage {
             lights: scene.lights.iter().map(|l| light(l, center, size.max(distance), unit)).collect(),
             ground,
             tile: tile(size) / unit,
+            tiles_fade: 4.5 * size / unit,
+            // From far away, more of the ground is to be seen.
+            fade: 11.0 * size.max(distance / 2.0) / unit,
             sky,
             fog: scene.environment.fog,
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),

@@ -39,8 +39,9 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         frames,
         last,
         digits,
-        // POV-Ray numbers images with the digits of the last number: these make up for the others.
-        padding => "0".repeat(digits - last.to_string().len()),
+        // POV-Ray numbers images with the digits of the last number, and a single image not at all: these make up for
+        // the others.
+        padding => "0".repeat(if last == 0 { digits } else { digits - last.to_string().len() }),
         width => scene.output.width,
         height => scene.output.height,
         frame_rate => scene.simulation.frame_rate,

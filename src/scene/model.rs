@@ -1,8 +1,8 @@
 //! The part of a checked scene that is physics.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
-use crate::dynamics::{Method, Shape};
+use crate::dynamics::{Method, RigidBody, Shape};
 
 /// How the world is advanced.
 #[derive(Clone, Debug)]
@@ -37,31 +37,15 @@ impl Simulation {
     }
 }
 
-/// A rigid body at the start, and its look.
+/// A rigid body and its look.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its name, unique among bodies.
     pub name: String,
     /// Its form.
     pub shape: Shape,
-    /// Its mass, kg.
-    pub mass: f64,
-    /// Its principal moments of inertia about its own x, y, z, kg·m².
-    pub inertia: DVec3,
-    /// Its centre of mass, m.
-    pub location: DVec3,
-    /// The rotation that takes its own axes to the world's.
-    pub orientation: DQuat,
-    /// Its velocity, m/s.
-    pub velocity: DVec3,
-    /// Its angular velocity in world axes, rad/s.
-    pub angular_velocity: DVec3,
-    /// A constant force at its centre, N.
-    pub force: DVec3,
-    /// A constant torque, N·m.
-    pub torque: DVec3,
-    /// Whether it stays where it is.
-    pub fixed: bool,
+    /// What it is at the start.
+    pub start: RigidBody,
     /// The number of its material among the scene's; none for axes, which have colors of their own.
     pub material: Option<usize>,
 }

@@ -1,9 +1,10 @@
 //! The colors of bodies that have no material.
 
 use super::{Color, Finish, Look, Material};
+use crate::dynamics::Shape;
 
 /// The colors, in the order in which bodies get them: neighbours differ most, also for the color-blind.
-pub(super) const COLORS: [(&str, Color); 8] = [
+const COLORS: [(&str, Color); 8] = [
     ("red", Color([0.80, 0.07, 0.10])),
     ("blue", Color([0.08, 0.31, 0.72])),
     ("amber", Color([0.97, 0.75, 0.13])),
@@ -14,8 +15,54 @@ pub(super) const COLORS: [(&str, Color); 8] = [
     ("slate", Color([0.15, 0.18, 0.24])),
 ];
 
-/// The material of the given number.
-pub(super) fn material(number: usize) -> Material {
-    let (name, color) = COLORS[number];
-    Material { name: format!("palette {name}"), look: Look::Plain { color, finish: Finish::Glossy } }
+/// The looks of bodies without a material, each made when it is first needed.
+#[derive(Default)]
+pub(super) struct Palette {
+    /// How many bodies have had their turn.
+    turns: usize,
+    /// The numbers of the materials that have been made.
+    colors: [Option<usize>; COLORS.len()],
+    checkered: Option<usize>,
+}
+
+/// What a body without a material looks like.
+#[derive(Clone, Copy)]
+pub(super) enum Usual {
+    /// One of the colors.
+    Color(usize),
+    /// Like the ground.
+    Checkered,
+}
+
+impl Palette {
+    /// The usual look of the next body in the file. A body added at the end changes no other's.
+    pub(super) fn next(&mut self, shape: &Shape) -> Usual {
+        if matches!(shape, Shape::Plane { .. }) {
+            return Usual::Checkered;
+        }
+        self.turns += 1;
+        Usual::Color((self.turns - 1) % COLORS.len())
+    }
+
+    /// The number of the material for a usual look.
+    pub(super) fn material(&mut self, usual: Usual, materials: &mut Vec<Material>) -> usize {
+        let made = match usual {
+            Usual::Color(number) => &mut self.colors[number],
+            Usual::Checkered => &mut self.checkered,
+        };
+        *made.get_or_insert_with(|| {
+            materials.push(material(usual));
+            materials.len() - 1
+        })
+    }
+}
+
+fn material(usual: Usual) -> Material {
+    match usual {
+        Usual::Checkered => Material { name: "checkered".to_owned(), look: Look::Checkered },
+        Usual::Color(number) => {
+            let (name, color) = COLORS[number];
+            Material { name: format!("palette {name}"), look: Look::Plain { color, finish: Finish::Glossy } }
+        }
+    }
 }

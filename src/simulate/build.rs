@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::dynamics::{Anchor, ConstantForce, Spring, UniformGravity};
-use crate::dynamics::{BodyId, RigidBody, World};
-use crate::scene::{Body, Force, ForceKind, Scene, SpringEnd};
+use crate::dynamics::{BodyId, World};
+use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
 /// is the same in both.
@@ -12,26 +12,12 @@ pub fn world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
     world.set_step(scene.simulation.step);
-    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| world.add(rigid_body(body))).collect();
+    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| world.add(body.start)).collect();
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
     scene.forces.iter().for_each(|force| add_force(&mut world, force, &ids));
     world
-}
-
-fn rigid_body(body: &Body) -> RigidBody {
-    RigidBody {
-        mass: body.mass,
-        inertia: body.inertia,
-        location: body.location,
-        orientation: body.orientation,
-        velocity: body.velocity,
-        angular_velocity: body.angular_velocity,
-        force: body.force,
-        torque: body.torque,
-        fixed: body.fixed,
-    }
 }
 
 fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {

@@ -6,8 +6,9 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::dynamics::Shape;
-use crate::scene::{Body, Look, Material, palette};
+use crate::dynamics::{RigidBody, Shape};
+use crate::scene::palette::Palette;
+use crate::scene::{Body, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -17,38 +18,30 @@ const PUSHING: [&str; 5] = ["mass", "density", "inertia", "force", "torque"];
 pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
     let tables = root.named("body");
     let mut palette = Palette::default();
-    let read = |(number, (name, span, view)): (usize, (&str, Span, View<'_>))| {
+    let read = |(name, span, view): (&str, Span, View<'_>)| {
         let shape = shape(&view.table("shape"));
-        let material = material(&view, &shape, number, materials, &mut palette, context);
-        body(name, span, &view, shape, material, context)
+        let material = material(&view, &shape, materials, &mut palette, context);
+        Body { name: name.to_owned(), shape, start: start(name, span, &view, &shape, context), material }
     };
-    tables.into_iter().enumerate().map(read).collect()
+    tables.into_iter().map(read).collect()
 }
 
-fn body(
-    name: &str,
-    span: Span,
-    view: &View<'_>,
-    shape: Shape,
-    material: Option<usize>,
-    context: &mut Context<'_>,
-) -> Body {
-    let fixed = fixed(name, view, &shape, context);
-    let mass = mass(name, span, view, &shape, context);
-    Body {
-        name: name.to_owned(),
+/// The body as it is at the start.
+fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> RigidBody {
+    let fixed = fixed(name, view, shape, context);
+    let mass = mass(name, span, view, shape, context);
+    let inertia = inertia(name, view, context);
+    let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
+    RigidBody {
         mass,
-        inertia: inertia(name, view, context)
-            .unwrap_or_else(|| inertia_of_shape(name, span, &shape, mass, fixed, context)),
-        location: view.vector("location").unwrap_or(DVec3::ZERO),
+        inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
+        location: vector("location"),
         orientation: orientation(name, view, context),
-        velocity: view.vector("velocity").unwrap_or(DVec3::ZERO),
-        angular_velocity: view.vector("angular_velocity").unwrap_or(DVec3::ZERO),
-        force: view.vector("force").unwrap_or(DVec3::ZERO),
-        torque: view.vector("torque").unwrap_or(DVec3::ZERO),
+        velocity: vector("velocity"),
+        angular_velocity: vector("angular_velocity"),
+        force: vector("force"),
+        torque: vector("torque"),
         fixed,
-        material,
-        shape,
     }
 }
 
@@ -183,12 +176,10 @@ fn euler(angles: DVec3) -> DQuat {
     turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
 }
 
-/// The number of a body's material; bodies without one get a color of the palette after their place in the file,
-/// so that a body added at the end changes no other's color.
+/// The number of a body's material; bodies without one get one of the palette's, and axes have colors of their own.
 fn material(
     view: &View<'_>,
     shape: &Shape,
-    number: usize,
     materials: &mut Vec<Material>,
     palette: &mut Palette,
     context: &mut Context<'_>,
@@ -199,35 +190,8 @@ fn material(
         context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
         return None;
     }
-    if let Some(&given) = view.text("material").and_then(|name| context.names.materials.get(name)) {
-        return Some(given);
-    }
-    Some(match shape {
-        Shape::Plane { .. } => palette.checkered(materials),
-        _ => palette.color(number, materials),
-    })
-}
-
-/// The looks of bodies without a material, each made when it is first needed.
-#[derive(Default)]
-struct Palette {
-    colors: [Option<usize>; palette::COLORS.len()],
-    checkered: Option<usize>,
-}
-
-impl Palette {
-    fn color(&mut self, number: usize, materials: &mut Vec<Material>) -> usize {
-        let number = number % self.colors.len();
-        *self.colors[number].get_or_insert_with(|| {
-            materials.push(palette::material(number));
-            materials.len() - 1
-        })
-    }
-
-    fn checkered(&mut self, materials: &mut Vec<Material>) -> usize {
-        *self.checkered.get_or_insert_with(|| {
-            materials.push(Material { name: "checkered".to_owned(), look: Look::Checkered });
-            materials.len() - 1
-        })
-    }
+    // Also a body with a material of its own takes its turn: giving it one changes no other's color.
+    let usual = palette.next(shape);
+    let given = view.text("material").and_then(|name| context.names.materials.get(name));
+    Some(given.copied().unwrap_or_else(|| palette.material(usual, materials)))
 }

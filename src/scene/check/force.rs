@@ -21,7 +21,7 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) 
 }
 
 fn constant(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> ForceKind {
-    let movable = || (0..bodies.len()).filter(|&i| !bodies[i].fixed).collect();
+    let movable = || (0..bodies.len()).filter(|&i| !bodies[i].start.fixed).collect();
     let on = match view.list("on") {
         None => movable(),
         Some(items) => {
@@ -33,7 +33,7 @@ fn constant(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Forc
                     context
                         .diagnostics
                         .push(Diagnostic::error("named-twice", message).at(item.span, "the second time"));
-                } else if bodies[body].fixed {
+                } else if bodies[body].start.fixed {
                     let message = format!("the force has no effect on `{}`", bodies[body].name);
                     context
                         .diagnostics
@@ -54,7 +54,7 @@ fn constant(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Forc
 fn spring(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Option<ForceKind> {
     let [first, second] = view.list("between")? else { return None };
     let between = [end(first, context)?, end(second, context)?];
-    let moves = |end: SpringEnd| matches!(end, SpringEnd::Body(i) if !bodies[i].fixed);
+    let moves = |end: SpringEnd| matches!(end, SpringEnd::Body(i) if !bodies[i].start.fixed);
     if between[0] == between[1] {
         let error = Diagnostic::error("spring-ends", "both ends of the spring are at the same place");
         context.diagnostics.push(error.at(second.span, "the same as the first end"));
@@ -64,7 +64,7 @@ fn spring(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Option
         context.diagnostics.push(error.help("one end at least must be a body that is not fixed"));
     }
     let place = |end: SpringEnd| match end {
-        SpringEnd::Body(i) => bodies[i].location,
+        SpringEnd::Body(i) => bodies[i].start.location,
         SpringEnd::Point(point) => point,
     };
     Some(ForceKind::Spring {

@@ -1,0 +1,95 @@
+//! What bodies are made of.
+
+use glam::{DVec2, DVec3};
+
+use crate::image::{brightness, is_blue, is_green, is_red};
+use crate::pinhole::{Pinhole, SIZE};
+use crate::povray::{render, render_all};
+use crate::scene::{script, shining_ball};
+
+fn front() -> Pinhole {
+    Pinhole::new([0.0, 1.5, 8.0], [0.0, 0.5, 0.0])
+}
+
+/// A ball of radius 1 on the ground, of the material `m`.
+fn ball_of(material: &str) -> String {
+    let body = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1, 0]\nmaterial = \"m\"\n[material.m]\n";
+    format!("{body}{material}{}", front().toml())
+}
+
+/// The middle of the ball in the picture, and a place high on it.
+fn middle_and_crown() -> (DVec2, DVec2) {
+    (front().sees(DVec3::Y), front().sees(DVec3::new(0.0, 1.75, 0.6)))
+}
+
+#[test]
+fn every_finish_is_to_be_seen() {
+    let finishes = ["matte", "satin", "glossy", "metal", "mirror", "luminous"];
+    let names = jabuka::scene::Finish::ALL.map(jabuka::scene::Finish::name);
+    assert_eq!(names, finishes);
+    let images = finishes.map(|f| script(&ball_of(&format!("color = \"#c03020\"\nfinish = \"{f}\"\n"))));
+    let images = render_all(images, SIZE);
+    let (middle, crown) = middle_and_crown();
+    for (finish, image) in finishes.iter().zip(&images) {
+        assert!((60.0..230.0).contains(&image.brightness()), "{finish}: {}", image.brightness());
+        let (middle, crown) = (image.at(middle), image.at(crown));
+        match *finish {
+            // A mirror has no color of its own: its upper half shows the sky.
+            "mirror" => assert!(crown[2] > crown[0], "{finish}: {crown:?}"),
+            "luminous" => assert_eq!((middle, crown), ([0xc0, 0x30, 0x20], [0xc0, 0x30, 0x20])),
+            _ => assert!(is_red(middle), "{finish}: {middle:?}"),
+        }
+    }
+    for (i, one) in images.iter().enumerate() {
+        for (j, other) in images.iter().enumerate().skip(i + 1) {
+            assert!(one.difference(other) > 0.1, "{} looks like {}", finishes[i], finishes[j]);
+        }
+    }
+}
+
+#[test]
+fn a_texture_of_an_include_file_is_to_be_seen() {
+    let chrome = ball_of("texture = \"T_Chrome_4C\"\n[povray]\ninclude = [\"metals.inc\"]\n");
+    let image = render(&script(&chrome), SIZE);
+    let (middle, crown) = middle_and_crown();
+    assert!((60.0..230.0).contains(&image.brightness()), "{}", image.brightness());
+    assert!(brightness(image.at(crown)) > 60.0 && brightness(image.at(middle)) > 15.0);
+    assert!(image.at(crown)[2] > image.at(crown)[0], "chrome shows the sky: {:?}", image.at(crown));
+}
+
+#[test]
+fn a_material_in_povrays_words_is_to_be_seen() {
+    let pigment = "sdl = \"pigment { color rgb <0, 1, 0> } finish { emission 1 }\"\n";
+    let glass = "sdl = '''\nmaterial {\n  texture { pigment { rgbf <1, 1, 1, 0.9> } }\n  interior { ior 1.5 }\n}'''\n";
+    let behind = shining_ball("behind", [0.0, 1.0, -4.0], 4.0, "#0000ff");
+    let scripts = [script(&ball_of(pigment)), script(&(ball_of(glass) + &behind))];
+    let [green, glass] = render_all(scripts, SIZE);
+    let (middle, _) = middle_and_crown();
+    assert!(is_green(green.at(middle)), "{:?}", green.at(middle));
+    assert!(is_blue(glass.at(middle)), "through glass: {:?}", glass.at(middle));
+}
+
+/// Bodies of one plain material stand in one union, which bears it.
+#[test]
+fn bodies_of_one_material_all_have_it() {
+    let camera = front();
+    let mut scene = String::from("[material.m]\ncolor = \"red\"\nfinish = \"luminous\"\n");
+    let places = [-2.0, 0.0, 2.0].map(|x| DVec3::new(x, 0.5, 0.0));
+    for (i, place) in places.iter().enumerate() {
+        let shape = ["sphere.radius = 0.4", "box.size = [0.6, 0.6, 0.6]", "sphere.radius = 0.3"][i];
+        scene += &format!("[body.b{i}]\nshape.{shape}\nlocation = {place}\nmaterial = \"m\"\n");
+    }
+    let image = render(&script(&(scene + &camera.toml())), SIZE);
+    for place in places {
+        assert_eq!(image.at(camera.sees(place)), [255, 0, 0]);
+    }
+}
+
+#[test]
+fn the_scenes_own_sdl_stands_in_the_script() {
+    let sdl =
+        "[povray]\nsdl = '''\nsphere { <2, 1, 0>, 0.5 pigment { rgb <0, 1, 0> } finish { emission 1 } }'''\n";
+    let image = render(&script(&(ball_of("color = \"red\"\n") + sdl)), SIZE);
+    let place = front().sees(DVec3::new(2.0, 1.0, 0.0));
+    assert!(is_green(image.at(place)), "{:?}", image.at(place));
+}

@@ -1,0 +1,23 @@
+//! The scripts before POV-Ray itself: it parses all of them without a word, and its pixels show what the scene says.
+//!
+//! A process of POV-Ray's sleeps most of its 0.6 s, so tests that render several scripts start all of them at once.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
+
+mod every_script;
+mod hostile;
+mod image;
+mod lights;
+mod looks;
+mod pinhole;
+mod planes;
+mod povray;
+mod same_pixels;
+mod scales;
+mod scene;
+mod sequence;
+mod sides;
+#[allow(unreachable_pub, reason = "a test program has no outside")]
+#[path = "../support/mod.rs"]
+mod support;
+mod surroundings;
+mod turning;

@@ -1,0 +1,81 @@
+//! Runs POV-Ray, and holds it to silence.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use crate::image::Image;
+
+/// What a run of POV-Ray had to say.
+pub(crate) struct Said {
+    /// Whether it ended well.
+    pub(crate) success: bool,
+    /// Its warnings.
+    pub(crate) warnings: String,
+    /// Its errors.
+    pub(crate) errors: String,
+}
+
+impl Said {
+    /// Panics unless POV-Ray ended well and without a word.
+    pub(crate) fn nothing(&self, of: &str) {
+        assert!(
+            self.success && self.warnings.is_empty() && self.errors.is_empty(),
+            "POV-Ray on {of}:\n{}{}",
+            self.warnings,
+            self.errors
+        );
+    }
+}
+
+/// Runs POV-Ray in a folder, where it leaves `warnings.txt` and `errors.txt`.
+pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Said {
+    let status = Command::new("povray")
+        .current_dir(folder)
+        .args(arguments)
+        // Its progress would be megabytes; warnings and errors go to files, unwrapped.
+        .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    let status = match status {
+        Ok(status) => status,
+        Err(error) => panic!("`povray` cannot be started ({error}): run the tests by `tests/run`"),
+    };
+    let said = |name| without_banners(&fs::read_to_string(folder.join(name)).unwrap_or_default());
+    Said { success: status.success(), warnings: said("warnings.txt"), errors: said("errors.txt") }
+}
+
+/// In a sequence, a banner over what is said of each frame says that it is appended.
+fn without_banners(said: &str) -> String {
+    said.lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('='))
+        .map(|line| format!("{line}\n"))
+        .collect()
+}
+
+/// Renders a script in a folder of its own; POV-Ray must not say a word.
+pub(crate) fn render_with(script: &str, size: [u32; 2], arguments: &[&str]) -> Image {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("script.pov"), script).unwrap();
+    let [width, height] = size.map(|pixels| pixels.to_string());
+    let (width, height) = (format!("+W{width}"), format!("+H{height}"));
+    let mut all = vec!["+Iscript.pov", "+Oscript.png", "+FN8", "+WT1", &width, &height];
+    all.extend(arguments);
+    run(folder.path(), &all).nothing(script);
+    Image::read(&folder.path().join("script.png"))
+}
+
+/// Renders a script as it is; POV-Ray must not say a word.
+pub(crate) fn render(script: &str, size: [u32; 2]) -> Image {
+    render_with(script, size, &[])
+}
+
+/// Renders several scripts at once.
+pub(crate) fn render_all<const N: usize>(scripts: [String; N], size: [u32; 2]) -> [Image; N] {
+    std::thread::scope(|scope| {
+        let threads = scripts.map(|script| scope.spawn(move || render(&script, size)));
+        threads.map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
+}

@@ -1,0 +1,56 @@
+//! `povray animation.ini` in the output folder renders the sequence.
+
+use std::path::Path;
+
+use crate::{povray, support};
+
+/// Compiles a sequence of so many frames; of these, only the named ones are written.
+fn compile(folder: &Path, frames: usize, written: &str) {
+    let last = frames - 1;
+    let scene = format!(
+        "simulation.duration = {last}\nsimulation.frame_rate = 1\nsimulation.step = 1
+[body.ball]\nshape.sphere.radius = 1\nlocation = [1, 2, 3]\n[output]\nsize = [8, 6]\n"
+    );
+    let path = folder.join("scene.toml");
+    std::fs::write(&path, scene).unwrap();
+    support::compile(&path, &folder.join("out"), &["--frames", written]);
+}
+
+/// The names of the files with an ending, without it.
+fn stems(folder: &Path, ending: &str) -> Vec<String> {
+    let names = support::contents(folder).into_iter().map(|(name, _)| name);
+    names.filter_map(|name| name.strip_suffix(ending).map(str::to_owned)).collect()
+}
+
+#[test]
+fn one_command_renders_all_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    compile(folder.path(), 5, "0-4");
+    let out = folder.path().join("out");
+    povray::run(&out, &["animation.ini"]).nothing("animation.ini");
+    let expected = ["frame_0000", "frame_0001", "frame_0002", "frame_0003", "frame_0004"];
+    assert_eq!(stems(&out, ".png"), expected);
+}
+
+/// POV-Ray numbers images by rules of its own: the names are right however many digits the last number has, and
+/// also where there is only one frame, which POV-Ray does not number at all.
+#[test]
+fn images_are_named_as_scripts_for_sequences_of_any_length() {
+    std::thread::scope(|scope| {
+        for frames in [1_usize, 2, 10, 11, 100, 101, 1_000, 1_001, 10_000, 10_001] {
+            scope.spawn(move || named_as_scripts(frames));
+        }
+    });
+}
+
+fn named_as_scripts(frames: usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let (last_but_one, last) = (frames.saturating_sub(2), frames - 1);
+    compile(folder.path(), frames, &format!("{last_but_one}-{last}"));
+    let out = folder.path().join("out");
+    let (from, to) = (format!("+SF{last_but_one}"), format!("+EF{last}"));
+    let arguments: &[&str] = if frames > 2 { &["animation.ini", &from, &to] } else { &["animation.ini"] };
+    povray::run(&out, arguments).nothing(&format!("a sequence of {frames} frames"));
+    let scripts = stems(&out, ".pov").into_iter().filter(|name| name.starts_with("frame_"));
+    assert_eq!(stems(&out, ".png"), scripts.collect::<Vec<_>>(), "{frames} frames");
+}
