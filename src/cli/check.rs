@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use jabuka::Scene;
 use jabuka::diagnostic::Report;
+use jabuka::scene::Options;
 
 use super::{Failure, say};
 
@@ -17,6 +18,9 @@ pub(super) struct Arguments {
     /// How errors and warnings are shown
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Let the scenes' SDL open, write and include files, and their paths leave their folders
+    #[arg(long)]
+    trust: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -28,10 +32,12 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let options = Options { trust: arguments.trust, ..Options::default() };
     let mut errors = 0;
     let mut json = Vec::new();
     for path in &arguments.scene {
-        let report = Scene::from_path(path).map_or_else(|report| report, |scene| scene.warnings);
+        let report =
+            Scene::from_path_with(path, &options).map_or_else(|report| report, |scene| scene.warnings);
         errors += report.errors();
         match arguments.format {
             Format::Text => show(path, &report),

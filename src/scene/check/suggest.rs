@@ -35,6 +35,19 @@ pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     same.map(|key| key.name).or_else(|| nearest(&folded, names()))
 }
 
+/// The way to a key that stands in a table inside this one: `shape.sphere.radius` for `radius` in a body.
+pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
+    table.keys.iter().find_map(|key| {
+        let inner = key.kind.table()?;
+        let mut way = match inner.key(word) {
+            Some(found) => vec![found.name],
+            None => deeper(word, inner)?,
+        };
+        way.insert(0, key.name);
+        Some(way)
+    })
+}
+
 /// What to say of an unknown word, given those that are known; `plural` is the word for all of them.
 pub(super) fn label(word: &str, known: &[&str], noun: &str, plural: &str) -> String {
     match (nearest(word, known.iter().copied()), known) {
@@ -58,6 +71,13 @@ mod tests {
         assert_eq!(nearest("Radius", words), Some("radius"));
         assert_eq!(nearest("colour", words), None);
         assert_eq!(nearest("", words), None);
+    }
+
+    #[test]
+    fn a_key_of_a_table_inside_is_found() {
+        assert_eq!(deeper("gravity", &SCENE), Some(vec!["simulation", "gravity"]));
+        assert_eq!(deeper("tile", &SCENE), Some(vec!["environment", "ground", "tile"]));
+        assert_eq!(deeper("radius", &SCENE), None, "bodies have names");
     }
 
     #[test]

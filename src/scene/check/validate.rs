@@ -19,9 +19,10 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
         if let Some(key) = spec.key(&entry.name.text) {
             value(&entry.node, &key.kind, Some(entry), path, context);
         } else {
-            let near = suggest::key(&entry.name.text, spec);
-            meant.extend(near);
-            context.diagnostics.push(unknown_key(entry, near, spec, path));
+            let way = suggest::deeper(&entry.name.text, spec);
+            let way = way.or_else(|| suggest::key(&entry.name.text, spec).map(|near| vec![near]));
+            meant.extend(way.iter().map(|way| way[0]));
+            context.diagnostics.push(unknown_key(entry, way, spec, path));
         }
     }
     for key in spec.keys.iter().filter(|key| key.required && table.get(key.name).is_none()) {
@@ -32,10 +33,10 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     rule(table, spec, &meant, at, path, context);
 }
 
-fn unknown_key(entry: &Entry, near: Option<&str>, spec: &TableSpec, path: &str) -> Diagnostic {
+fn unknown_key(entry: &Entry, meant: Option<Vec<&str>>, spec: &TableSpec, path: &str) -> Diagnostic {
     let error = Diagnostic::error("unknown-key", format!("unknown key `{}` in {path}", entry.name.text));
-    match near {
-        Some(near) => error.at(entry.name.span, format!("did you mean `{near}`?")),
+    match meant {
+        Some(way) => error.at(entry.name.span, format!("did you mean `{}`?", way.join("."))),
         None => error.at(entry.name.span, format!("not a key of {}", spec.noun)).help(known_keys(spec)),
     }
 }

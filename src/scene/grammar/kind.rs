@@ -113,6 +113,15 @@ impl Collection {
 }
 
 impl Kind {
+    /// The table that a value of this kind is, or may be; not tables with names of their own.
+    pub fn table(&self) -> Option<&'static TableSpec> {
+        match self {
+            Kind::Table(table) => Some(table),
+            Kind::Either(kinds) => kinds.iter().find_map(Kind::table),
+            _ => None,
+        }
+    }
+
     /// What is expected, in words: `a number greater than 0`.
     pub fn in_words(&self) -> String {
         match self {
