@@ -55,7 +55,8 @@ impl<'a> Run<'a> {
         &self.emitter
     }
 
-    /// What was noticed of the run and is no error: bodies that go through planes, and bodies too thin to be drawn.
+    /// What was noticed of the run and is no error: bodies that go through planes, bodies too thin or too small to be
+    /// seen, an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         let crossings = self.survey.crossings.iter().map(crossing);
         let thin = self.emitter.too_thin().map(|body| {
@@ -63,7 +64,12 @@ impl<'a> Run<'a> {
                 format!("POV-Ray may not draw `{body}`: it is too thin against the size of the whole scene");
             Diagnostic::warning("too-thin", message).help("look from nearer, or make the body larger")
         });
-        crossings.chain(thin).collect()
+        let small = self.emitter.too_small().map(|pixels| {
+            let message = format!("the largest body is {pixels:.1} pixels wide in the picture");
+            let help = "the motion is far longer than the bodies: shorten `simulation.duration`, or give a `[camera]`";
+            Diagnostic::warning("too-small", message).help(help)
+        });
+        crossings.chain(thin).chain(small).chain(drift(self.survey.drift)).collect()
     }
 
     /// The frames, from the initial state.
@@ -87,6 +93,14 @@ impl<'a> Run<'a> {
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         self.emitter.script(frame)
     }
+}
+
+/// That the energy is wrong by more than anyone would draw knowingly.
+fn drift(drift: f64) -> Option<Diagnostic> {
+    const NOTICEABLE: f64 = 0.05;
+    let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
+    let help = "take a smaller `simulation.step`, or an `integrator` of higher order";
+    (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning("energy-drift", message).help(help))
 }
 
 /// That a body goes through a plane.

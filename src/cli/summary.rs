@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use jabuka::Run;
+use jabuka::emit::INI;
 use jabuka::output::Written;
 
 /// What was written, and how right it is.
@@ -11,7 +12,11 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
     let scene = run.scene();
     let survey = run.survey();
     let frames = scene.simulation.frames();
-    let kept = if written.kept > 0 { format!(", {} others kept", written.kept) } else { String::new() };
+    let others = match (written.kept, written.removed) {
+        (0, 0) => String::new(),
+        (0, removed) => format!(", {removed} others of another scene removed"),
+        (kept, _) => format!(", {kept} others kept"),
+    };
     let unit = run.emitter().unit();
     #[allow(clippy::float_cmp, reason = "a unit that is not chosen is exactly 1")]
     let unit = if unit == 1.0 {
@@ -20,12 +25,13 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         format!("unit      1 unit of POV-Ray's is {} m\n", short(unit))
     };
     format!(
-        "{folder}: {scripts} of {frames} frames{kept}\n\
+        "{folder}: {scripts} of {frames} frames{others}\n\
          bodies    {bodies}\n\
          timestep  {step} s, {steps} a frame, by {method}\n\
          drift     {drift} of the largest kinetic energy\n\
          {unit}\
-         written   {bytes} in {seconds:.2} s\n",
+         written   {bytes} in {seconds:.2} s\n\
+         render    cd {folder} && povray {INI}\n",
         folder = folder.display(),
         scripts = written.scripts,
         bodies = scene.bodies.len(),

@@ -35,6 +35,13 @@ impl Field {
     }
 }
 
+impl Field {
+    /// How many pixels something is wide whose half is seen under this slope.
+    pub(super) fn pixels(self, slope: f64, output: Output) -> f64 {
+        slope / self.horizontal * f64::from(output.width)
+    }
+}
+
 /// Places the camera so that the bounds fill the picture. With `look_at` given, only the distance is chosen.
 pub(super) fn frame(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Framing {
     let back = TOWARDS_CAMERA.normalize();

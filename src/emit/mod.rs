@@ -34,6 +34,7 @@ pub struct Emitter {
     block: Block,
     unit: f64,
     too_thin: Option<usize>,
+    too_small: Option<f64>,
     /// The names of the bodies.
     names: Vec<String>,
 }
@@ -73,6 +74,7 @@ impl Emitter {
             block: Block::new(scene, &materials, style),
             unit: stage.unit,
             too_thin: stage.too_thin,
+            too_small: stage.too_small,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             templates,
         })
@@ -87,6 +89,11 @@ impl Emitter {
     /// enough.
     pub fn too_thin(&self) -> Option<&str> {
         self.too_thin.map(|body| self.names[body].as_str())
+    }
+
+    /// How many pixels the largest body is wide, if that is too little to be seen.
+    pub fn too_small(&self) -> Option<f64> {
+        self.too_small
     }
 
     /// The script of a frame.

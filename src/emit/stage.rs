@@ -1,12 +1,12 @@
 //! What surrounds the bodies: camera, lights, ground, sky, each as given or as it follows from the motion; in
 //! POV-Ray's units, as templates see it.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
 use crate::dynamics::Shape;
-use crate::scene::{Color, Light, LightKind, Scene, Sky};
+use crate::scene::{Body, Color, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
 /// What surrounds the bodies. Lengths are in POV-Ray's units.
@@ -33,6 +33,9 @@ pub(super) struct Stage {
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
     pub(super) too_thin: Option<usize>,
+    /// How many pixels the largest body is wide in the middle of the picture, if that is too little to be seen.
+    #[serde(skip)]
+    pub(super) too_small: Option<f64>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -125,6 +128,7 @@ impl Stage {
             fade: 11.0 * size.max(distance / 2.0) / unit,
             sky,
             fog: scene.environment.fog,
+            too_small: largest_in_pixels(scene, field, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
     }
@@ -203,6 +207,16 @@ fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
     } else {
         thin.max(far)
     }
+}
+
+/// So many pixels across, a body is a dot.
+const SMALLEST_SEEN: f64 = 4.0;
+
+/// The width of the largest body in the picture, if it is as far from the camera as the middle of the motion.
+fn largest_in_pixels(scene: &Scene, field: Field, distance: f64) -> Option<f64> {
+    let reach = |body: &Body| body.shape.support(DQuat::IDENTITY, DVec3::Y);
+    let largest = scene.bodies.iter().filter_map(reach).reduce(f64::max)?;
+    Some(field.pixels(largest / distance, scene.output))
 }
 
 /// A height just under the lowest point of the motion.

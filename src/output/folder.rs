@@ -79,10 +79,12 @@ impl Folder {
         scripts(&self.path)
     }
 
-    /// Removes scripts and what belongs to them.
-    pub(super) fn remove_scripts(&self) -> Result<(), OutputError> {
-        let scripts = self.scripts()?.into_iter().map(|(_, name)| name);
-        for name in scripts.chain([MASTER, INI].map(str::to_owned)) {
+    /// Removes scripts and what belongs to them, and tells the numbers of the scripts.
+    pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
+        let scripts = self.scripts()?;
+        let numbers = scripts.iter().map(|(number, _)| *number).collect();
+        let names = scripts.into_iter().map(|(_, name)| name);
+        for name in names.chain([MASTER, INI].map(str::to_owned)) {
             let path = self.path.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -91,7 +93,7 @@ impl Folder {
                 _ => {}
             }
         }
-        Ok(())
+        Ok(numbers)
     }
 
     fn sweep(&self) -> io::Result<()> {

@@ -19,6 +19,8 @@ pub struct Written {
     pub bytes: u64,
     /// The scripts of other frames of the scene that have stayed.
     pub kept: usize,
+    /// The scripts of other frames that were of another scene, or of this one before it was changed, and are gone.
+    pub removed: usize,
 }
 
 /// Writes the selected scripts of a run, and what renders the whole sequence. `done` is told of every script.
@@ -39,9 +41,10 @@ pub fn write(
         folder.write_with(MANIFEST, |file| manifest::write(file, &head, &[]))
     };
     let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
+    let mut removed = Vec::new();
     if !unchanged {
         put_head(State::Clearing)?;
-        folder.remove_scripts()?;
+        removed = folder.remove_scripts()?;
     }
     put_head(State::Writing)?;
 
@@ -51,9 +54,10 @@ pub fn write(
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
     }
+    removed.retain(|frame| !selection.contains(*frame));
     let bytes = entries.iter().map(|entry| entry.bytes).sum();
     let kept = kept(folder, selection)?;
-    let written = Written { scripts, bytes, kept: kept.len() };
+    let written = Written { scripts, bytes, kept: kept.len(), removed: removed.len() };
     entries.extend(kept);
     // First what belongs to the sequence as a whole, then the scripts in their order.
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));

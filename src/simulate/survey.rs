@@ -12,7 +12,8 @@ use crate::scene::{Body, Scene};
 /// What is known of a run as a whole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// The box in which everything takes place; none if the scene has no body but planes.
+    /// The box in which everything takes place, until a body goes through a plane; none if the scene has no body but
+    /// planes.
     pub bounds: Option<Bounds>,
     /// The first passage of a body through each plane or ground that is given.
     pub crossings: Vec<Crossing>,
@@ -58,13 +59,17 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     let (mut error, mut largest_kinetic): (f64, f64) = (0.0, 0.0);
     for frame in Frames::new(scene) {
         let frame = frame?;
+        planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
         for body in &frame.bodies {
+            // What has gone through a plane is behind the scenery, and the camera need not follow.
+            if planes.iter().any(|plane| plane.crossed[body.id]) {
+                continue;
+            }
             let shape = &scene.bodies[body.id].shape;
             if let Some(here) = Bounds::of(shape, body) {
                 bounds = Some(bounds.map_or(here, |all| all.union(here)));
             }
         }
-        planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
         largest_kinetic = largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * largest_kinetic;
         if error_now.abs() > error.abs() {
@@ -104,6 +109,8 @@ struct Watched {
     normal: DVec3,
     /// For each body: the side on which it began, and that it has not gone through yet.
     beginners: Vec<Option<f64>>,
+    /// For each body: whether it has gone through.
+    crossed: Vec<bool>,
     crossing: Option<Crossing>,
 }
 
@@ -113,6 +120,7 @@ fn planes(scene: &Scene) -> Vec<Watched> {
         point,
         normal,
         beginners: Vec::new(),
+        crossed: vec![false; scene.bodies.len()],
         crossing: None,
     };
     let plane = |body: &Body| match body.shape {
@@ -135,6 +143,7 @@ impl Watched {
             let Some(side) = self.beginners[body.id] else { continue };
             if self.gap(&scene.bodies[body.id].shape, body, side) < -self.tolerance(body) {
                 self.beginners[body.id] = None;
+                self.crossed[body.id] = true;
                 match &mut self.crossing {
                     Some(crossing) => crossing.others += 1,
                     None => {
@@ -253,6 +262,24 @@ mod tests {
         let expected =
             Crossing { plane: Some("floor".to_owned()), body: "fast".to_owned(), time: 0.4, others: 1 };
         assert_eq!(survey.crossings, [expected]);
+    }
+
+    #[test]
+    fn what_has_gone_through_a_plane_is_not_followed() {
+        let survey = surveyed(
+            "
+            [simulation]
+            duration = 10
+            gravity = [0, -9.81, 0]
+            [body.floor]
+            shape.plane = {}
+            [body.ball]
+            shape.sphere.radius = 0.5
+            location = [0, 2, 0]
+            ",
+        );
+        let bounds = survey.bounds.unwrap();
+        assert!(bounds.min.y > -0.2 && bounds.max.y == 2.5, "{bounds:?}");
     }
 
     #[test]

@@ -53,10 +53,14 @@ static SIMULATION: TableSpec = TableSpec {
     noun: "the simulation",
     rule: Rule::Any,
     keys: &[
-        Key::new("duration", NON_NEGATIVE, "The time of the last frame; the first is at 0")
-            .unit("s")
-            .default("10")
-            .also(&["time", "length", "end"]),
+        Key::new(
+            "duration",
+            NON_NEGATIVE,
+            "The time of the last frame, to the nearest whole frame; the first is at 0",
+        )
+        .unit("s")
+        .default("10")
+        .also(&["time", "length", "end"]),
         Key::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
             .unit("frames/s")
             .default("25")
@@ -203,7 +207,7 @@ static FORCE: TableSpec = TableSpec {
         Key::new(
             "spring",
             Table(&SPRING),
-            "A spring with a damper, between two bodies or a body and a point",
+            "A spring with a damper, between two bodies or a body and a point; it is not drawn",
         ),
     ],
 };
