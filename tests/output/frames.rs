@@ -1,6 +1,6 @@
 //! `--frames`: some of the frames, as the full run would write them.
 
-use crate::support::{compile, contents, jabuka, scene, stderr};
+use crate::support::{compile, contents, jabuka, scene, stderr, stdout};
 
 fn scripts(folder: &std::path::Path) -> Vec<(String, Vec<u8>)> {
     contents(folder).into_iter().filter(|(name, _)| name.starts_with("frame_")).collect()
@@ -26,7 +26,9 @@ fn other_frames_stay_while_the_scene_is_unchanged_and_go_when_it_is_not() {
     assert!(full == contents(folder.path()), "the folder is as it was, manifest and all");
 
     let change = ["--set", "body.ball.mass=2", "--frames", "3,4"];
-    compile(&scene("damped_spring"), folder.path(), &change);
+    let output = compile(&scene("damped_spring"), folder.path(), &change);
+    let said = stdout(&output);
+    assert!(said.contains("2 of 151 frames, 149 others of another scene removed"), "{said}");
     let names: Vec<String> = scripts(folder.path()).into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["frame_0003.pov", "frame_0004.pov"]);
 }

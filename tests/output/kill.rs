@@ -48,6 +48,7 @@ fn killed_at_any_moment_and_run_again_the_folder_is_the_undisturbed_one() {
             .unwrap();
         while child.try_wait().unwrap().is_none() && progress(&disturbed, &before).is_none_or(|p| p < moment)
         {
+            std::thread::sleep(std::time::Duration::from_micros(300));
         }
         child.kill().unwrap();
         killed += usize::from(!child.wait().unwrap().success());
