@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::emit::{EmitError, Emitter};
-use crate::scene::Scene;
+use crate::scene::{Scene, View};
 use crate::simulate::{Crossing, Diverged, Frame, Frames, Selection, Survey, survey};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
@@ -10,6 +10,8 @@ pub struct Run<'a> {
     scene: &'a Scene,
     survey: Survey,
     emitter: Emitter,
+    /// The name of the view; none for the main camera.
+    view: Option<String>,
 }
 
 /// Why a run cannot be drawn.
@@ -36,13 +38,28 @@ impl<'a> Run<'a> {
     /// Where the run leaves the numbers, or a template fails.
     pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
         let survey = survey(scene, seen)?;
-        let emitter = Emitter::new(scene, &survey)?;
-        Ok(Run { scene, survey, emitter })
+        let emitter = Emitter::new(scene, &scene.camera, &survey)?;
+        Ok(Run { scene, survey, emitter, view: None })
+    }
+
+    /// The same run, seen by one of the scene's other cameras.
+    ///
+    /// # Errors
+    /// Where a template fails.
+    pub fn seen_by(&self, view: &View) -> Result<Run<'a>, RunError> {
+        let emitter = Emitter::new(self.scene, &view.camera, &self.survey)?;
+        let survey = self.survey.clone();
+        Ok(Run { scene: self.scene, survey, emitter, view: Some(view.name.clone()) })
     }
 
     /// The scene.
     pub fn scene(&self) -> &'a Scene {
         self.scene
+    }
+
+    /// The name of the view that sees the run; none for the main camera.
+    pub fn view(&self) -> Option<&str> {
+        self.view.as_deref()
     }
 
     /// What is known of the run as a whole.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use jabuka::diagnostic::{Diagnostic, Report};
 use jabuka::output::{self, Folder, OutputError};
-use jabuka::scene::{Options, Override};
+use jabuka::scene::{Options, Override, View};
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
@@ -26,6 +26,9 @@ pub(super) struct Arguments {
     /// Write only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
+    /// Write the scripts of this view instead of the main camera's, or of `all` cameras; may be repeated
+    #[arg(long, value_name = "NAME")]
+    view: Vec<String>,
     /// Write nothing: compare the scripts with those in the folder, and fail where they differ
     #[arg(long)]
     check: bool,
@@ -48,22 +51,71 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     say::report(&scene.warnings);
     let frames = scene.simulation.frames();
     let selection = selection(arguments, frames)?;
-    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let cameras = cameras(arguments, &scene)?;
 
-    let progress = Progress::new(frames + selection.count_within(frames));
+    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
     progress.phase("simulating");
     let run =
         Run::new_seeing(&scene, |_| progress.step()).map_err(|error| failed(&progress, &error.into()))?;
     progress.phase(if arguments.check { "comparing" } else { "writing" });
-    if arguments.check {
-        return check(&run, &folder, &selection, &progress);
+    let mut result = Ok(());
+    for (view, folder) in &cameras {
+        let seen = view.map(|view| run.seen_by(view)).transpose();
+        let seen = seen.map_err(|error| failed(&progress, &error.into()))?;
+        let run = seen.as_ref().unwrap_or(&run);
+        if arguments.check {
+            result = check(run, folder, &selection, &progress).and(result);
+        } else {
+            write(run, folder, &selection, &progress, start)?;
+        }
     }
-    let folder = Folder::open(&folder).map_err(|error| failed(&progress, &error))?;
-    let written = output::write(&run, &folder, &selection, &|| progress.step());
-    let written = written.map_err(|error| failed(&progress, &error))?;
+    result
+}
+
+/// The cameras that are asked for, each with the folder for its scripts; `None` is the main one.
+fn cameras<'a>(arguments: &Arguments, scene: &'a Scene) -> Result<Vec<(Option<&'a View>, PathBuf)>, Failure> {
+    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let beside = |view: &str| {
+        let mut path = folder.clone().into_os_string();
+        path.push(format!("-{view}"));
+        PathBuf::from(path)
+    };
+    if arguments.view.is_empty() {
+        return Ok(vec![(None, folder)]);
+    }
+    if arguments.view.iter().any(|name| name == "all") {
+        let others = scene.views.iter().map(|view| (Some(view), beside(&view.name)));
+        return Ok(std::iter::once((None, folder.clone())).chain(others).collect());
+    }
+    let find = |name: &String| match scene.views.iter().find(|view| view.name == *name) {
+        // The folder that is given is that of the only view that is asked for.
+        Some(view) if arguments.view.len() == 1 && arguments.output.is_some() => {
+            Ok((Some(view), folder.clone()))
+        }
+        Some(view) => Ok((Some(view), beside(name))),
+        None => {
+            let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            Err(Failure::Usage(format!("there is no view `{name}`: the views of this scene are {known}")))
+        }
+    };
+    arguments.view.iter().map(find).collect()
+}
+
+/// Writes the scripts of one camera, and says what they come to.
+fn write(
+    run: &Run<'_>,
+    folder: &Path,
+    selection: &Selection,
+    progress: &Progress,
+    start: Instant,
+) -> Result<(), Failure> {
+    let folder = Folder::open(folder).map_err(|error| failed(progress, &error))?;
+    let written = output::write(run, &folder, selection, &|| progress.step());
+    let written = written.map_err(|error| failed(progress, &error))?;
     progress.finish();
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-    say::result(&summary::summary(&run, folder.path(), &written, start.elapsed()));
+    say::result(&summary::summary(run, folder.path(), &written, start.elapsed()));
     Ok(())
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Framing {
 /// The field of view: the tangents of half its angles.
 #[derive(Clone, Copy)]
 pub(super) struct Field {
-    horizontal: f64,
+    pub(super) horizontal: f64,
     vertical: f64,
 }
 
@@ -35,18 +35,9 @@ impl Field {
     }
 }
 
-impl Field {
-    /// How many pixels something is wide whose half is seen under this slope.
-    pub(super) fn pixels(self, slope: f64, output: Output) -> f64 {
-        slope / self.horizontal * f64::from(output.width)
-    }
-}
-
 /// Places the camera so that the bounds fill the picture. With `look_at` given, only the distance is chosen.
-pub(super) fn frame(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Framing {
-    let back = TOWARDS_CAMERA.normalize();
-    let right = DVec3::Y.cross(back).normalize();
-    let up = back.cross(right);
+pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Framing {
+    let (right, up, back) = axes(TOWARDS_CAMERA);
     let corners = corners(bounds);
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
@@ -59,6 +50,40 @@ pub(super) fn frame(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Fra
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
+    rounded(aim, back, distance)
+}
+
+/// Places a camera without perspective, and tells the width that it has to see. With `towards` given, it looks from
+/// there.
+pub(super) fn orthographic(
+    bounds: Bounds,
+    output: Output,
+    look_at: Option<DVec3>,
+    towards: Option<DVec3>,
+) -> (Framing, f64) {
+    let (right, up, back) = axes(towards.unwrap_or(TOWARDS_CAMERA));
+    let aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
+    let aspect = f64::from(output.width) / f64::from(output.height);
+    let half = |corner: DVec3| {
+        let offset = corner - aim;
+        offset.dot(right).abs().max(offset.dot(up).abs() * aspect)
+    };
+    let width = 2.0 * corners(bounds).into_iter().map(half).fold(0.0, f64::max) / FILL;
+    // Anywhere in front of everything: distance changes nothing in the picture.
+    let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));
+    (rounded(aim, back, distance), width)
+}
+
+/// Right, up and back of a camera that is seen in a direction from what it looks at.
+fn axes(towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
+    let back = towards_camera.normalize();
+    // Of a camera that looks straight down, «up» is away from the viewer.
+    let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
+    (right, back.cross(right), back)
+}
+
+/// A place and an aim without more digits than make a difference.
+fn rounded(aim: DVec3, back: DVec3, distance: f64) -> Framing {
     let step = decimal_step(distance) / 100.0;
     let round = |point: DVec3| (point / step).round() * step;
     Framing { location: round(aim + back * distance), look_at: round(aim) }
@@ -136,10 +161,8 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = frame(bounds, field, None);
-            let back = (framing.location - framing.look_at).normalize();
-            let right = DVec3::Y.cross(back).normalize();
-            let up = back.cross(right);
+            let framing = perspective(bounds, field, None);
+            let (right, up, back) = axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
                 let offset = corner - framing.location;
@@ -150,6 +173,22 @@ mod tests {
             }
             // The camera's place is rounded to a hundredth of its distance at most.
             assert!((fullest - FILL).abs() < 0.03, "{bounds:?} fills {fullest}");
+        }
+    }
+
+    #[test]
+    fn without_perspective_all_corners_are_in_the_picture_too() {
+        let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
+        for towards in [None, Some(DVec3::Y), Some(DVec3::Z), Some(DVec3::new(1.0, 1.0, 1.0))] {
+            let (framing, width) = orthographic(bounds, WIDE, None, towards);
+            let (right, up, _) = axes(towards.unwrap_or(TOWARDS_CAMERA));
+            let mut fullest: f64 = 0.0;
+            for corner in corners(bounds) {
+                let offset = corner - framing.look_at;
+                let upward = offset.dot(up).abs() * 1280.0 / 720.0;
+                fullest = fullest.max(offset.dot(right).abs().max(upward) / (width / 2.0));
+            }
+            assert!((fullest - FILL).abs() < 0.03, "{towards:?} fills {fullest}");
         }
     }
 

@@ -4,6 +4,7 @@
 //! any frame into its script, in any order and from several threads at once.
 
 mod bodies;
+mod camera;
 mod framing;
 mod materials;
 mod names;
@@ -20,7 +21,7 @@ use self::bodies::Block;
 use self::sdl::Style;
 use self::stage::Stage;
 use self::values::FrameConstants;
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use crate::simulate::{Frame, Survey};
 
 pub use names::{INI, MASTER, frame_name};
@@ -58,9 +59,9 @@ impl Emitter {
     ///
     /// # Errors
     /// Where a template fails.
-    pub fn new(scene: &Scene, survey: &Survey) -> Result<Emitter, EmitError> {
+    pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = templates::environment(scene.povray.digits)?;
-        let stage = Stage::new(scene, survey);
+        let stage = Stage::new(scene, camera, survey);
         let style = Style { unit: stage.unit, digits: scene.povray.digits };
         let materials = materials::texts(&scene.materials);
         let common =

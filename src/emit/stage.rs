@@ -4,9 +4,10 @@
 use glam::{DQuat, DVec3};
 use serde::Serialize;
 
-use super::framing::{self, Field, Framing};
+use super::camera::{CameraText, Placed};
+use super::framing;
 use crate::dynamics::Shape;
-use crate::scene::{Body, Color, Light, LightKind, Scene, Sky};
+use crate::scene::{Body, Camera, Color, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
 /// What surrounds the bodies. Lengths are in POV-Ray's units.
@@ -36,16 +37,6 @@ pub(super) struct Stage {
     /// How many pixels the largest body is wide in the middle of the picture, if that is too little to be seen.
     #[serde(skip)]
     pub(super) too_small: Option<f64>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct CameraText {
-    location: [f64; 3],
-    look_at: [f64; 3],
-    /// The horizontal field of view, degrees.
-    angle: f64,
-    /// Whether it looks straight up or down, where «up» needs another meaning.
-    vertical: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -81,21 +72,16 @@ const NOTHING: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
 
 impl Stage {
     /// The surroundings of a scene whose run has been looked over.
-    pub(super) fn new(scene: &Scene, survey: &Survey) -> Stage {
+    pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Stage {
         let exact = survey.bounds.unwrap_or(NOTHING);
         let bounds = framing::rounded_outward(exact);
-        let field = Field::new(scene.camera.angle, scene.output);
-        let auto = framing::frame(bounds, field, scene.camera.look_at);
-        let camera = Framing {
-            location: scene.camera.location.unwrap_or(auto.location),
-            look_at: scene.camera.look_at.unwrap_or(auto.look_at),
-        };
+        let camera = Placed::new(camera, bounds, scene.output);
         let center = (bounds.min + bounds.max) / 2.0;
         let size = two_digits_up((bounds.max - bounds.min).length());
         let distance = camera.location.distance(center);
         let thinnest = thinnest(scene);
         let unit =
-            scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest.map(|(_, half)| half)));
+            scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, &camera), thinnest.map(|(_, half)| half)));
 
         let ground = scene.environment.ground.as_ref().map(|ground| {
             let tile = ground.tile.unwrap_or_else(|| tile(size));
@@ -114,12 +100,7 @@ impl Stage {
             unit,
             size: size / unit,
             center: (center / unit).to_array(),
-            camera: CameraText {
-                location: (camera.location / unit).to_array(),
-                look_at: (camera.look_at / unit).to_array(),
-                angle: scene.camera.angle,
-                vertical: is_vertical(camera.look_at - camera.location),
-            },
+            camera: camera.text(unit),
             lights: scene.lights.iter().map(|l| light(l, center, size.max(distance), unit)).collect(),
             ground,
             tile: tile(size) / unit,
@@ -128,7 +109,7 @@ impl Stage {
             fade: 11.0 * size.max(distance / 2.0) / unit,
             sky,
             fog: scene.environment.fog,
-            too_small: largest_in_pixels(scene, field, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
+            too_small: largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
     }
@@ -138,10 +119,6 @@ impl Stage {
 fn two_digits_up(number: f64) -> f64 {
     let step = framing::decimal_step(number) / 10.0;
     (number / step - 1e-6).ceil() * step
-}
-
-fn is_vertical(sight: DVec3) -> bool {
-    sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
 }
 
 fn light(light: &Light, center: DVec3, reach: f64, unit: f64) -> LightText {
@@ -180,7 +157,7 @@ fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
 }
 
 /// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
-fn reach(bounds: Bounds, camera: Framing) -> f64 {
+fn reach(bounds: Bounds, camera: &Placed) -> f64 {
     let farthest = |point: DVec3| point.abs().max_element();
     let size = (bounds.max - bounds.min).length();
     let points = [bounds.min, bounds.max, camera.location, camera.look_at];
@@ -213,10 +190,10 @@ fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
 const SMALLEST_SEEN: f64 = 4.0;
 
 /// The width of the largest body in the picture, if it is as far from the camera as the middle of the motion.
-fn largest_in_pixels(scene: &Scene, field: Field, distance: f64) -> Option<f64> {
+fn largest_in_pixels(scene: &Scene, camera: &Placed, distance: f64) -> Option<f64> {
     let reach = |body: &Body| body.shape.support(DQuat::IDENTITY, DVec3::Y);
     let largest = scene.bodies.iter().filter_map(reach).reduce(f64::max)?;
-    Some(field.pixels(largest / distance, scene.output))
+    Some(camera.pixels(largest, distance))
 }
 
 /// A height just under the lowest point of the motion.

@@ -7,6 +7,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::Run;
+
 /// The name of the manifest in its folder.
 pub const MANIFEST: &str = "manifest.json";
 
@@ -53,6 +55,9 @@ pub(super) struct Head {
     pub(super) state: State,
     /// The name of the scene.
     pub(super) scene: String,
+    /// The view that sees the scene; absent for the main camera.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) view: Option<String>,
     /// The digest of the texts that the scene was read from.
     pub(super) digest: String,
     /// The number of the scene's frames.
@@ -64,12 +69,14 @@ pub(super) struct Head {
 }
 
 impl Head {
-    pub(super) fn new(scene: &crate::Scene) -> Head {
+    pub(super) fn new(run: &Run<'_>) -> Head {
+        let scene = run.scene();
         Head {
             generator: GENERATOR.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             state: State::Complete,
             scene: scene.name.clone(),
+            view: run.view().map(str::to_owned),
             digest: scene.digest.clone(),
             frames: scene.simulation.frames(),
             frame_rate: scene.simulation.frame_rate,
@@ -79,7 +86,8 @@ impl Head {
 
     /// Whether all files of a folder with this manifest are as jabuka would write them now.
     pub(super) fn is_of(&self, other: &Head) -> bool {
-        self.state != State::Clearing && self.version == other.version && self.digest == other.digest
+        let what = |head: &Head| (head.version.clone(), head.view.clone(), head.digest.clone());
+        self.state != State::Clearing && what(self) == what(other)
     }
 }
 

@@ -35,7 +35,7 @@ pub fn write(
     selection: &Selection,
     done: &(dyn Fn() + Sync),
 ) -> Result<Written, OutputError> {
-    let head = Head::new(run.scene());
+    let head = Head::new(run);
     let put_head = |state: State| {
         let head = Head { state, planned: Some(selection.to_string()), ..head.clone() };
         folder.write_with(MANIFEST, |file| manifest::write(file, &head, &[]))

@@ -80,8 +80,45 @@ pub struct Camera {
     pub location: Option<DVec3>,
     /// The point in the middle of the picture, m.
     pub look_at: Option<DVec3>,
-    /// The horizontal field of view, degrees (as POV-Ray takes it).
-    pub angle: f64,
+    /// How it sees.
+    pub projection: Projection,
+    /// How it blurs what is not in focus.
+    pub blur: Option<Blur>,
+}
+
+/// How a camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// As eyes do: what is farther is smaller.
+    Perspective {
+        /// The horizontal field of view, degrees (as POV-Ray takes it).
+        angle: f64,
+    },
+    /// By parallel rays, as in a technical drawing.
+    Orthographic {
+        /// The width that is seen, m; none: that of the motion.
+        width: Option<f64>,
+    },
+}
+
+/// How a camera blurs what is not in focus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blur {
+    /// The diameter of the lens, m.
+    pub aperture: f64,
+    /// The point that is sharp, m; none: the one that is looked at.
+    pub focus: Option<DVec3>,
+    /// The number of rays for a pixel.
+    pub samples: u32,
+}
+
+/// A camera beside the main one.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Its name, unique among views: letters, digits, `-` and `_`.
+    pub name: String,
+    /// The camera; what the view does not say is as in `[camera]`.
+    pub camera: Camera,
 }
 
 /// A light.

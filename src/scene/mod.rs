@@ -17,7 +17,8 @@ use std::path::Path;
 
 pub use color::Color;
 pub use look::{
-    Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay, Sky,
+    Blur, Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay,
+    Projection, Sky, View,
 };
 pub use model::{Body, Force, ForceKind, Simulation, SpringEnd};
 pub use number::Number;
@@ -42,6 +43,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// From where the scene is seen.
     pub camera: Camera,
+    /// The cameras beside the main one, in the order of the file.
+    pub views: Vec<View>,
     /// The lights; none means the usual ones.
     pub lights: Vec<Light>,
     /// Ground, sky and fog.

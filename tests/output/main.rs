@@ -10,3 +10,4 @@ mod frames;
 mod kill;
 mod memory;
 mod sameness;
+mod views;

@@ -1,4 +1,4 @@
-//! `[material.NAME]`, `[camera]`, `[light.NAME]`, `[environment]`, `[output]`.
+//! `[material.NAME]`, `[light.NAME]`, `[environment]`, `[output]`.
 
 use glam::DVec3;
 
@@ -6,9 +6,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
-use crate::scene::{
-    Body, Camera, Color, Environment, Finish, Ground, Light, LightKind, Look, Material, Output, Sky,
-};
+use crate::scene::{Body, Color, Environment, Finish, Ground, Light, LightKind, Look, Material, Output, Sky};
 
 pub(super) fn materials(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
     let povray = root.table("povray");
@@ -37,24 +35,6 @@ fn look(view: &View<'_>) -> Look {
         color: view.color("color").unwrap_or(Color::WHITE),
         finish: view.text("finish").and_then(named).unwrap_or(Finish::Glossy),
     }
-}
-
-pub(super) fn camera(view: &View<'_>, context: &mut Context<'_>) -> Camera {
-    let camera = Camera {
-        location: view.vector("location"),
-        look_at: view.vector("look_at"),
-        angle: view.number("angle").unwrap_or(40.0),
-    };
-    if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
-        // POV-Ray draws nothing sensible from a camera that is nearer to its aim than rounding reaches.
-        let near = location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element();
-        if near {
-            let error = Diagnostic::error("camera-at-look-at", "the camera is at the point that it looks at");
-            let spans = view.span("look_at").into_iter().chain(view.span("location"));
-            context.diagnostics.push(spans.fold(error, |error, span| error.at(span, "the same point")));
-        }
-    }
-    camera
 }
 
 pub(super) fn lights(root: &View<'_>) -> Vec<Light> {

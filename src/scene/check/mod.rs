@@ -1,6 +1,7 @@
 //! Tree → [`Scene`], or all that is wrong with it.
 
 mod body;
+mod camera;
 mod consequence;
 mod force;
 mod look;
@@ -124,7 +125,8 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
         simulation,
-        camera: look::camera(&root.table("camera"), context),
+        camera: camera::read(&root.table("camera"), context),
+        views: camera::views(&root, context),
         lights: look::lights(&root),
         environment: look::environment(&root.table("environment"), &bodies),
         output: look::output(&root.table("output")),

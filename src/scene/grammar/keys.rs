@@ -41,6 +41,12 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new("force", Named(&FORCE), "The forces that are not a single body's own").also(&["forces"]),
         Key::new("material", Named(&MATERIAL), "What bodies look like").also(&["materials", "texture"]),
         Key::new("camera", Table(&CAMERA), "From where the scene is seen"),
+        Key::new(
+            "view",
+            Named(&CAMERA),
+            "Cameras beside the main one, for `--view`; what a view does not say is as in `[camera]`",
+        )
+        .also(&["views", "cameras"]),
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
         Key::new("environment", Table(&ENVIRONMENT), "Ground, sky and fog").also(&["world"]),
@@ -288,12 +294,40 @@ static CAMERA: TableSpec = TableSpec {
             .unit("m")
             .default("the middle of the motion")
             .also(&["target", "lookat", "to"]),
-        Key::new("angle", Number(Bound::Between(0.0, 180.0)), "The horizontal field of view")
+        Key::new("angle", Number(Bound::Between(0.0, 180.0)), "The horizontal field of view, in perspective")
             .unit("degrees")
             .default("40")
             .also(&["fov", "field_of_view"]),
+        Key::new("projection", Choice(projections), "How it sees: as eyes do, or by parallel rays")
+            .default("perspective")
+            .also(&["type", "kind"]),
+        Key::new("width", POSITIVE, "The width that an orthographic camera sees")
+            .unit("m")
+            .default("so that the whole motion is in the picture"),
+        Key::new(
+            "aperture",
+            POSITIVE,
+            "The diameter of the lens: the larger, the more is blurred that is not in focus",
+        )
+        .unit("m")
+        .default("everything is sharp")
+        .also(&["blur"]),
+        Key::new("focus", VECTOR, "With `aperture`, the point that is sharp")
+            .unit("m")
+            .default("`look_at`")
+            .also(&["focal_point"]),
+        Key::new(
+            "blur_samples",
+            Integer(4, 10_000),
+            "With `aperture`, the number of rays for a pixel: more is smoother",
+        )
+        .default("60"),
     ],
 };
+
+fn projections() -> Vec<&'static str> {
+    vec!["perspective", "orthographic"]
+}
 
 static LIGHT: TableSpec = TableSpec {
     noun: "a light",

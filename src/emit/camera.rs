@@ -1,0 +1,97 @@
+//! The camera: as given, or as it follows from the motion.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::framing::{self, Field, Framing};
+use crate::scene::{Blur, Camera, Output, Projection};
+use crate::simulate::Bounds;
+
+/// A camera that has its place, in metres.
+pub(super) struct Placed {
+    pub(super) location: DVec3,
+    pub(super) look_at: DVec3,
+    lens: Lens,
+    blur: Option<Blur>,
+    output: Output,
+}
+
+/// How a camera sees.
+#[derive(Clone, Copy)]
+enum Lens {
+    Perspective { angle: f64, field: Field },
+    Orthographic { width: f64 },
+}
+
+/// The camera as templates see it; lengths are in POV-Ray's units.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct CameraText {
+    location: [f64; 3],
+    look_at: [f64; 3],
+    /// The horizontal field of view of a perspective camera, degrees.
+    angle: Option<f64>,
+    /// The width that an orthographic camera sees.
+    width: Option<f64>,
+    /// Whether it looks straight up or down, where «up» needs another meaning.
+    vertical: bool,
+    /// The diameter of the lens, if it has one.
+    aperture: Option<f64>,
+    /// The point that is sharp.
+    focus: Option<[f64; 3]>,
+    blur_samples: Option<u32>,
+}
+
+impl Placed {
+    /// The camera of a picture of the given size; what is not given follows from the bounds of the motion.
+    pub(super) fn new(camera: &Camera, bounds: Bounds, output: Output) -> Placed {
+        let (lens, auto) = match camera.projection {
+            Projection::Perspective { angle } => {
+                let field = Field::new(angle, output);
+                (Lens::Perspective { angle, field }, framing::perspective(bounds, field, camera.look_at))
+            }
+            Projection::Orthographic { width } => {
+                let towards =
+                    camera.location.zip(camera.look_at).map(|(location, look_at)| location - look_at);
+                let (auto, seen) = framing::orthographic(bounds, output, camera.look_at, towards);
+                (Lens::Orthographic { width: width.unwrap_or(seen) }, auto)
+            }
+        };
+        let location = camera.location.unwrap_or(auto.location);
+        let look_at = camera.look_at.unwrap_or_else(|| aim(location, auto));
+        Placed { location, look_at, lens, blur: camera.blur, output }
+    }
+
+    /// How many pixels a ball is wide whose centre is so far from the camera, m.
+    pub(super) fn pixels(&self, radius: f64, distance: f64) -> f64 {
+        let width = f64::from(self.output.width);
+        match self.lens {
+            Lens::Perspective { field, .. } => radius / distance / field.horizontal * width,
+            Lens::Orthographic { width: seen } => 2.0 * radius / seen * width,
+        }
+    }
+
+    /// The camera as templates see it, for a unit of so many metres.
+    pub(super) fn text(&self, unit: f64) -> CameraText {
+        let (angle, width) = match self.lens {
+            Lens::Perspective { angle, .. } => (Some(angle), None),
+            Lens::Orthographic { width } => (None, Some(width / unit)),
+        };
+        let sight = self.look_at - self.location;
+        CameraText {
+            location: (self.location / unit).to_array(),
+            look_at: (self.look_at / unit).to_array(),
+            angle,
+            width,
+            vertical: sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs(),
+            aperture: self.blur.map(|blur| blur.aperture / unit),
+            focus: self.blur.map(|blur| (blur.focus.unwrap_or(self.look_at) / unit).to_array()),
+            blur_samples: self.blur.map(|blur| blur.samples),
+        }
+    }
+}
+
+/// What a camera looks at whose place alone is given: the middle of the motion, or from there straight ahead.
+fn aim(location: DVec3, auto: Framing) -> DVec3 {
+    let far = auto.location.distance(auto.look_at);
+    if location.distance(auto.look_at) > 1e-6 * far { auto.look_at } else { location - DVec3::Z * far }
+}

@@ -1,0 +1,83 @@
+//! `[camera]` and `[view.NAME]`.
+
+use super::Context;
+use super::view::View as Keys;
+use crate::diagnostic::Diagnostic;
+use crate::scene::{Blur, Camera, Projection, View};
+
+/// What `--view` takes for all views, so no view can have this name.
+const ALL: &str = "all";
+
+/// Reads the main camera.
+pub(super) fn read(keys: &Keys<'_>, context: &mut Context<'_>) -> Camera {
+    camera(&[*keys], context)
+}
+
+/// Reads the other cameras, each over the main one.
+pub(super) fn views(root: &Keys<'_>, context: &mut Context<'_>) -> Vec<View> {
+    let main = root.table("camera");
+    let read = |(name, span, keys): (&str, _, Keys<'_>)| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+        if name.is_empty() || name == ALL || !name.chars().all(plain) {
+            let message = format!("`{}` cannot be the name of a view", name.escape_debug());
+            let help = format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL}`");
+            context.diagnostics.push(Diagnostic::error("bad-view-name", message).at(span, "").help(help));
+        }
+        View { name: name.to_owned(), camera: camera(&[keys, main], context) }
+    };
+    root.named("view").into_iter().map(read).collect()
+}
+
+/// Reads a camera from tables, of which the first that has a key says it.
+fn camera(tables: &[Keys<'_>], context: &mut Context<'_>) -> Camera {
+    let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
+    let number = |key: &str| tables.iter().find_map(|keys| keys.number(key));
+    let orthographic =
+        tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
+    misplaced(&tables[0], orthographic, number("aperture").is_some(), context);
+
+    let samples = tables.iter().find_map(|keys| keys.integer("blur_samples"));
+    let camera = Camera {
+        location: vector("location"),
+        look_at: vector("look_at"),
+        projection: if orthographic {
+            Projection::Orthographic { width: number("width") }
+        } else {
+            Projection::Perspective { angle: number("angle").unwrap_or(40.0) }
+        },
+        blur: number("aperture").map(|aperture| Blur {
+            aperture,
+            focus: vector("focus"),
+            samples: samples.and_then(|n| u32::try_from(n).ok()).unwrap_or(60),
+        }),
+    };
+    if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
+        // POV-Ray draws nothing sensible from a camera that is nearer to its aim than rounding reaches.
+        let near = location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element();
+        if near {
+            let error = Diagnostic::error("camera-at-look-at", "the camera is at the point that it looks at");
+            let span = |key: &str| tables.iter().find_map(|keys| keys.span(key));
+            let spans = span("look_at").into_iter().chain(span("location"));
+            context.diagnostics.push(spans.fold(error, |error, span| error.at(span, "the same point")));
+        }
+    }
+    camera
+}
+
+/// Reports keys of a table that mean nothing for this kind of camera.
+fn misplaced(keys: &Keys<'_>, orthographic: bool, blurred: bool, context: &mut Context<'_>) {
+    let mut report = |key: &str, needs: &str| {
+        let message = format!("`{key}` has no effect without {needs}");
+        let warning = Diagnostic::warning("no-effect", message);
+        context.diagnostics.extend(keys.key_span(key).map(|span| warning.at(span, "")));
+    };
+    if orthographic {
+        report("angle", "`projection = \"perspective\"`");
+    } else {
+        report("width", "`projection = \"orthographic\"`");
+    }
+    if !blurred {
+        report("focus", "`aperture`");
+        report("blur_samples", "`aperture`");
+    }
+}
