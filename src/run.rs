@@ -15,7 +15,7 @@ pub struct Run<'a> {
 }
 
 /// Why a run cannot be drawn.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum RunError {
     /// It left the numbers.
     Diverged(Diverged),

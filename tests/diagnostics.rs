@@ -13,7 +13,8 @@ use std::process::Output;
 use support::{jabuka, root, stderr, stdout};
 
 /// Codes that no scene alone can show: each with the place of its test.
-const ELSEWHERE: [(&str, &str); 5] = [
+const ELSEWHERE: [(&str, &str); 6] = [
+    ("no-templates", "a_folder_without_templates_is_said_to_be_so"),
     ("cannot-read", "a_missing_file_is_said_to_be_missing"),
     ("not-a-file", "a_folder_is_no_scene"),
     ("not-utf8", "what_is_not_utf_8_is_refused_at_its_first_byte"),
@@ -44,6 +45,17 @@ fn editors_are_told_the_same_as_data() {
             assert_eq!(stderr(&output), "");
             insta::assert_snapshot!("json", stdout(&output));
         }
+    );
+}
+
+#[test]
+fn a_folder_without_templates_is_said_to_be_so() {
+    let output = check(&bad("templates_without_trust"), &["--trust"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).contains("error[no-templates]: cannot read the templates in"),
+        "{}",
+        stderr(&output)
     );
 }
 

@@ -25,7 +25,7 @@ fn scripts_of_the_gallery() {
 fn the_ball_of_the_tutorial_is_where_each_method_takes_it() {
     let ball = |settings: &[&str], frame: usize| {
         let overrides = settings.iter().map(|set| jabuka::scene::Override::new(*set)).collect();
-        let options = jabuka::scene::Options { overrides, trust: false };
+        let options = jabuka::scene::Options { overrides, ..Default::default() };
         let scene = Scene::from_path_with("scenes/parabola.toml", &options).unwrap();
         let run = Run::new(&scene).unwrap();
         let frame = run.frames().nth(frame).unwrap().unwrap();

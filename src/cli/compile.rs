@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use jabuka::diagnostic::{Diagnostic, Report};
+use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
 use jabuka::scene::{Options, Override, View};
 use jabuka::simulate::Selection;
@@ -32,6 +32,9 @@ pub(super) struct Arguments {
     /// Write nothing: compare the scripts with those in the folder, and fail where they differ
     #[arg(long)]
     check: bool,
+    /// Use the templates in this folder in place of those built in: see `jabuka templates`
+    #[arg(long, value_name = "DIR")]
+    templates: Option<PathBuf>,
     /// Let the scene's SDL open, write and include files, and its paths leave its folder
     #[arg(long)]
     trust: bool,
@@ -46,7 +49,11 @@ fn parse_set(argument: &str) -> Result<Override, String> {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let options = Options { overrides: arguments.set.clone(), trust: arguments.trust };
+    let options = Options {
+        overrides: arguments.set.clone(),
+        templates: arguments.templates.clone(),
+        trust: arguments.trust,
+    };
     let scene = Scene::from_path_with(&arguments.scene, &options).map_err(|report| errors(&report))?;
     say::report(&scene.warnings);
     let frames = scene.simulation.frames();
@@ -163,11 +170,6 @@ fn errors(report: &Report) -> Failure {
 /// Says why a run failed.
 fn failed(progress: &Progress, error: &OutputError) -> Failure {
     progress.finish();
-    let diagnostic = Diagnostic::error(error.code(), error.to_string());
-    let diagnostic = match error.help() {
-        Some(help) => diagnostic.help(help),
-        None => diagnostic,
-    };
-    say::report(&Report { diagnostics: vec![diagnostic], ..Report::default() });
+    say::report(&error.report());
     Failure::Errors
 }

@@ -5,6 +5,7 @@ mod compile;
 mod progress;
 mod say;
 mod summary;
+mod templates;
 
 use std::process::ExitCode;
 
@@ -22,6 +23,7 @@ struct Arguments {
 enum Command {
     Compile(compile::Arguments),
     Check(check::Arguments),
+    Templates(templates::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -37,6 +39,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Templates(arguments) => templates::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

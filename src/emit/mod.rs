@@ -5,6 +5,7 @@
 
 mod bodies;
 mod camera;
+mod error;
 mod framing;
 mod materials;
 mod names;
@@ -15,22 +16,24 @@ mod templates;
 mod text;
 mod values;
 
-use minijinja::Environment;
-
 use self::bodies::Block;
 use self::sdl::Style;
 use self::stage::Stage;
+use self::templates::Templates;
 use self::values::FrameConstants;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Layout, Scene};
 use crate::simulate::{Frame, Survey};
 
-pub use names::{INI, MASTER, frame_name};
-pub use templates::TEMPLATES;
+pub use error::EmitError;
+pub use names::{COMMON, INI, MASTER, frame_name};
+pub use templates::{TEMPLATES, write_templates};
 pub(crate) use text::comment;
 
 /// Turns the frames of one scene into scripts.
 pub struct Emitter {
-    templates: Environment<'static>,
+    templates: Templates,
+    /// What all scripts have in common, if it is a file of its own.
+    shared: Option<String>,
     constants: FrameConstants,
     block: Block,
     unit: f64,
@@ -40,38 +43,25 @@ pub struct Emitter {
     names: Vec<String>,
 }
 
-/// That a script cannot be written.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EmitError {
-    /// A place is not a number in POV-Ray's units.
-    OutOfRange {
-        /// The name of the body.
-        body: String,
-        /// The time, s.
-        time: f64,
-    },
-    /// A template fails.
-    Template(String),
-}
-
 impl Emitter {
     /// Prepares everything that the scripts of a scene have in common.
     ///
     /// # Errors
     /// Where a template fails.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
-        let templates = templates::environment(scene.povray.digits)?;
+        let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let stage = Stage::new(scene, camera, survey);
         let style = Style { unit: stage.unit, digits: scene.povray.digits };
         let materials = materials::texts(&scene.materials);
-        let common =
-            templates.get_template("common.inc")?.render(values::common(scene, &stage, &materials))?;
-        let looks_at_bodies = |(_, template): (_, minijinja::Template<'_, '_>)| {
-            template.undeclared_variables(false).contains("bodies")
+        let common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
+        let (in_every_script, shared) = match scene.output.layout {
+            Layout::SelfContained => (common, None),
+            Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),
         };
-        let with_bodies = templates.templates().any(looks_at_bodies);
+        let with_bodies = templates.mention("bodies");
         Ok(Emitter {
-            constants: FrameConstants::new(scene, common, &materials, style, with_bodies),
+            constants: FrameConstants::new(scene, in_every_script, &materials, style, with_bodies),
+            shared,
             block: Block::new(scene, &materials, style),
             unit: stage.unit,
             too_thin: stage.too_thin,
@@ -106,42 +96,19 @@ impl Emitter {
         self.block
             .write(&mut bodies_sdl, frame)
             .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
-        Ok(self.templates.get_template("frame.pov")?.render(self.constants.of(frame, bodies_sdl))?)
+        self.templates.render("frame.pov", &self.constants.of(frame, bodies_sdl))
     }
 
-    /// The files with which one `povray` command renders the whole sequence: name and text of each.
+    /// The files beside the scripts, name and text of each: those with which one `povray` command renders the whole
+    /// sequence, and what the scripts share, if that is a file of its own.
     ///
     /// # Errors
     /// Where a template fails.
     pub fn sequence(&self, scene: &Scene) -> Result<Vec<(&'static str, String)>, EmitError> {
         let values = values::sequence(scene);
-        let file = |name: &'static str| Ok((name, self.templates.get_template(name)?.render(&values)?));
-        [MASTER, INI].into_iter().map(file).collect()
+        let shared = self.shared.iter().map(|text| Ok((COMMON, text.clone())));
+        let rendered =
+            [MASTER, INI].into_iter().map(|name| Ok((name, self.templates.render(name, &values)?)));
+        rendered.chain(shared).collect()
     }
 }
-
-impl From<minijinja::Error> for EmitError {
-    fn from(error: minijinja::Error) -> EmitError {
-        // The innermost cause says what is wrong; the others say on the way from which template to which.
-        let mut message = error.to_string();
-        let mut cause = std::error::Error::source(&error);
-        while let Some(error) = cause {
-            message = format!("{message}: {error}");
-            cause = error.source();
-        }
-        EmitError::Template(message)
-    }
-}
-
-impl std::fmt::Display for EmitError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            EmitError::OutOfRange { body, time } => {
-                write!(f, "at t = {time} s `{body}` is at a place that is no number in POV-Ray's units")
-            }
-            EmitError::Template(message) => write!(f, "a template fails: {message}"),
-        }
-    }
-}
-
-impl std::error::Error for EmitError {}

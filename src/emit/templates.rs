@@ -1,10 +1,15 @@
 //! The templates that scripts are made of, and how they write values.
 
+use std::fs;
+use std::io;
+use std::path::Path;
+
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Value, ValueKind};
 use minijinja::{Environment, Error, ErrorKind, Output, UndefinedBehavior};
 
-use super::{number, text};
+use super::{EmitError, number, text};
+use crate::scene::OwnTemplate;
 
 /// The built-in templates: name and text.
 pub const TEMPLATES: &[(&str, &str)] = &[
@@ -19,11 +24,74 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("animation.ini", include_str!("../../templates/animation.ini")),
 ];
 
-/// The templates, ready to be rendered; numbers get so many significant digits.
+/// What the templates are about: the names of the files, and the values that they see.
+const README: &str = include_str!("../../templates/README.md");
+
+/// Writes the built-in templates into a folder, which is made if need be, and tells how many there are.
+///
+/// # Errors
+/// Where a file cannot be written, or one of the names is there already; then nothing is written.
+pub fn write_templates(folder: &Path) -> io::Result<usize> {
+    let files = || TEMPLATES.iter().copied().chain([("README.md", README)]);
+    if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
+        return Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("`{name}` is there already")));
+    }
+    fs::create_dir_all(folder)?;
+    for (name, text) in files() {
+        let mut file = fs::File::create_new(folder.join(name))?;
+        io::Write::write_all(&mut file, text.as_bytes())?;
+    }
+    Ok(TEMPLATES.len())
+}
+
+/// The templates, ready to be rendered.
+pub(super) struct Templates {
+    environment: Environment<'static>,
+    own: Vec<OwnTemplate>,
+}
+
+impl Templates {
+    /// The built-in templates, with those of the user's own in their place; numbers get so many significant digits.
+    pub(super) fn new(own: &[OwnTemplate], digits: usize) -> Result<Templates, EmitError> {
+        let templates = |environment| Templates { environment, own: own.to_vec() };
+        let mut environment =
+            environment(digits).map_err(|error| templates(Environment::new()).error(&error))?;
+        for OwnTemplate { name, text, .. } in own {
+            if let Err(error) = environment.add_template_owned(name.clone(), text.clone()) {
+                return Err(templates(environment).error(&error));
+            }
+        }
+        Ok(templates(environment))
+    }
+
+    /// Renders the template of the given name.
+    pub(super) fn render(&self, name: &str, values: &Value) -> Result<String, EmitError> {
+        let render = || self.environment.get_template(name)?.render(values.clone());
+        render().map_err(|error| self.error(&error))
+    }
+
+    /// Whether a template looks at the value of the given name.
+    pub(super) fn mention(&self, name: &str) -> bool {
+        self.environment.templates().any(|(_, template)| template.undeclared_variables(false).contains(name))
+    }
+
+    fn error(&self, error: &Error) -> EmitError {
+        EmitError::of_template(error, |name| {
+            let own =
+                self.own.iter().find(|own| own.name == name).map(|own| (own.path.clone(), own.text.clone()));
+            let built_in = TEMPLATES.iter().find(|(built_in, _)| *built_in == name);
+            own.or_else(|| built_in.map(|(name, text)| (format!("<{name}>"), (*text).to_owned())))
+        })
+    }
+}
+
+/// The built-in templates in their environment.
 ///
 /// POV-Ray uses `{`, `{#` and `#` for itself, so a template says `<% %>`, `${ }` and `<%# %>`.
-pub(super) fn environment(digits: usize) -> Result<Environment<'static>, Error> {
+fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     let mut environment = Environment::new();
+    // So that errors know their place.
+    environment.set_debug(true);
     let syntax = SyntaxConfig::builder()
         .block_delimiters("<%", "%>")
         .variable_delimiters("${", "}")

@@ -10,7 +10,7 @@ use super::names;
 use super::sdl::Style;
 use super::stage::Stage;
 use crate::dynamics::Shape;
-use crate::scene::{Body, Include, Scene};
+use crate::scene::{Body, Include, Layout, Scene};
 use crate::simulate::{BodyFrame, Frame};
 
 /// The values of `common.inc`.
@@ -24,6 +24,10 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
         includes => scene.povray.include.iter().map(include).collect::<Vec<_>>(),
         sdl => scene.povray.sdl.clone(),
         materials => Value::from(Serde(materials)),
+        scope => match scene.output.layout {
+            Layout::SelfContained => "local",
+            Layout::Shared => "declare",
+        },
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
     }

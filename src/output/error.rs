@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::RunError;
+use crate::diagnostic::{Diagnostic, Report};
 use crate::emit::EmitError;
 use crate::simulate::Diverged;
 
@@ -43,9 +44,25 @@ impl OutputError {
         }
     }
 
+    /// The error as a diagnostic; that of a template with its place.
+    pub fn report(&self) -> Report {
+        if let OutputError::Emit(EmitError::Template(report)) = self {
+            return report.clone();
+        }
+        let diagnostic = Diagnostic::error(self.code(), self.to_string());
+        let diagnostic = match self.help() {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        };
+        Report { diagnostics: vec![diagnostic], ..Report::default() }
+    }
+
     /// How to mend it, where that is not plain from the message.
     pub fn help(&self) -> Option<&'static str> {
         match self {
+            OutputError::Diverged(_) => Some(
+                "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+            ),
             OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
             OutputError::Link(_) => Some("remove the link"),
             OutputError::Locked(_) => {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 use super::manifest::{self, MANIFEST};
-use crate::emit::{INI, MASTER};
+use crate::emit::{COMMON, INI, MASTER};
 
 /// The lock stays in the folder: removing it would race with another process that has just opened it. What locks is
 /// not the file but a lock on it, which ends with the process, however that ends.
@@ -84,7 +84,7 @@ impl Folder {
         let scripts = self.scripts()?;
         let numbers = scripts.iter().map(|(number, _)| *number).collect();
         let names = scripts.into_iter().map(|(_, name)| name);
-        for name in names.chain([MASTER, INI].map(str::to_owned)) {
+        for name in names.chain([MASTER, INI, COMMON].map(str::to_owned)) {
             let path = self.path.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {

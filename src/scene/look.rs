@@ -198,6 +198,19 @@ pub struct PovRay {
     pub unit: Option<f64>,
     /// Significant digits of the numbers in scripts.
     pub digits: usize,
+    /// Templates that take the place of those built in.
+    pub templates: Vec<OwnTemplate>,
+}
+
+/// A template of the user's own.
+#[derive(Clone, Debug)]
+pub struct OwnTemplate {
+    /// Its name among templates: `frame.pov`.
+    pub name: String,
+    /// The path of its file, for messages.
+    pub path: String,
+    /// Its text.
+    pub text: String,
 }
 
 /// An include file.
@@ -221,4 +234,28 @@ pub struct Output {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
+    /// Where the part stands that all scripts have in common.
+    pub layout: Layout,
+}
+
+/// Where the part stands that all scripts have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// In every script: a node of a cluster needs one file.
+    SelfContained,
+    /// In a file of its own, which every script includes.
+    Shared,
+}
+
+impl Layout {
+    /// All of them.
+    pub const ALL: [Layout; 2] = [Layout::SelfContained, Layout::Shared];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Layout::SelfContained => "self-contained",
+            Layout::Shared => "shared",
+        }
+    }
 }

@@ -13,12 +13,12 @@ mod number;
 mod palette;
 pub mod source;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub use look::{
-    Blur, Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay,
-    Projection, Sky, View,
+    Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material, Output,
+    OwnTemplate, PovRay, Projection, Sky, View,
 };
 pub use model::{Body, Force, ForceKind, Simulation, SpringEnd};
 pub use number::Number;
@@ -64,6 +64,8 @@ pub struct Scene {
 pub struct Options {
     /// Values that replace those of the file.
     pub overrides: Vec<Override>,
+    /// A folder with templates that take the place of those built in, and of those that the scene names.
+    pub templates: Option<PathBuf>,
     /// Whether the scene may contain SDL that opens, writes or includes files, and paths outside its folder.
     pub trust: bool,
 }

@@ -96,7 +96,7 @@ mod tests {
     fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
         for method in crate::dynamics::METHODS {
             let set = crate::scene::Override::new(format!("simulation.integrator={}", method.name));
-            let options = crate::scene::Options { overrides: vec![set], trust: false };
+            let options = crate::scene::Options { overrides: vec![set], ..Default::default() };
             let scene = Scene::parse_with(TUMBLE, &options).unwrap();
             let mut frames = Frames::new(&scene);
             let first: Vec<Frame> = frames.by_ref().map(Result::unwrap).collect();

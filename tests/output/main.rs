@@ -10,4 +10,5 @@ mod frames;
 mod kill;
 mod memory;
 mod sameness;
+mod templates;
 mod views;

@@ -6,6 +6,7 @@
 mod every_script;
 mod hostile;
 mod image;
+mod layouts;
 mod lens;
 mod lights;
 mod looks;

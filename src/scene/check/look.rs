@@ -6,7 +6,9 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
-use crate::scene::{Body, Color, Environment, Finish, Ground, Light, LightKind, Look, Material, Output, Sky};
+use crate::scene::{
+    Body, Color, Environment, Finish, Ground, Layout, Light, LightKind, Look, Material, Output, Sky,
+};
 
 pub(super) fn materials(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
     let povray = root.table("povray");
@@ -79,7 +81,9 @@ pub(super) fn environment(view: &View<'_>, bodies: &[Body]) -> Environment {
 }
 
 pub(super) fn output(view: &View<'_>) -> Output {
-    let mut output = Output { width: 1280, height: 720 };
+    let named = |name: &str| Layout::ALL.into_iter().find(|layout| layout.name() == name);
+    let layout = view.text("layout").and_then(named).unwrap_or(Layout::SelfContained);
+    let mut output = Output { width: 1280, height: 720, layout };
     if let Some([width, height]) = view.list("size") {
         let pixels = |node| super::read::integer(node, 1, 65535).ok().and_then(|n| u32::try_from(n).ok());
         output.width = pixels(width).unwrap_or(output.width);

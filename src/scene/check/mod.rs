@@ -10,6 +10,7 @@ mod read;
 mod sdl;
 mod simulation;
 mod suggest;
+mod templates;
 mod validate;
 mod view;
 
@@ -21,7 +22,7 @@ use sha2::{Digest, Sha256};
 use self::view::View;
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
-use super::{Include, Options, Scene};
+use super::{Include, Options, PovRay, Scene};
 use crate::diagnostic::{Diagnostic, Report, Severity, Sources};
 
 /// What a scene is made from.
@@ -120,7 +121,8 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
         context.diagnostics.push(Diagnostic::warning("no-bodies", message).help(help));
     }
-    let povray = povray::read(&root, context);
+    let mut povray = povray::read(&root, context);
+    povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
@@ -130,7 +132,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         lights: look::lights(&root),
         environment: look::environment(&root.table("environment"), &bodies),
         output: look::output(&root.table("output")),
-        digest: digest(input, options, &povray.include),
+        digest: digest(input, options, &povray),
         bodies,
         forces,
         materials,
@@ -140,7 +142,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
 }
 
 /// A digest of all texts that the scene was read from.
-fn digest(input: &Input<'_>, options: &Options, includes: &[Include]) -> String {
+fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
         // The length keeps two texts from reading as one.
@@ -149,7 +151,11 @@ fn digest(input: &Input<'_>, options: &Options, includes: &[Include]) -> String 
     };
     add(input.text);
     options.overrides.iter().for_each(|set| add(set.as_str()));
-    for include in includes {
+    for template in &povray.templates {
+        add(&template.name);
+        add(&template.text);
+    }
+    for include in &povray.include {
         match include {
             Include::Standard(name) => add(name),
             Include::Text { text, .. } => add(text),

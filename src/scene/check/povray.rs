@@ -62,6 +62,7 @@ pub(super) fn read(root: &View<'_>, context: &Context<'_>) -> PovRay {
         sdl: view.text("sdl").map(str::to_owned),
         unit: view.number("unit"),
         digits: view.integer("digits").and_then(|n| usize::try_from(n).ok()).unwrap_or(9),
+        templates: Vec::new(),
     }
 }
 

@@ -8,7 +8,7 @@ use super::Kind::{
 };
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
-use crate::scene::Finish;
+use crate::scene::{Finish, Layout};
 
 const ANY: Kind = Number(Bound::Any);
 const POSITIVE: Kind = Number(Bound::Positive);
@@ -325,6 +325,10 @@ static CAMERA: TableSpec = TableSpec {
     ],
 };
 
+fn layouts() -> Vec<&'static str> {
+    Layout::ALL.iter().map(|layout| layout.name()).collect()
+}
+
 fn projections() -> Vec<&'static str> {
     vec!["perspective", "orthographic"]
 }
@@ -415,6 +419,12 @@ static POVRAY: TableSpec = TableSpec {
         .also(&["includes"]),
         Key::new("sdl", Sdl, "POV-Ray's own words, to stand in every script before the bodies")
             .default("none"),
+        Key::new(
+            "templates",
+            Text,
+            "A folder with templates of your own, which take the place of those built in; needs `--trust`",
+        )
+        .default("those built in"),
         Key::new("unit", POSITIVE, "The length of one unit of POV-Ray's")
             .unit("m")
             .default("1, and a power of ten for scenes that POV-Ray finds too small or too large"),
@@ -425,12 +435,16 @@ static POVRAY: TableSpec = TableSpec {
 static OUTPUT: TableSpec = TableSpec {
     noun: "the output",
     rule: Rule::Any,
-    keys: &[Key::new(
-        "size",
-        List { of: &Integer(1, 65535), min: 2, max: 2 },
-        "Width and height of the images",
-    )
-    .unit("pixels")
-    .default("[1280, 720]")
-    .also(&["resolution", "width", "height"])],
+    keys: &[
+        Key::new("size", List { of: &Integer(1, 65535), min: 2, max: 2 }, "Width and height of the images")
+            .unit("pixels")
+            .default("[1280, 720]")
+            .also(&["resolution", "width", "height"]),
+        Key::new(
+            "layout",
+            Choice(layouts),
+            "Whether every script is complete, or what all share stands in `common.inc`",
+        )
+        .default("self-contained"),
+    ],
 };

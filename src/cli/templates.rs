@@ -1,0 +1,28 @@
+//! `jabuka templates`: the built-in templates, to be changed.
+
+use std::path::PathBuf;
+
+use jabuka::diagnostic::Report;
+
+use super::{Failure, say};
+
+/// Write the built-in templates into a folder, to be changed and used with `compile --templates`
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The folder
+    folder: PathBuf,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let folder = &arguments.folder;
+    let written = jabuka::emit::write_templates(folder).map_err(|error| {
+        let message = format!("cannot write templates into `{}`: {error}", folder.display());
+        say::report(&Report::of_error("cannot-write", message));
+        Failure::Errors
+    })?;
+    say::result(&format!(
+        "{}: {written} templates, and README.md, which says what they see\n",
+        folder.display()
+    ));
+    Ok(())
+}

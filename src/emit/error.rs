@@ -1,0 +1,77 @@
+//! Why a script cannot be written.
+
+use crate::diagnostic::{Diagnostic, Report, Span};
+
+/// Why a script cannot be written.
+#[derive(Clone, Debug)]
+pub enum EmitError {
+    /// A place is not a number in POV-Ray's units.
+    OutOfRange {
+        /// The name of the body.
+        body: String,
+        /// The time, s.
+        time: f64,
+    },
+    /// A template fails; the report says where.
+    Template(Report),
+}
+
+impl EmitError {
+    /// The error of a template: in which file, with which text, and where in it.
+    pub(super) fn of_template(
+        error: &minijinja::Error,
+        text_of: impl Fn(&str) -> Option<(String, String)>,
+    ) -> EmitError {
+        // The innermost cause says what is wrong; the others say on the way from which template to which.
+        let mut innermost = error;
+        let mut message = error.to_string();
+        let mut cause = std::error::Error::source(error);
+        while let Some(inner) = cause {
+            message = inner.to_string();
+            if let Some(error) = inner.downcast_ref::<minijinja::Error>() {
+                innermost = error;
+            }
+            cause = inner.source();
+        }
+        // The place is shown, so it need not be said as well; and what we refuse to write says all by itself.
+        if let (Some(detail), true) = (innermost.detail(), innermost.name().is_some()) {
+            message = match innermost.kind() {
+                minijinja::ErrorKind::BadSerialization => detail.to_owned(),
+                kind => format!("{kind}: {detail}"),
+            };
+        }
+        let mut report = Report::default();
+        let diagnostic = Diagnostic::error("bad-template", message);
+        let place = innermost.name().and_then(text_of);
+        report.diagnostics.push(match place {
+            None => diagnostic,
+            Some((path, text)) => {
+                let range =
+                    innermost.range().or_else(|| innermost.line().map(|line| line_range(&text, line)));
+                let id = report.sources.add(path, text);
+                diagnostic.at(Span::new(id, range.unwrap_or_default()), "")
+            }
+        });
+        EmitError::Template(report)
+    }
+}
+
+/// The bytes of a line, counted from 1.
+fn line_range(text: &str, line: usize) -> std::ops::Range<usize> {
+    let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let length = text[start..].lines().next().map_or(0, str::len);
+    start..start + length
+}
+
+impl std::fmt::Display for EmitError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            EmitError::OutOfRange { body, time } => {
+                write!(f, "at t = {time} s `{body}` is at a place that is no number in POV-Ray's units")
+            }
+            EmitError::Template(report) => report.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for EmitError {}

@@ -1,0 +1,79 @@
+//! Templates of the user's own.
+
+use std::fs;
+use std::path::Path;
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::OwnTemplate;
+
+/// The largest template that is read.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// Reads the templates of the folder that the command line names, or else the scene.
+pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Context<'_>) -> Vec<OwnTemplate> {
+    if let Some(folder) = given {
+        return load(folder, None, context);
+    }
+    let (Some(name), Some(span)) = (povray.text("templates"), povray.span("templates")) else {
+        return Vec::new();
+    };
+    if !context.trust {
+        // A template is code as much as raw SDL is.
+        let error = Diagnostic::error("untrusted-templates", "templates can make scripts do anything");
+        let help =
+            "if you know this scene and trust it, say `--trust`; or name the folder with `--templates`";
+        context.diagnostics.push(error.at(span, "").help(help));
+        return Vec::new();
+    }
+    let folder = context.folder.map_or_else(|| Path::new(name).to_owned(), |folder| folder.join(name));
+    load(&folder, Some(span), context)
+}
+
+fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<OwnTemplate> {
+    match files(folder) {
+        Ok(templates) => templates,
+        Err(message) => {
+            let error = Diagnostic::error("no-templates", message);
+            let help = "`jabuka templates DIR` writes the built-in ones, to be changed";
+            let error = error.help(help);
+            context.diagnostics.push(match span {
+                Some(span) => error.at(span, ""),
+                None => error,
+            });
+            Vec::new()
+        }
+    }
+}
+
+/// The templates in a folder: files with the name of a built-in one, and include files that those may use.
+fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
+    let shown = folder.display();
+    let cannot_read = |error: std::io::Error| format!("cannot read the templates in `{shown}`: {error}");
+    let mut templates = Vec::new();
+    for entry in fs::read_dir(folder).map_err(cannot_read)? {
+        let path = entry.map_err(cannot_read)?.path();
+        let Some(name) = path.file_name().and_then(|name| name.to_str()).map(str::to_owned) else { continue };
+        let wanted = TEMPLATE_ENDINGS.iter().any(|ending| name.ends_with(ending));
+        let metadata = fs::metadata(&path).map_err(cannot_read)?;
+        if !wanted || !metadata.is_file() {
+            continue;
+        }
+        if metadata.len() > MAX_BYTES {
+            return Err(format!("the template `{}` is larger than 1 MiB", path.display()));
+        }
+        let text = fs::read_to_string(&path)
+            .map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
+        templates.push(OwnTemplate { name, path: path.display().to_string(), text });
+    }
+    // The order of a folder is the file system's, not ours.
+    templates.sort_by(|a, b| a.name.cmp(&b.name));
+    if templates.is_empty() {
+        return Err(format!("there are no templates in `{shown}`"));
+    }
+    Ok(templates)
+}
+
+/// What templates are called.
+const TEMPLATE_ENDINGS: [&str; 3] = [".pov", ".inc", ".ini"];
