@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::materials::MaterialText;
 use super::sdl::Style;
-use super::text;
+use super::{shapes, text};
 use crate::dynamics::Shape;
 use crate::scene::{Body, Scene};
 use crate::simulate::{BodyFrame, Frame};
@@ -122,7 +122,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
-    if let (Shape::Plane { normal }, Some(material)) = (body.shape, material.filter(|m| m.makes_plane)) {
+    if let (&Shape::Plane { normal }, Some(material)) = (&body.shape, material.filter(|m| m.makes_plane)) {
         let before = format!("{}(transform {{ ", material.identifier);
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
@@ -144,31 +144,17 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
 
 /// The text before the place of a body, how its place is written, and the text after it.
 fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
-    let length = |metres: f64| {
-        let mut out = String::new();
-        style.length(&mut out, metres);
-        out
-    };
-    let as_is = Place::Matrix(DQuat::IDENTITY);
     match body.shape {
         Shape::Sphere { radius } if uniform => {
-            ("sphere { ".to_owned(), Place::Centre, format!(", {}", length(radius)))
-        }
-        Shape::Sphere { radius } => (format!("sphere {{ 0, {} ", length(radius)), as_is, String::new()),
-        Shape::Box { size } => {
-            let mut corners = String::new();
-            style.point(&mut corners, -size / 2.0);
-            corners.push_str(", ");
-            style.point(&mut corners, size / 2.0);
-            (format!("box {{ {corners} "), as_is, String::new())
+            let mut after = ", ".to_owned();
+            style.length(&mut after, radius);
+            ("sphere { ".to_owned(), Place::Centre, after)
         }
         Shape::Plane { normal } if uniform => ("plane { ".to_owned(), Place::Plane(normal), String::new()),
         Shape::Plane { normal } => {
             let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
             ("plane { y, 0 ".to_owned(), Place::Matrix(turn), String::new())
         }
-        Shape::Axes { length: arm } => {
-            (format!("object {{ Axes scale {} ", length(arm)), as_is, String::new())
-        }
+        ref shape => (shapes::open(shape, style), Place::Matrix(DQuat::IDENTITY), String::new()),
     }
 }

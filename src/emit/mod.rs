@@ -9,6 +9,7 @@ mod materials;
 mod names;
 mod number;
 mod sdl;
+mod shapes;
 mod stage;
 mod templates;
 mod text;

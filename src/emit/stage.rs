@@ -5,7 +5,6 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
-use crate::dynamics::Shape;
 use crate::scene::{Color, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
@@ -164,14 +163,8 @@ fn linear(color: Color) -> [f64; 3] {
 
 /// The thinnest body and half its thickness, m; none where there is no body with a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
-    let half = |shape: &Shape| match shape {
-        Shape::Sphere { radius } => Some(*radius),
-        Shape::Box { size } => Some(size.min_element() / 2.0),
-        // The shafts of the arrows.
-        Shape::Axes { length } => Some(length * 0.03),
-        Shape::Plane { .. } => None,
-    };
-    let halves = scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, half(&body.shape)?)));
+    let halves =
+        scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.shape.half_thickness()?)));
     halves.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 

@@ -24,6 +24,7 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
         includes => scene.povray.include.iter().map(include).collect::<Vec<_>>(),
         sdl => scene.povray.sdl.clone(),
         materials => Value::from(Serde(materials)),
+        rounded_boxes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::RoundedBox { .. })),
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
     }
@@ -137,7 +138,11 @@ impl FrameConstants {
 fn shape_name(shape: &Shape) -> &'static str {
     match shape {
         Shape::Sphere { .. } => "sphere",
-        Shape::Box { .. } => "box",
+        Shape::Box { .. } | Shape::RoundedBox { .. } => "box",
+        Shape::Cylinder { .. } => "cylinder",
+        Shape::Capsule { .. } => "capsule",
+        Shape::Cone { .. } => "cone",
+        Shape::Torus { .. } => "torus",
         Shape::Plane { .. } => "plane",
         Shape::Axes { .. } => "axes",
     }

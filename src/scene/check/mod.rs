@@ -7,6 +7,7 @@ mod look;
 mod povray;
 mod read;
 mod sdl;
+mod shape;
 mod simulation;
 mod suggest;
 mod validate;

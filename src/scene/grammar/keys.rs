@@ -6,15 +6,16 @@ use super::Kind::{
     Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
     Reference, Sdl, Table, Text,
 };
+use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
 use crate::scene::Finish;
 
-const ANY: Kind = Number(Bound::Any);
-const POSITIVE: Kind = Number(Bound::Positive);
-const NON_NEGATIVE: Kind = Number(Bound::NonNegative);
-const VECTOR: Kind = Numbers(3, Bound::Any);
-const AXIS: Kind = Direction(3);
+pub(super) const ANY: Kind = Number(Bound::Any);
+pub(super) const POSITIVE: Kind = Number(Bound::Positive);
+pub(super) const NON_NEGATIVE: Kind = Number(Bound::NonNegative);
+pub(super) const VECTOR: Kind = Numbers(3, Bound::Any);
+pub(super) const AXIS: Kind = Direction(3);
 
 fn integrators() -> Vec<&'static str> {
     METHODS.iter().map(|method| method.name).collect()
@@ -126,52 +127,6 @@ static BODY: TableSpec = TableSpec {
             .default("a color of the palette, after its place in the file")
             .also(&["color", "colour", "texture", "look"]),
     ],
-};
-
-static SHAPE: TableSpec = TableSpec {
-    noun: "a shape",
-    rule: Rule::ExactlyOne(&["sphere", "box", "plane", "axes"]),
-    keys: &[
-        Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
-        Key::new("box", Table(&BOX), "A box").also(&["cube", "cuboid", "brick"]),
-        Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
-            .also(&["floor", "ground"]),
-        Key::new(
-            "axes",
-            Table(&AXES),
-            "A triad of arrows along x, y, z, as heavy as a ball of half their length",
-        )
-        .also(&["axis", "triad", "frame"]),
-    ],
-};
-
-static SPHERE: TableSpec = TableSpec {
-    noun: "a sphere",
-    rule: Rule::Any,
-    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
-};
-
-static BOX: TableSpec = TableSpec {
-    noun: "a box",
-    rule: Rule::Any,
-    keys: &[Key::new("size", Numbers(3, Bound::Positive), "Its full edges along its own x, y, z")
-        .unit("m")
-        .required()
-        .also(&["edges", "extents", "dimensions", "half_extents"])],
-};
-
-static PLANE: TableSpec = TableSpec {
-    noun: "a plane",
-    rule: Rule::Any,
-    keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
-        .default("[0, 1, 0]")
-        .also(&["direction", "up"])],
-};
-
-static AXES: TableSpec = TableSpec {
-    noun: "axes",
-    rule: Rule::Any,
-    keys: &[Key::new("length", POSITIVE, "The length of each arrow").unit("m").required().also(&["size"])],
 };
 
 static ORIENTATION: TableSpec = TableSpec {
