@@ -164,7 +164,7 @@ fn linear(color: Color) -> [f64; 3] {
 /// The thinnest body and half its thickness, m; none where there is no body with a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let halves =
-        scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.shape.half_thickness()?)));
+        scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
     halves.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 

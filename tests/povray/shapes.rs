@@ -3,10 +3,10 @@
 use glam::{DVec2, DVec3};
 use jabuka::Scene;
 
-use crate::image::is_red;
+use crate::image::{is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
-use crate::scene::{DARK, script};
+use crate::scene::{DARK, script, script_of};
 
 /// Far away, so that all rays are nearly parallel: 4 m fill the width of the picture.
 fn far() -> Pinhole {
@@ -22,7 +22,7 @@ fn body(words: &str) -> String {
 }
 
 /// The edges of what is red, m: left, right, bottom, top.
-fn assert_fills<const N: usize>(bodies: [String; N]) {
+fn assert_fills<const N: usize>(bodies: &[String; N]) {
     let metres_per_pixel = 4.0 / f64::from(SIZE[0]);
     let scripts = bodies.each_ref().map(|body| script(body));
     for (body, image) in bodies.iter().zip(render_all(scripts, SIZE)) {
@@ -34,7 +34,7 @@ fn assert_fills<const N: usize>(bodies: [String; N]) {
             let seen = places.iter().map(farthest).fold(f64::MIN, f64::max) + metres_per_pixel / 2.0;
             // In the picture, y goes down.
             let way = sign * DVec3::new(direction.x, -direction.y, 0.0);
-            let reach = it.shape.support(it.start.orientation, way).unwrap();
+            let reach = it.drawn().support(it.start.orientation, way).unwrap();
             assert!((seen - reach).abs() < 1.5 * metres_per_pixel, "{way}: {seen} m, not {reach} m\n{body}");
         }
     }
@@ -45,7 +45,7 @@ const TURNED: &str = "orientation = [25, 35, 40]";
 #[test]
 fn every_shape_is_drawn_where_it_weighs() {
     assert_fills(
-        [
+        &[
             "sphere.radius = 0.9",
             "box.size = [1.8, 1.2, 0.6]",
             "box = { size = [1.8, 1.2, 0.8], rounding = 0.3 }",
@@ -62,7 +62,7 @@ fn every_shape_is_drawn_where_it_weighs() {
 #[test]
 fn limits_of_the_shapes_are_drawn_without_a_word() {
     assert_fills(
-        [
+        &[
             "box = { size = [1.8, 1.2, 0.8], rounding = 0.4 }",
             "box = { size = [1.8, 1.2, 0.8], rounding = 0 }",
             "box = { size = [1.4, 1.4, 1.4], rounding = 0.7 }",
@@ -73,4 +73,40 @@ fn limits_of_the_shapes_are_drawn_without_a_word() {
         ]
         .map(|shape| body(&format!("shape.{shape}\n{TURNED}"))),
     );
+}
+
+#[test]
+fn an_enlarged_body_is_drawn_larger_about_its_centre() {
+    assert_fills(
+        &[
+            "sphere.radius = 0.009",
+            "box = { size = [0.018, 0.012, 0.006], rounding = 0.002 }",
+            "cone = { radius = 0.008, height = 0.018 }",
+        ]
+        .map(|shape| body(&format!("shape.{shape}\nlook.scale = 100\n{TURNED}"))),
+    );
+}
+
+/// Words before the matrix turn and move with the body, words after it do not.
+#[test]
+fn own_words_stand_before_and_after_the_matrix() {
+    let halves = "pigment { gradient x color_map { [0.5 rgb <1, 0, 0>] [0.5 rgb <0, 1, 0>] } scale 10 translate -x*5 }\
+                  finish { ambient 0 diffuse 0 emission 1 } // a comment at the end";
+    let ball = |words: &str| {
+        format!(
+            "[simulation]\nduration = 1\nframe_rate = 1\n[body.it]\nshape.sphere.radius = 1\n{words}
+angular_velocity = [0, 0, 1.5707963267948966]\n{DARK}{}",
+            far().toml()
+        )
+    };
+    let before = ball(&format!("look.sdl_before = \"texture {{ {halves}\\n}}\""));
+    let after = ball(&format!("look.sdl_after = \"texture {{ {halves}\\n}}\""));
+    let hidden = ball("look.sdl_before = \"no_image\"");
+    let [before, after, hidden] = render_all([before, after, hidden].map(|text| script_of(&text, 1)), SIZE);
+    // A quarter turn about z takes green from the right to the top; the middle of half a disk is 4 r / 3π from its edge.
+    for (image, way) in [(before, DVec2::NEG_Y), (after, DVec2::X)] {
+        let found = image.spot(is_green).middle() - image.spot(is_red).middle();
+        assert!(found.distance(way * 34.0) < 3.0, "red → green is {found}");
+    }
+    assert_eq!(hidden.brightness(), 0.0);
 }

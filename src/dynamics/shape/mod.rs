@@ -152,6 +152,36 @@ impl Shape {
         })
     }
 
+    /// The same shape, so many times larger. A plane stays as it is.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Shape {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Shape::Sphere { radius } => *radius *= factor,
+            Shape::Box { size } => *size *= factor,
+            Shape::RoundedBox { size, rounding } => {
+                *size *= factor;
+                *rounding *= factor;
+            }
+            Shape::Cylinder { radius, height } | Shape::Capsule { radius, height } => {
+                *radius *= factor;
+                *height *= factor;
+            }
+            Shape::Cone { radius, top_radius, height } => {
+                *radius *= factor;
+                *top_radius *= factor;
+                *height *= factor;
+            }
+            Shape::Torus { radius, tube_radius } => {
+                *radius *= factor;
+                *tube_radius *= factor;
+            }
+            Shape::Plane { .. } => {}
+            Shape::Axes { length } => *length *= factor,
+        }
+        scaled
+    }
+
     /// Whether the shape has no end, as a plane has none.
     #[must_use]
     pub fn is_unbounded(&self) -> bool {

@@ -175,3 +175,26 @@ fn support_is_the_reach_along_a_direction() {
     assert!((reach(&axes, DVec3::NEG_Y) - thick).abs() < 1e-15);
     assert_eq!(reach(&Shape::Sphere { radius: 3.0 }, DVec3::X), 3.0);
 }
+
+#[test]
+fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
+    let size = DVec3::new(1.0, 2.0, 3.0);
+    for shape in [
+        Shape::Sphere { radius: 0.7 },
+        Shape::Box { size },
+        Shape::RoundedBox { size, rounding: 0.2 },
+        Shape::Cylinder { radius: 0.7, height: 2.0 },
+        Shape::Capsule { radius: 0.7, height: 2.0 },
+        Shape::Cone { radius: 0.7, top_radius: 0.2, height: 2.0 },
+        Shape::Torus { radius: 0.7, tube_radius: 0.2 },
+        Shape::Axes { length: 2.0 },
+    ] {
+        let scaled = shape.scaled(3.0);
+        let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13 * b.abs(), "{shape:?}: {a} {b}");
+        near(scaled.volume().unwrap(), 27.0 * shape.volume().unwrap());
+        near(scaled.inertia(1.0).x, 9.0 * shape.inertia(1.0).x);
+        near(scaled.half_thickness().unwrap(), 3.0 * shape.half_thickness().unwrap());
+        let reach = |shape: &Shape| shape.support(DQuat::IDENTITY, size.normalize()).unwrap();
+        near(reach(&scaled), 3.0 * reach(&shape));
+    }
+}

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, shape};
+use super::{Context, look, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -22,7 +22,8 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
         let shape = shape::read(&view.table("shape"), context);
         let material = material(&view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
-        Body { name: name.to_owned(), shape, start, material }
+        let look = look::of_body(name, &view, &shape, context);
+        Body { name: name.to_owned(), shape, start, material, look }
     };
     tables.into_iter().map(read).collect()
 }

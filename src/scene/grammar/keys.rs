@@ -125,7 +125,37 @@ static BODY: TableSpec = TableSpec {
             .also(&["static", "anchored", "kinematic"]),
         Key::new("material", Reference(Collection::Material), "What it looks like: a `[material.NAME]`")
             .default("a color of the palette, after its place in the file")
-            .also(&["color", "colour", "texture", "look"]),
+            .also(&["color", "colour", "texture"]),
+        Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
+    ],
+};
+
+static BODY_LOOK: TableSpec = TableSpec {
+    noun: "a body's look",
+    rule: Rule::Any,
+    keys: &[
+        // Wider than any use, and narrow enough for every drawn length to have a square.
+        Key::new(
+            "scale",
+            Number(Bound::From(1e-9, 1e9)),
+            "How many times larger than it is it is drawn, about its centre of mass",
+        )
+        .default("1")
+            .also(&["size", "magnification", "enlarge"]),
+        Key::new(
+            "sdl_before",
+            Sdl,
+            "POV-Ray's own words at the end of its object, before the matrix that places it: they move with the body",
+        )
+        .default("none")
+        .also(&["sdl", "pre_sdl"]),
+        Key::new(
+            "sdl_after",
+            Sdl,
+            "POV-Ray's own words after that matrix: they stay where they are in the world",
+        )
+        .default("none")
+        .also(&["post_sdl"]),
     ],
 };
 
