@@ -78,7 +78,7 @@ pub use force::{Anchor, ConstantForce, Force, Moment, Spring, UniformGravity};
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;
-pub use shape::Shape;
+pub use shape::{Shape, cone_base};
 pub use state::State;
 pub use world::World;
 

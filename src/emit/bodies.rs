@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::materials::MaterialText;
 use super::sdl::Style;
-use super::text;
+use super::{shapes, text};
 use crate::dynamics::Shape;
 use crate::scene::{Body, Scene};
 use crate::simulate::{BodyFrame, Frame};
@@ -52,7 +52,7 @@ impl Block {
         let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
         let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];
         for (id, body) in scene.bodies.iter().enumerate() {
-            match body.material.filter(|&m| materials[m].is_uniform && !body.shape.is_unbounded()) {
+            match body.material.filter(|&m| stands_with_others(body, &materials[m])) {
                 None => together.push((None, vec![id])),
                 Some(material) => match group_of[material] {
                     Some(group) => together[group].1.push(id),
@@ -102,6 +102,11 @@ impl Block {
     }
 }
 
+/// Whether a body can stand in the union of all bodies of its material.
+fn stands_with_others(body: &Body, material: &MaterialText) -> bool {
+    material.is_uniform && !body.shape.is_unbounded() && !body.look.has_sdl()
+}
+
 /// Bodies of one plain material in a union.
 fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style) -> Group {
     let item = |&id: &usize| {
@@ -122,14 +127,20 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
-    if let (Shape::Plane { normal }, Some(material)) = (body.shape, material.filter(|m| m.makes_plane)) {
+    if let (&Shape::Plane { normal }, Some(material)) = (&body.shape, material.filter(|m| m.makes_plane)) {
         let before = format!("{}(transform {{ ", material.identifier);
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
         return Group { before: String::new(), bodies: vec![item], after: String::new() };
     }
-    let (mut before, place, mut after) = shape(body, material.is_none_or(|m| m.is_uniform), style);
+    // What words of the scene's own make of a body may look different when it turns.
+    let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
+    let (mut before, place, mut after) = shape(body, uniform, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage));
+    // On lines of their own, since the words may end with a comment.
+    let own = |sdl: &Option<String>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
+    let usage = usage + &own(&body.look.sdl_before);
+    after.push_str(&own(&body.look.sdl_after));
     // A pattern moves with the body: the transform comes after it.
     match place {
         Place::Matrix(_) => {
@@ -144,31 +155,17 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
 
 /// The text before the place of a body, how its place is written, and the text after it.
 fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
-    let length = |metres: f64| {
-        let mut out = String::new();
-        style.length(&mut out, metres);
-        out
-    };
-    let as_is = Place::Matrix(DQuat::IDENTITY);
-    match body.shape {
+    match body.drawn() {
         Shape::Sphere { radius } if uniform => {
-            ("sphere { ".to_owned(), Place::Centre, format!(", {}", length(radius)))
-        }
-        Shape::Sphere { radius } => (format!("sphere {{ 0, {} ", length(radius)), as_is, String::new()),
-        Shape::Box { size } => {
-            let mut corners = String::new();
-            style.point(&mut corners, -size / 2.0);
-            corners.push_str(", ");
-            style.point(&mut corners, size / 2.0);
-            (format!("box {{ {corners} "), as_is, String::new())
+            let mut after = ", ".to_owned();
+            style.length(&mut after, radius);
+            ("sphere { ".to_owned(), Place::Centre, after)
         }
         Shape::Plane { normal } if uniform => ("plane { ".to_owned(), Place::Plane(normal), String::new()),
         Shape::Plane { normal } => {
             let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
             ("plane { y, 0 ".to_owned(), Place::Matrix(turn), String::new())
         }
-        Shape::Axes { length: arm } => {
-            (format!("object {{ Axes scale {} ", length(arm)), as_is, String::new())
-        }
+        shape => (shapes::open(&shape, style), Place::Matrix(DQuat::IDENTITY), String::new()),
     }
 }

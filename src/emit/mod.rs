@@ -11,6 +11,7 @@ mod materials;
 mod names;
 mod number;
 mod sdl;
+mod shapes;
 mod stage;
 mod templates;
 mod text;

@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::camera::{CameraText, Placed};
 use super::framing;
-use crate::dynamics::Shape;
 use crate::scene::{Body, Camera, Color, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
@@ -145,14 +144,8 @@ fn linear(color: Color) -> [f64; 3] {
 
 /// The thinnest body and half its thickness, m; none where there is no body with a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
-    let half = |shape: &Shape| match shape {
-        Shape::Sphere { radius } => Some(*radius),
-        Shape::Box { size } => Some(size.min_element() / 2.0),
-        // The shafts of the arrows.
-        Shape::Axes { length } => Some(length * 0.03),
-        Shape::Plane { .. } => None,
-    };
-    let halves = scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, half(&body.shape)?)));
+    let halves =
+        scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
     halves.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
@@ -191,7 +184,7 @@ const SMALLEST_SEEN: f64 = 4.0;
 
 /// The width of the largest body in the picture, if it is as far from the camera as the middle of the motion.
 fn largest_in_pixels(scene: &Scene, camera: &Placed, distance: f64) -> Option<f64> {
-    let reach = |body: &Body| body.shape.support(DQuat::IDENTITY, DVec3::Y);
+    let reach = |body: &Body| body.drawn().support(DQuat::IDENTITY, DVec3::Y);
     let largest = scene.bodies.iter().filter_map(reach).reduce(f64::max)?;
     Some(camera.pixels(largest, distance))
 }

@@ -19,6 +19,7 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("lights.inc", include_str!("../../templates/lights.inc")),
     ("environment.inc", include_str!("../../templates/environment.inc")),
     ("materials.inc", include_str!("../../templates/materials.inc")),
+    ("rounded_box.inc", include_str!("../../templates/rounded_box.inc")),
     ("axes.inc", include_str!("../../templates/axes.inc")),
     ("animation.pov", include_str!("../../templates/animation.pov")),
     ("animation.ini", include_str!("../../templates/animation.ini")),

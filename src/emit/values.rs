@@ -28,6 +28,7 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
             Layout::SelfContained => "local",
             Layout::Shared => "declare",
         },
+        rounded_boxes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::RoundedBox { .. })),
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
     }
@@ -141,7 +142,11 @@ impl FrameConstants {
 fn shape_name(shape: &Shape) -> &'static str {
     match shape {
         Shape::Sphere { .. } => "sphere",
-        Shape::Box { .. } => "box",
+        Shape::Box { .. } | Shape::RoundedBox { .. } => "box",
+        Shape::Cylinder { .. } => "cylinder",
+        Shape::Capsule { .. } => "capsule",
+        Shape::Cone { .. } => "cone",
+        Shape::Torus { .. } => "torus",
         Shape::Plane { .. } => "plane",
         Shape::Axes { .. } => "axes",
     }

@@ -48,6 +48,33 @@ pub struct Body {
     pub start: RigidBody,
     /// The number of its material among the scene's; none for axes, which have colors of their own.
     pub material: Option<usize>,
+    /// How it differs in pictures from what it is in mechanics.
+    pub look: BodyLook,
+}
+
+/// How a body differs in pictures from what it is in mechanics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyLook {
+    /// How many times larger it is drawn.
+    pub scale: f64,
+    /// POV-Ray's own words in its object, before its place.
+    pub sdl_before: Option<String>,
+    /// POV-Ray's own words in its object, after its place.
+    pub sdl_after: Option<String>,
+}
+
+impl BodyLook {
+    /// Whether the body has words of POV-Ray's own.
+    pub fn has_sdl(&self) -> bool {
+        self.sdl_before.is_some() || self.sdl_after.is_some()
+    }
+}
+
+impl Body {
+    /// The shape that pictures show.
+    pub fn drawn(&self) -> Shape {
+        self.shape.scaled(self.look.scale)
+    }
 }
 
 /// A force that is not a single body's own.

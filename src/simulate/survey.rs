@@ -65,8 +65,7 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
             if planes.iter().any(|plane| plane.crossed[body.id]) {
                 continue;
             }
-            let shape = &scene.bodies[body.id].shape;
-            if let Some(here) = Bounds::of(shape, body) {
+            if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
                 bounds = Some(bounds.map_or(here, |all| all.union(here)));
             }
         }
@@ -89,9 +88,10 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
 }
 
 impl Bounds {
-    /// The box around a body; none for a plane, which has no bounds.
-    fn of(shape: &Shape, body: &BodyFrame) -> Option<Bounds> {
-        let reach = |direction: DVec3| shape.support(body.orientation, direction);
+    /// The box around a body as it is drawn; none for a plane, which has no bounds.
+    fn of(Body { shape, look, .. }: &Body, body: &BodyFrame) -> Option<Bounds> {
+        let reach =
+            |direction: DVec3| shape.support(body.orientation, direction).map(|reach| reach * look.scale);
         let max = DVec3::new(reach(DVec3::X)?, reach(DVec3::Y)?, reach(DVec3::Z)?);
         let min = DVec3::new(reach(-DVec3::X)?, reach(-DVec3::Y)?, reach(-DVec3::Z)?);
         Some(Bounds { min: body.location - min, max: body.location + max })
@@ -204,6 +204,24 @@ mod tests {
         let Bounds { min, max } = survey.bounds.unwrap();
         assert!((min - DVec3::new(-2f64.sqrt(), -0.5, -1.0)).length() < 1e-12, "{min}");
         assert!((max - DVec3::new(6.5, 4.0 + 2f64.sqrt(), 1.0)).length() < 1e-12, "{max}");
+    }
+
+    #[test]
+    fn bounds_hold_what_is_drawn_and_planes_are_crossed_by_what_is_there() {
+        let survey = surveyed(
+            "
+            [body.earth]
+            shape.sphere.radius = 0.5
+            look.scale = 10
+            velocity = [1, 0, 0]
+            [environment]
+            ground.height = -3
+            ",
+        );
+        let Bounds { min, max } = survey.bounds.unwrap();
+        assert!((min - DVec3::splat(-5.0)).length() < 1e-12, "{min}");
+        assert!((max - DVec3::new(15.0, 5.0, 5.0)).length() < 1e-12, "{max}");
+        assert_eq!(survey.crossings, []);
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod same_pixels;
 mod scales;
 mod scene;
 mod sequence;
+mod shapes;
 mod sides;
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 #[path = "../support/mod.rs"]

@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Context;
 use super::read::figure;
 use super::view::View;
+use super::{Context, look, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -19,9 +19,11 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
     let tables = root.named("body");
     let mut palette = Palette::default();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let shape = shape(&view.table("shape"));
+        let shape = shape::read(&view.table("shape"), context);
         let material = material(&view, &shape, materials, &mut palette, context);
-        Body { name: name.to_owned(), shape, start: start(name, span, &view, &shape, context), material }
+        let start = start(name, span, &view, &shape, context);
+        let look = look::of_body(name, &view, &shape, context);
+        Body { name: name.to_owned(), shape, start, material, look }
     };
     tables.into_iter().map(read).collect()
 }
@@ -43,21 +45,6 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
         torque: vector("torque"),
         fixed,
     }
-}
-
-fn shape(view: &View<'_>) -> Shape {
-    if let Some(plane) = view.variant("plane") {
-        let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
-        return Shape::Plane { normal: DVec3::from_array(normal) };
-    }
-    if let Some(cuboid) = view.variant("box") {
-        return Shape::Box { size: cuboid.vector("size").unwrap_or(DVec3::ONE) };
-    }
-    if let Some(axes) = view.variant("axes") {
-        return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
-    }
-    let radius = view.variant("sphere").and_then(|sphere| sphere.number("radius"));
-    Shape::Sphere { radius: radius.unwrap_or(1.0) }
 }
 
 /// Whether a body stays where it is; what contradicts that, or is of no use then, is reported.

@@ -7,7 +7,7 @@ use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
 use crate::scene::{
-    Body, Color, Environment, Finish, Ground, Layout, Light, LightKind, Look, Material, Output, Sky,
+    Body, BodyLook, Color, Environment, Finish, Ground, Layout, Light, LightKind, Look, Material, Output, Sky,
 };
 
 pub(super) fn materials(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
@@ -36,6 +36,27 @@ fn look(view: &View<'_>) -> Look {
     Look::Plain {
         color: view.color("color").unwrap_or(Color::WHITE),
         finish: view.text("finish").and_then(named).unwrap_or(Finish::Glossy),
+    }
+}
+
+/// `look` of a body.
+pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
+    let look = view.table("look");
+    if shape.is_unbounded() {
+        let warning = Diagnostic::warning("no-effect", format!("`scale` of `{name}` has no effect"));
+        context.diagnostics.extend(look.key_span("scale").map(|span| warning.at(span, "a plane is endless")));
+        // The usual look of a plane is a plane of its own making, in which no words can stand.
+        for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has("material")) {
+            let message = format!("`material` is missing in [body.{name}]");
+            let error = Diagnostic::error("missing-key", message);
+            let label = "only stands in planes with a material";
+            context.diagnostics.extend(look.key_span(key).map(|span| error.at(span, label)));
+        }
+    }
+    BodyLook {
+        scale: look.number("scale").unwrap_or(1.0),
+        sdl_before: look.text("sdl_before").map(str::to_owned),
+        sdl_after: look.text("sdl_after").map(str::to_owned),
     }
 }
 

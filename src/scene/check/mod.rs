@@ -8,6 +8,7 @@ mod look;
 mod povray;
 mod read;
 mod sdl;
+mod shape;
 mod simulation;
 mod suggest;
 mod templates;

@@ -6,15 +6,16 @@ use super::Kind::{
     Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
     Reference, Sdl, Table, Text,
 };
+use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
 use crate::scene::{Finish, Layout};
 
-const ANY: Kind = Number(Bound::Any);
-const POSITIVE: Kind = Number(Bound::Positive);
-const NON_NEGATIVE: Kind = Number(Bound::NonNegative);
-const VECTOR: Kind = Numbers(3, Bound::Any);
-const AXIS: Kind = Direction(3);
+pub(super) const ANY: Kind = Number(Bound::Any);
+pub(super) const POSITIVE: Kind = Number(Bound::Positive);
+pub(super) const NON_NEGATIVE: Kind = Number(Bound::NonNegative);
+pub(super) const VECTOR: Kind = Numbers(3, Bound::Any);
+pub(super) const AXIS: Kind = Direction(3);
 
 fn integrators() -> Vec<&'static str> {
     METHODS.iter().map(|method| method.name).collect()
@@ -134,54 +135,38 @@ static BODY: TableSpec = TableSpec {
             .also(&["static", "anchored", "kinematic"]),
         Key::new("material", Reference(Collection::Material), "What it looks like: a `[material.NAME]`")
             .default("a color of the palette, after its place in the file")
-            .also(&["color", "colour", "texture", "look"]),
+            .also(&["color", "colour", "texture"]),
+        Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
     ],
 };
 
-static SHAPE: TableSpec = TableSpec {
-    noun: "a shape",
-    rule: Rule::ExactlyOne(&["sphere", "box", "plane", "axes"]),
+static BODY_LOOK: TableSpec = TableSpec {
+    noun: "a body's look",
+    rule: Rule::Any,
     keys: &[
-        Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
-        Key::new("box", Table(&BOX), "A box").also(&["cube", "cuboid", "brick"]),
-        Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
-            .also(&["floor", "ground"]),
+        // Wider than any use, and narrow enough for every drawn length to have a square.
         Key::new(
-            "axes",
-            Table(&AXES),
-            "A triad of arrows along x, y, z, as heavy as a ball of half their length",
+            "scale",
+            Number(Bound::From(1e-9, 1e9)),
+            "How many times larger than it is it is drawn, about its centre of mass",
         )
-        .also(&["axis", "triad", "frame"]),
+        .default("1")
+            .also(&["size", "magnification", "enlarge"]),
+        Key::new(
+            "sdl_before",
+            Sdl,
+            "POV-Ray's own words at the end of its object, before the matrix that places it: they move with the body",
+        )
+        .default("none")
+        .also(&["sdl", "pre_sdl"]),
+        Key::new(
+            "sdl_after",
+            Sdl,
+            "POV-Ray's own words after that matrix: they stay where they are in the world",
+        )
+        .default("none")
+        .also(&["post_sdl"]),
     ],
-};
-
-static SPHERE: TableSpec = TableSpec {
-    noun: "a sphere",
-    rule: Rule::Any,
-    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
-};
-
-static BOX: TableSpec = TableSpec {
-    noun: "a box",
-    rule: Rule::Any,
-    keys: &[Key::new("size", Numbers(3, Bound::Positive), "Its full edges along its own x, y, z")
-        .unit("m")
-        .required()
-        .also(&["edges", "extents", "dimensions", "half_extents"])],
-};
-
-static PLANE: TableSpec = TableSpec {
-    noun: "a plane",
-    rule: Rule::Any,
-    keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
-        .default("[0, 1, 0]")
-        .also(&["direction", "up"])],
-};
-
-static AXES: TableSpec = TableSpec {
-    noun: "axes",
-    rule: Rule::Any,
-    keys: &[Key::new("length", POSITIVE, "The length of each arrow").unit("m").required().also(&["size"])],
 };
 
 static ORIENTATION: TableSpec = TableSpec {

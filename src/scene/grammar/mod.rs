@@ -7,6 +7,7 @@
 mod keys;
 mod kind;
 mod reference;
+mod shapes;
 
 pub use keys::SCENE;
 pub(crate) use kind::quoted;

@@ -1,0 +1,196 @@
+//! What a body looks like, as far as mechanics cares: volume, inertia and extent.
+
+mod solids;
+#[cfg(test)]
+mod tests;
+
+use glam::{DQuat, DVec3};
+
+/// The shape of a body, in its own frame: the centre of mass is the origin and the principal axes of inertia are
+/// the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A solid sphere.
+    Sphere {
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A solid box, its edges along the axes.
+    Box {
+        /// Full lengths of the edges along x, y and z, m.
+        size: DVec3,
+    },
+    /// A solid box with round edges and corners: all that is within `rounding` of a smaller box.
+    RoundedBox {
+        /// Full lengths of the edges along x, y and z, m.
+        size: DVec3,
+        /// The radius of the edges, m; at most half the smallest edge.
+        rounding: f64,
+    },
+    /// A solid cylinder.
+    Cylinder {
+        /// Radius, m.
+        radius: f64,
+        /// Height, m.
+        height: f64,
+    },
+    /// A solid cylinder with a half ball on either end.
+    Capsule {
+        /// Radius, m.
+        radius: f64,
+        /// Height from tip to tip, the half balls included, m; at least twice the radius.
+        height: f64,
+    },
+    /// A solid cone, or a frustum of one. Its base is below its tip, so that the centre of mass is the origin: a
+    /// quarter of the height above the base of a whole cone.
+    Cone {
+        /// The radius of the base, m.
+        radius: f64,
+        /// The radius of the upper end, m: 0 for a whole cone.
+        top_radius: f64,
+        /// Height, m.
+        height: f64,
+    },
+    /// A solid ring: a disk that goes around the axis.
+    Torus {
+        /// The distance of the middle of the tube from the axis, m.
+        radius: f64,
+        /// The radius of the tube, m; at most `radius`.
+        tube_radius: f64,
+    },
+    /// An infinite plane through the origin, with solid ground below it.
+    Plane {
+        /// Unit normal, in the frame of the body; it points out of the ground.
+        normal: DVec3,
+    },
+    /// A triad of axes: three arms from the origin along x, y and z. It shows an orientation, and has the mechanics
+    /// of a solid sphere with radius `length / 2`.
+    Axes {
+        /// Length of an arm, m.
+        length: f64,
+    },
+}
+
+/// The radius of an arm of the axes, at its thickest, in lengths of an arm.
+const ARM_RADIUS: f64 = 0.078;
+
+impl Shape {
+    /// The volume in m³; `None` for a plane, which has no finite one.
+    #[must_use]
+    pub fn volume(&self) -> Option<f64> {
+        Some(match *self {
+            Shape::Sphere { radius } => solids::sphere_volume(radius),
+            Shape::Box { size } => size.element_product(),
+            Shape::RoundedBox { size, rounding } => solids::rounded_box(size, rounding).0,
+            Shape::Cylinder { radius, height } => solids::cylinder_volume(radius, height),
+            Shape::Capsule { radius, height } => solids::capsule_volume(radius, height),
+            Shape::Cone { radius, top_radius, height } => solids::cone_volume(radius, top_radius, height),
+            Shape::Torus { radius, tube_radius } => solids::torus_volume(radius, tube_radius),
+            Shape::Plane { .. } => return None,
+            Shape::Axes { length } => solids::sphere_volume(length / 2.0),
+        })
+    }
+
+    /// The principal moments of inertia, kg m², of a homogeneous solid of `mass` kg.
+    ///
+    /// A plane has no finite moments; zero stands for them, which everywhere means that no torque turns the body.
+    #[must_use]
+    pub fn inertia(&self, mass: f64) -> DVec3 {
+        match *self {
+            Shape::Sphere { radius } => mass * solids::sphere(radius),
+            Shape::Box { size } => mass / 12.0 * solids::box_times_12(size),
+            Shape::RoundedBox { size, rounding } => mass * solids::rounded_box(size, rounding).1,
+            Shape::Cylinder { radius, height } => mass * solids::cylinder(radius, height),
+            Shape::Capsule { radius, height } => mass * solids::capsule(radius, height),
+            Shape::Cone { radius, top_radius, height } => mass * solids::cone(radius, top_radius, height),
+            Shape::Torus { radius, tube_radius } => mass * solids::torus(radius, tube_radius),
+            Shape::Plane { .. } => DVec3::ZERO,
+            Shape::Axes { length } => mass * solids::sphere(length / 2.0),
+        }
+    }
+
+    /// How far the shape reaches from its centre along the unit vector `direction` (world axes), in metres: the
+    /// support function, the largest `p · direction` over its points `p`. `None` for a plane.
+    #[must_use]
+    pub fn support(&self, world_from_body: DQuat, direction: DVec3) -> Option<f64> {
+        let direction = world_from_body.conjugate() * direction;
+        // The part of the direction across the axis of symmetry.
+        let across = (direction.x * direction.x + direction.z * direction.z).sqrt();
+        Some(match *self {
+            Shape::Sphere { radius } => radius,
+            Shape::Box { size } => 0.5 * size.dot(direction.abs()),
+            Shape::RoundedBox { size, rounding } => (0.5 * size - rounding).dot(direction.abs()) + rounding,
+            Shape::Cylinder { radius, height } => 0.5 * height * direction.y.abs() + radius * across,
+            Shape::Capsule { radius, height } => (0.5 * height - radius) * direction.y.abs() + radius,
+            Shape::Cone { radius, top_radius, height } => {
+                let base = cone_base(radius, top_radius, height);
+                let top = base + height;
+                (base * direction.y + radius * across).max(top * direction.y + top_radius * across)
+            }
+            Shape::Torus { radius, tube_radius } => radius * across + tube_radius,
+            Shape::Plane { .. } => return None,
+            // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
+            Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
+        })
+    }
+
+    /// Half of the smallest thickness anywhere, m: what is to be seen of the shape at all is about as thick. `None`
+    /// for a plane.
+    #[must_use]
+    pub fn half_thickness(&self) -> Option<f64> {
+        // The shafts of the arrows of axes, in lengths of an arm.
+        const SHAFT_RADIUS: f64 = 0.03;
+        Some(match *self {
+            Shape::Sphere { radius } => radius,
+            Shape::Box { size } | Shape::RoundedBox { size, .. } => size.min_element() / 2.0,
+            Shape::Cylinder { radius, height } => radius.min(height / 2.0),
+            Shape::Capsule { radius, .. } => radius,
+            Shape::Cone { radius, top_radius, height } => radius.max(top_radius).min(height / 2.0),
+            Shape::Torus { tube_radius, .. } => tube_radius,
+            Shape::Plane { .. } => return None,
+            Shape::Axes { length } => length * SHAFT_RADIUS,
+        })
+    }
+
+    /// The same shape, so many times larger. A plane stays as it is.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Shape {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Shape::Sphere { radius } => *radius *= factor,
+            Shape::Box { size } => *size *= factor,
+            Shape::RoundedBox { size, rounding } => {
+                *size *= factor;
+                *rounding *= factor;
+            }
+            Shape::Cylinder { radius, height } | Shape::Capsule { radius, height } => {
+                *radius *= factor;
+                *height *= factor;
+            }
+            Shape::Cone { radius, top_radius, height } => {
+                *radius *= factor;
+                *top_radius *= factor;
+                *height *= factor;
+            }
+            Shape::Torus { radius, tube_radius } => {
+                *radius *= factor;
+                *tube_radius *= factor;
+            }
+            Shape::Plane { .. } => {}
+            Shape::Axes { length } => *length *= factor,
+        }
+        scaled
+    }
+
+    /// Whether the shape has no end, as a plane has none.
+    #[must_use]
+    pub fn is_unbounded(&self) -> bool {
+        matches!(self, Shape::Plane { .. })
+    }
+}
+
+/// The y of the base of a cone whose centre of mass is at the origin, m; negative.
+#[must_use]
+pub fn cone_base(radius: f64, top_radius: f64, height: f64) -> f64 {
+    -solids::cone_centre(radius, top_radius, height)
+}

@@ -1,0 +1,118 @@
+//! Volumes, and principal moments of inertia per mass (m²), of homogeneous solids about their centre of mass.
+//!
+//! Where nothing else is said, the formulas are those of the tables of solids in J. L. Meriam, L. G. Kraige,
+//! *Engineering Mechanics: Dynamics*, appendix D, with the axis of symmetry along y.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+/// ⁴⁄₃ π r³.
+pub(super) fn sphere_volume(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius * radius * radius
+}
+
+/// ⅖ r².
+pub(super) fn sphere(radius: f64) -> DVec3 {
+    DVec3::splat(0.4 * radius * radius)
+}
+
+/// b² + c² and its permutations, which is twelve times the moments (Goldstein, *Classical Mechanics*, ch. 5).
+pub(super) fn box_times_12(size: DVec3) -> DVec3 {
+    let square = size * size;
+    DVec3::new(square.y + square.z, square.z + square.x, square.x + square.y)
+}
+
+/// π r² h.
+pub(super) fn cylinder_volume(radius: f64, height: f64) -> f64 {
+    PI * radius * radius * height
+}
+
+/// ½ r² about the axis, ¹⁄₁₂ (3 r² + h²) across it.
+pub(super) fn cylinder(radius: f64, height: f64) -> DVec3 {
+    let square = radius * radius;
+    about_y(square / 2.0, (3.0 * square + height * height) / 12.0)
+}
+
+/// A cylinder and a ball.
+pub(super) fn capsule_volume(radius: f64, height: f64) -> f64 {
+    cylinder_volume(radius, height - 2.0 * radius) + sphere_volume(radius)
+}
+
+/// A cylinder of length l and two half balls, whose centres of mass are l/2 + ⅜ r away: across the axis they have
+/// ⅖ r² + ¼ l² + ⅜ l r, since a half ball has ⁸³⁄₃₂₀ r² about its centre of mass, and ⁸³⁄₃₂₀ + ⁹⁄₆₄ = ⅖.
+pub(super) fn capsule(radius: f64, height: f64) -> DVec3 {
+    let length = height - 2.0 * radius;
+    let (tube, balls) = (cylinder_volume(radius, length), sphere_volume(radius));
+    let across = length * length / 4.0 + 0.375 * length * radius;
+    let of_balls = sphere(radius) + about_y(0.0, across);
+    (tube * cylinder(radius, length) + balls * of_balls) / (tube + balls)
+}
+
+/// ⅓ π h (R² + R r + r²).
+pub(super) fn cone_volume(radius: f64, top_radius: f64, height: f64) -> f64 {
+    PI / 3.0 * height * cone_sum(radius, top_radius)
+}
+
+/// How far the centre of mass is above the base: ¼ h (R² + 2 R r + 3 r²) / (R² + R r + r²).
+pub(super) fn cone_centre(radius: f64, top_radius: f64, height: f64) -> f64 {
+    let weighted = radius * radius + 2.0 * radius * top_radius + 3.0 * top_radius * top_radius;
+    height / 4.0 * weighted / cone_sum(radius, top_radius)
+}
+
+/// About the axis ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³), here with R − r taken out; across it half of that, and the mean square
+/// of the distance from the centre of mass along the axis, ³⁄₈₀ h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
+pub(super) fn cone(radius: f64, top_radius: f64, height: f64) -> DVec3 {
+    let (a, b, sum) = (radius * radius, top_radius * top_radius, cone_sum(radius, top_radius));
+    let product = radius * top_radius;
+    // R⁴ + R³ r + R² r² + R r³ + r⁴
+    let fourth = a * a + product * (a + product + b) + b * b;
+    let along = 0.3 * fourth / sum;
+    let both = (radius + top_radius) * (radius + top_radius);
+    let spread = 3.0 / 80.0 * height * height * (both * both + 4.0 * product * product) / (sum * sum);
+    about_y(along, along / 2.0 + spread)
+}
+
+fn cone_sum(radius: f64, top_radius: f64) -> f64 {
+    radius * radius + radius * top_radius + top_radius * top_radius
+}
+
+/// 2 π² R r², by Pappus.
+pub(super) fn torus_volume(radius: f64, tube_radius: f64) -> f64 {
+    2.0 * PI * PI * radius * tube_radius * tube_radius
+}
+
+/// R² + ¾ r² about the axis, ½ R² + ⅝ r² across it.
+pub(super) fn torus(radius: f64, tube_radius: f64) -> DVec3 {
+    let (ring, tube) = (radius * radius, tube_radius * tube_radius);
+    about_y(ring + 0.75 * tube, 0.5 * ring + 0.625 * tube)
+}
+
+/// Volume and moments of a box with round edges.
+///
+/// Across x, what is at |x| ≤ a/2, where a is the inner edge, is a rectangle b × c with corners of radius r; what is u
+/// farther out is one with corners of radius √(r² − u²). Its area is b c + 2 (b + c) r + π r². The mean of x²
+/// follows from ∫ uⁿ du, ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
+pub(super) fn rounded_box(size: DVec3, rounding: f64) -> (f64, DVec3) {
+    let (inner, r) = ((size - 2.0 * rounding).max(DVec3::ZERO), rounding);
+    let (r2, r3) = (r * r, r * r * r);
+    let integral = |a: f64, b: f64, c: f64| {
+        let area = |one: f64, root: f64, square: f64| b * c * one + 2.0 * (b + c) * root + PI * square;
+        let caps = [
+            area(r, PI / 4.0 * r2, 2.0 / 3.0 * r3),
+            area(r2 / 2.0, r3 / 3.0, r2 * r2 / 4.0),
+            area(r3 / 3.0, PI / 16.0 * r2 * r2, 2.0 / 15.0 * r2 * r3),
+        ];
+        let middle = area(1.0, r, r2);
+        let volume = middle * a + 2.0 * caps[0];
+        let x2 = middle * a * a * a / 12.0 + 2.0 * (a * a / 4.0 * caps[0] + a * caps[1] + caps[2]);
+        (volume, x2)
+    };
+    let DVec3 { x: a, y: b, z: c } = inner;
+    let ((volume, x2), (_, y2), (_, z2)) = (integral(a, b, c), integral(b, c, a), integral(c, a, b));
+    (volume, DVec3::new(y2 + z2, z2 + x2, x2 + y2) / volume)
+}
+
+fn about_y(along: f64, across: f64) -> DVec3 {
+    DVec3::new(across, along, across)
+}

@@ -1,0 +1,60 @@
+//! Shapes in POV-Ray's words.
+
+use glam::DVec3;
+
+use super::sdl::Style;
+use crate::dynamics::{Shape, cone_base};
+
+/// A shape in its own frame: the words of an object up to where its material and its place go, which the closing
+/// brace follows.
+pub(super) fn open(shape: &Shape, style: Style) -> String {
+    let length = |metres: f64| {
+        let mut out = String::new();
+        style.length(&mut out, metres);
+        out
+    };
+    let point = |metres: DVec3| {
+        let mut out = String::new();
+        style.point(&mut out, metres);
+        out
+    };
+    let on_axis = |y: f64| point(DVec3::Y * y);
+    match *shape {
+        Shape::Sphere { radius } => format!("sphere {{ 0, {} ", length(radius)),
+        Shape::Box { size } => format!("box {{ {}, {} ", point(-size / 2.0), point(size / 2.0)),
+        Shape::RoundedBox { size, rounding } => {
+            // What is left but for rounding is nothing, which POV-Ray would refuse.
+            let inner = |edge: f64| if edge < 1e-6 * rounding { 0.0 } else { edge };
+            let half = (size / 2.0 - rounding).map(inner);
+            format!("object {{ Rounded_box({}, {}) ", point(half), length(rounding))
+        }
+        Shape::Cylinder { radius, height } => {
+            let (low, high) = (on_axis(-height / 2.0), on_axis(height / 2.0));
+            format!("cylinder {{ {low}, {high}, {} ", length(radius))
+        }
+        Shape::Capsule { radius, height } => {
+            let half = height / 2.0 - radius;
+            // A cylinder without length is one that POV-Ray refuses.
+            if half < 1e-6 * radius {
+                return open(&Shape::Sphere { radius }, style);
+            }
+            let (low, high, radius) = (on_axis(-half), on_axis(half), length(radius));
+            let balls = format!("sphere {{ {low}, {radius} }} sphere {{ {high}, {radius} }}");
+            format!("union {{ cylinder {{ {low}, {high}, {radius} open }} {balls} ")
+        }
+        Shape::Cone { radius, top_radius, height } => {
+            let base = cone_base(radius, top_radius, height);
+            let (low, high) = (on_axis(base), on_axis(base + height));
+            format!("cone {{ {low}, {}, {high}, {} ", length(radius), length(top_radius))
+        }
+        Shape::Torus { radius, tube_radius } => {
+            format!("torus {{ {}, {} ", length(radius), length(tube_radius))
+        }
+        Shape::Plane { normal } => {
+            let mut out = "plane { ".to_owned();
+            style.vector(&mut out, normal);
+            out + ", 0 "
+        }
+        Shape::Axes { length: arm } => format!("object {{ Axes scale {} ", length(arm)),
+    }
+}

@@ -1,0 +1,70 @@
+//! `shape`.
+
+use glam::DVec3;
+
+use super::Context;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::Diagnostic;
+use crate::dynamics::Shape;
+
+/// The shape of a body. Where it is missing or wrong, which has been said, any other takes its place.
+pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Shape {
+    if let Some(plane) = view.variant("plane") {
+        let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
+        return Shape::Plane { normal: DVec3::from_array(normal) };
+    }
+    if let Some(axes) = view.variant("axes") {
+        return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
+    }
+    solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
+}
+
+/// A solid of finite size; none where a number of it is missing or wrong.
+fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
+    if let Some(sphere) = view.variant("sphere") {
+        return Some(Shape::Sphere { radius: sphere.number("radius")? });
+    }
+    if let Some(cuboid) = view.variant("box") {
+        let size = cuboid.vector("size")?;
+        let rounding = cuboid.number("rounding").filter(|radius| *radius > 0.0);
+        let Some(rounding) = rounding else { return Some(Shape::Box { size }) };
+        let most = size.min_element() / 2.0;
+        if rounding > most {
+            let why = format!("half its smallest edge is {}", figure(most));
+            impossible(&cuboid, "rounding", "a box cannot be rounder than its smallest edge", &why, context);
+        }
+        return Some(Shape::RoundedBox { size, rounding });
+    }
+    if let Some(cylinder) = view.variant("cylinder") {
+        let (radius, height) = (cylinder.number("radius")?, cylinder.number("height")?);
+        return Some(Shape::Cylinder { radius, height });
+    }
+    if let Some(capsule) = view.variant("capsule") {
+        let (radius, height) = (capsule.number("radius")?, capsule.number("height")?);
+        if height < 2.0 * radius {
+            let why = format!("its two half balls alone are {} high", figure(2.0 * radius));
+            let what = "the height of a capsule is that from tip to tip, at least twice its radius";
+            impossible(&capsule, "height", what, &why, context);
+        }
+        return Some(Shape::Capsule { radius, height });
+    }
+    if let Some(cone) = view.variant("cone") {
+        let top_radius = cone.number("top_radius").unwrap_or(0.0);
+        let (radius, height) = (cone.number("radius")?, cone.number("height")?);
+        return Some(Shape::Cone { radius, top_radius, height });
+    }
+    let torus = view.variant("torus")?;
+    let (radius, tube_radius) = (torus.number("radius")?, torus.number("tube_radius")?);
+    if tube_radius > radius {
+        let why = format!("more than its `radius`, {}", figure(radius));
+        impossible(&torus, "tube_radius", "the tube of a torus would go through itself", &why, context);
+    }
+    Some(Shape::Torus { radius, tube_radius })
+}
+
+/// Reports that no shape is like this.
+fn impossible(view: &View<'_>, key: &str, what: &str, why: &str, context: &mut Context<'_>) {
+    let error = Diagnostic::error("impossible-shape", what);
+    context.diagnostics.extend(view.span(key).map(|span| error.at(span, why)));
+}

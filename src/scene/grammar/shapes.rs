@@ -1,0 +1,144 @@
+//! The keys of shapes.
+
+use super::Kind::{Numbers, Table};
+use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
+use super::{Bound, Key, Rule, TableSpec};
+
+const SPHERE: Key = Key::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
+const BOX: Key =
+    Key::new("box", Table(&BOX_KEYS), "A box, also with round edges").also(&["cube", "cuboid", "brick"]);
+const CYLINDER: Key =
+    Key::new("cylinder", Table(&CYLINDER_KEYS), "A cylinder").also(&["disk", "disc", "rod", "tube", "pipe"]);
+const CAPSULE: Key =
+    Key::new("capsule", Table(&CAPSULE_KEYS), "A cylinder with a half ball on either end").also(&["pill"]);
+const CONE: Key = Key::new(
+    "cone",
+    Table(&CONE_KEYS),
+    "A cone that points up, or a part of one; its centre of mass is a quarter of the height above its base",
+)
+.also(&["frustum"]);
+const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
+
+pub(super) static SHAPE: TableSpec = TableSpec {
+    noun: "a shape",
+    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes"]),
+    keys: &[
+        SPHERE,
+        BOX,
+        CYLINDER,
+        CAPSULE,
+        CONE,
+        TORUS,
+        Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
+            .also(&["floor", "ground"]),
+        Key::new(
+            "axes",
+            Table(&AXES),
+            "A triad of arrows along x, y, z, as heavy as a ball of half their length",
+        )
+        .also(&["axis", "triad", "frame"]),
+    ],
+};
+
+static SPHERE_KEYS: TableSpec = TableSpec {
+    noun: "a sphere",
+    rule: Rule::Any,
+    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
+};
+
+static BOX_KEYS: TableSpec = TableSpec {
+    noun: "a box",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("size", Numbers(3, Bound::Positive), "Its full edges along its own x, y, z")
+            .unit("m")
+            .required()
+            .also(&["edges", "extents", "dimensions", "half_extents"]),
+        Key::new(
+            "rounding",
+            NON_NEGATIVE,
+            "The radius of its edges and corners, at most half its smallest edge; its size stays",
+        )
+        .unit("m")
+        .default("0")
+        .also(&["bevel", "corner_radius", "edge_radius", "radius", "round", "rounded"]),
+    ],
+};
+
+static CYLINDER_KEYS: TableSpec = TableSpec {
+    noun: "a cylinder",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
+        Key::new("height", POSITIVE, "Its height, along its own y")
+            .unit("m")
+            .required()
+            .also(&["h", "length"]),
+    ],
+};
+
+static CAPSULE_KEYS: TableSpec = TableSpec {
+    noun: "a capsule",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
+        Key::new(
+            "height",
+            POSITIVE,
+            "Its whole height from tip to tip, along its own y: at least twice its radius",
+        )
+        .unit("m")
+        .required()
+        .also(&["h", "length"]),
+    ],
+};
+
+static CONE_KEYS: TableSpec = TableSpec {
+    noun: "a cone",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "The radius of its base").unit("m").required().also(&[
+            "r",
+            "size",
+            "diameter",
+            "base_radius",
+        ]),
+        Key::new("height", POSITIVE, "Its height, along its own y")
+            .unit("m")
+            .required()
+            .also(&["h", "length"]),
+        Key::new("top_radius", NON_NEGATIVE, "The radius of its upper end; with 0 it has a tip")
+            .unit("m")
+            .default("0")
+            .also(&["radius2", "r2", "tip_radius"]),
+    ],
+};
+
+static TORUS_KEYS: TableSpec = TableSpec {
+    noun: "a torus",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "The distance from its centre to the middle of its tube")
+            .unit("m")
+            .required()
+            .also(&["r", "size", "diameter", "major_radius", "major"]),
+        Key::new("tube_radius", POSITIVE, "The radius of its tube, at most its `radius`")
+            .unit("m")
+            .required()
+            .also(&["tube", "thickness", "minor_radius", "minor"]),
+    ],
+};
+
+static PLANE: TableSpec = TableSpec {
+    noun: "a plane",
+    rule: Rule::Any,
+    keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
+        .default("[0, 1, 0]")
+        .also(&["direction", "up"])],
+};
+
+static AXES: TableSpec = TableSpec {
+    noun: "axes",
+    rule: Rule::Any,
+    keys: &[Key::new("length", POSITIVE, "The length of each arrow").unit("m").required().also(&["size"])],
+};
