@@ -71,6 +71,17 @@ pub enum ForceKind {
         /// The torque, N·m.
         torque: DVec3,
     },
+    /// The resistance of air or a liquid.
+    Drag {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Its linear coefficient, N·s/m.
+        linear: f64,
+        /// Its quadratic coefficient, N·s²/m².
+        quadratic: f64,
+        /// The velocity of the air, m/s.
+        wind: DVec3,
+    },
     /// A spring with a damper.
     Spring {
         /// Its two ends.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Spring, UniformGravity};
+use crate::dynamics::{Anchor, ConstantForce, Drag, Spring, UniformGravity};
 use crate::dynamics::{BodyId, World};
 use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
@@ -21,10 +21,13 @@ pub fn world(scene: &Scene) -> World {
 }
 
 fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
+    let named = |on: &[usize]| on.iter().map(|&body| ids[body]).collect();
     match &force.kind {
         ForceKind::Constant { on, force, torque } => {
-            let bodies = on.iter().map(|&body| ids[body]).collect();
-            world.add_force(ConstantForce { bodies, force: *force, torque: *torque });
+            world.add_force(ConstantForce { bodies: named(on), force: *force, torque: *torque });
+        }
+        &ForceKind::Drag { ref on, linear, quadratic, wind } => {
+            world.add_force(Drag { bodies: named(on), linear, quadratic, wind });
         }
         ForceKind::Spring { between, stiffness, damping, rest_length } => {
             let between = between.map(|end| match end {
