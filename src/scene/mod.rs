@@ -19,7 +19,7 @@ pub use color::Color;
 pub use look::{
     Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay, Sky,
 };
-pub use model::{Body, Force, ForceKind, Simulation, SpringEnd};
+pub use model::{Body, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use number::Number;
 pub use source::Override;
 

@@ -23,7 +23,7 @@ pub(super) static FORCE: TableSpec =
             Key::new(
                 "spring",
                 Table(&SPRING),
-                "A spring with a damper, between two bodies or a body and a point",
+                "A spring with a damper, between bodies or a body and a point, or a chain of such springs",
             ),
         ],
     };
@@ -74,13 +74,13 @@ static SPRING: TableSpec = TableSpec {
     keys: &[
         Key::new(
             "between",
-            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: 2 },
-            "Its two ends: each the name of a body, or a point",
+            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: usize::MAX },
+            "Its ends: each the name of a body, or a point; of more than two, a chain from each to the next",
         )
         .unit("m")
         .required()
         .also(&["bodies", "ends", "connects"]),
-        Key::new("stiffness", NON_NEGATIVE, "Force per change of length")
+        Key::new("stiffness", NON_NEGATIVE, "Force per change of length, of each spring of a chain")
             .unit("N/m")
             .required()
             .also(&["k", "constant", "strength"]),
@@ -90,7 +90,7 @@ static SPRING: TableSpec = TableSpec {
             .also(&["c", "friction", "damper"]),
         Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
             .unit("m")
-            .default("its length at the start")
+            .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
     ],
 };
