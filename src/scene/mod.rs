@@ -20,7 +20,7 @@ pub use look::{
     Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material, Output,
     OwnTemplate, PovRay, Projection, Sky, View,
 };
-pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd};
+pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use number::Number;
 pub use source::Override;
 

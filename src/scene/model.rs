@@ -98,17 +98,35 @@ pub enum ForceKind {
         /// The torque, N·m.
         torque: DVec3,
     },
-    /// A spring with a damper.
+    /// The resistance of air or a liquid.
+    Drag {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Its linear coefficient, N·s/m.
+        linear: f64,
+        /// Its quadratic coefficient, N·s²/m².
+        quadratic: f64,
+        /// The velocity of the air, m/s.
+        wind: DVec3,
+    },
+    /// A spring with a damper, or a chain of such springs.
     Spring {
-        /// Its two ends.
-        between: [SpringEnd; 2],
+        /// The springs, one behind the other.
+        links: Vec<SpringLink>,
         /// Its stiffness, N/m.
         stiffness: f64,
         /// Its damping, N·s/m.
         damping: f64,
-        /// The length at which it does not pull or push, m.
-        rest_length: f64,
     },
+}
+
+/// One spring of a chain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringLink {
+    /// Its two ends.
+    pub between: [SpringEnd; 2],
+    /// The length at which it does not pull or push, m.
+    pub rest_length: f64,
 }
 
 /// One end of a spring.

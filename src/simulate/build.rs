@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Spring, UniformGravity};
+use crate::dynamics::{Anchor, ConstantForce, Drag, Spring, UniformGravity};
 use crate::dynamics::{BodyId, World};
 use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
@@ -21,22 +21,45 @@ pub fn world(scene: &Scene) -> World {
 }
 
 fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
+    let named = |on: &[usize]| on.iter().map(|&body| ids[body]).collect();
     match &force.kind {
         ForceKind::Constant { on, force, torque } => {
-            let bodies = on.iter().map(|&body| ids[body]).collect();
-            world.add_force(ConstantForce { bodies, force: *force, torque: *torque });
+            world.add_force(ConstantForce { bodies: named(on), force: *force, torque: *torque });
         }
-        ForceKind::Spring { between, stiffness, damping, rest_length } => {
-            let between = between.map(|end| match end {
-                SpringEnd::Body(body) => Anchor::Body(ids[body]),
-                SpringEnd::Point(point) => Anchor::Point(point),
-            });
-            world.add_force(Spring {
-                between,
-                stiffness: *stiffness,
-                damping: *damping,
-                rest_length: *rest_length,
-            });
+        &ForceKind::Drag { ref on, linear, quadratic, wind } => {
+            world.add_force(Drag { bodies: named(on), linear, quadratic, wind });
         }
+        &ForceKind::Spring { ref links, stiffness, damping } => {
+            for link in links {
+                let between = link.between.map(|end| match end {
+                    SpringEnd::Body(body) => Anchor::Body(ids[body]),
+                    SpringEnd::Point(point) => Anchor::Point(point),
+                });
+                world.add_force(Spring { between, stiffness, damping, rest_length: link.rest_length });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::Dynamics;
+
+    /// A chain of three balls from a point, with 1 m from each to the next; the last is 0.5 m farther than that.
+    #[test]
+    fn a_chain_is_a_spring_from_each_end_to_the_next() {
+        let scene = |rest_length: &str| {
+            let ball = |name: &str, x: f64| {
+                format!("[body.{name}]\nshape.sphere.radius = 0.1\nlocation = [{x}, 0, 0]\n")
+            };
+            let bodies = ball("a", 1.0) + &ball("b", 2.0) + &ball("c", 3.5);
+            let spring = "[force.chain.spring]\nbetween = [[0, 0, 0], 'a', 'b', 'c']\nstiffness = 4\n";
+            Scene::parse(&(bodies + spring + rest_length)).unwrap()
+        };
+        let mut world = world(&scene(""));
+        assert_eq!(world.forces(), [DVec3::ZERO; 3], "each begins at its own rest length");
+        let mut world = self::world(&scene("rest_length = 1"));
+        assert_eq!(world.forces(), [DVec3::ZERO, 2.0 * DVec3::X, -2.0 * DVec3::X]);
     }
 }

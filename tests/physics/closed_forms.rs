@@ -1,9 +1,9 @@
 //! Motions whose end is known.
 
 use glam::DVec3;
-use jabuka::dynamics::{Dynamics, METHODS, UniformGravity};
+use jabuka::dynamics::{Drag, Dynamics, METHODS, UniformGravity};
 
-use crate::common::{LinearDrag, ball, method, tether, tolerance, worlds};
+use crate::common::{air, ball, method, tether, tolerance, worlds};
 
 /// The ball of the tutorial. Under a constant force Euler–Cromer is off by −½ a t dt exactly (the velocity is one
 /// step ahead), explicit Euler by +½ a t dt, and every method of second order or higher is exact. What remains is
@@ -48,12 +48,53 @@ fn a_projectile_with_linear_drag() {
     let (time, steps, rate) = (3.0, 300, 0.1);
     for (method, mut world, id) in worlds(ball().with_velocity(DVec3::new(30.0, 40.0, 0.0))) {
         world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -9.81, 0.0) });
-        world.add_force(LinearDrag { coefficient: rate });
+        world.add_force(air(id, rate));
         world.set_step(time / f64::from(steps));
         world.advance_to(time);
         let off = (world.location(id) - END).length();
         // What decays is v₀ − u, 141 m/s, over the distance (v₀ − u) m/c.
         let allowed = 1410.0 * tolerance(method, rate * time, steps);
+        assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
+    }
+}
+
+/// m v' = m g − c v² from rest: v = u tanh(g t / u), the way its integral, with the terminal velocity u = √(m g / c).
+#[test]
+fn a_fall_with_quadratic_drag_reaches_its_terminal_velocity() {
+    let (time, steps, gravity, quadratic) = (6.0, 600, 9.81, 0.1);
+    let terminal: f64 = f64::sqrt(gravity / quadratic);
+    let ratio = gravity * time / terminal;
+    let (way, speed) =
+        (terminal * terminal / gravity * libm::log(libm::cosh(ratio)), terminal * libm::tanh(ratio));
+    assert!(speed > 0.9999 * terminal);
+    for (method, mut world, id) in worlds(ball()) {
+        world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -gravity, 0.0) });
+        world.add_force(Drag { quadratic, ..air(id, 0.0) });
+        world.set_step(time / f64::from(steps));
+        world.advance_to(time);
+        // Near the terminal velocity deviations decay with the rate 2 g / u. What is off is at most the speed, over the
+        // time in which it has decayed.
+        let tolerance = tolerance(method, 2.0 * ratio, steps);
+        let off = (world.velocity(id) + speed * DVec3::Y).length();
+        assert!(off < terminal * tolerance, "{}: {off:e}", method.name);
+        let off = (world.location(id) + way * DVec3::Y).length();
+        assert!(off < terminal * terminal / (2.0 * gravity) * tolerance, "{}: {off:e}", method.name);
+    }
+}
+
+/// m u' = −c u² for the velocity u = w − v that the wind w is ahead: u = w / (1 + c w t / m).
+#[test]
+fn a_wind_carries_a_ball_along() {
+    let (time, steps, quadratic, wind) = (2.0, 500, 0.5, 3.0);
+    let rate = quadratic * wind;
+    let way = wind * time - libm::log(1.0 + rate * time) / quadratic;
+    for (method, mut world, id) in worlds(ball()) {
+        world.add_force(Drag { quadratic, wind: wind * DVec3::X, ..air(id, 0.0) });
+        world.set_step(time / f64::from(steps));
+        world.advance_to(time);
+        let off = (world.location(id) - way * DVec3::X).length();
+        // Deviations decay with the rate 2 c u, at first 2 c w.
+        let allowed = wind / (2.0 * rate) * tolerance(method, 2.0 * rate * time, steps);
         assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
     }
 }

@@ -2,31 +2,11 @@
 
 use glam::DVec3;
 use jabuka::dynamics::{
-    Anchor, BodyId, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, World,
+    Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, World,
 };
 
-/// Linear drag, F = −c v on every body. Defined here, from outside: the list of forces is open.
-pub(crate) struct LinearDrag {
-    /// The coefficient c, N s/m.
-    pub coefficient: f64,
-}
-
-impl Force for LinearDrag {
-    fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        for (force, &velocity) in loads.force.iter_mut().zip(&moment.state.velocity) {
-            let drag = -self.coefficient * velocity;
-            *force += drag;
-            loads.power += drag.dot(velocity);
-        }
-    }
-
-    fn potential(&self, _: &Moment) -> f64 {
-        0.0
-    }
-}
-
 /// A field B that swings with time; on each body, a force B and, as on a magnet along its x axis, a torque R x × B:
-/// loads that depend on time and on orientation.
+/// loads that depend on time and on orientation. Defined here, from outside: the list of forces is open.
 pub(crate) struct SwingingField;
 
 impl Force for SwingingField {
@@ -87,4 +67,9 @@ pub(crate) fn worlds(body: RigidBody) -> impl Iterator<Item = (&'static Method, 
 pub(crate) fn tether(body: BodyId, stiffness: f64, damping: f64) -> Spring {
     let between = [Anchor::Point(DVec3::ZERO), Anchor::Body(body)];
     Spring { between, stiffness, damping, rest_length: 0.0 }
+}
+
+/// Linear drag on a body, in air at rest.
+pub(crate) fn air(body: BodyId, linear: f64) -> Drag {
+    Drag { bodies: vec![body], linear, quadratic: 0.0, wind: DVec3::ZERO }
 }

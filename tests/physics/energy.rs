@@ -1,9 +1,9 @@
 //! Energy: how methods keep it, and whether its books are right.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Dynamics, METHODS, Method, RigidBody, Shape, World};
+use jabuka::dynamics::{Drag, Dynamics, METHODS, Method, RigidBody, Shape, World};
 
-use crate::common::{LinearDrag, ball, method, tether};
+use crate::common::{air, ball, method, tether};
 
 /// An oscillator with ω = 2 rad/s, E = 2 J, at its turning point.
 fn oscillator(method: &'static Method) -> World {
@@ -95,8 +95,9 @@ fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
 fn the_work_of_drag_is_booked() {
     assert_drift_is_of_the_methods_order(|| {
         let mut world = World::new();
-        world.add(ball().with_velocity(DVec3::new(3.0, 4.0, 0.0)));
-        world.add_force(LinearDrag { coefficient: 2.0 });
+        let id = world.add(ball().with_velocity(DVec3::new(3.0, 4.0, 0.0)));
+        let wind = DVec3::new(1.0, -1.0, 2.0);
+        world.add_force(Drag { quadratic: 0.3, wind, ..air(id, 1.0) });
         world
     });
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use jabuka::dynamics::{BodyId, Dynamics, METHODS, Method, RigidBody, Shape, State, UniformGravity, World};
 
-use crate::common::{LinearDrag, SwingingField, ball, method, tether};
+use crate::common::{SwingingField, air, ball, method, tether};
 
 /// All problems last 1 s, with rates of about 2 /s, and are solved in 128 and in 256 steps.
 ///
@@ -65,7 +65,7 @@ fn order_on_an_oscillator() {
 fn linear_drag(method: &'static Method, steps: u32) -> State {
     let mut world = world(method, steps, ball().with_velocity(DVec3::X));
     world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -2.0, 0.0) });
-    world.add_force(LinearDrag { coefficient: 2.0 });
+    world.add_force(air(BodyId::new(0), 2.0));
     world.advance_to(1.0);
     world.state().clone()
 }

@@ -5,7 +5,7 @@ use jabuka::dynamics::{
     Anchor, ConstantForce, Dynamics, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
 };
 
-use crate::common::LinearDrag;
+use crate::common::air;
 
 /// A bit of everything.
 fn build(method: &'static Method) -> World {
@@ -25,7 +25,7 @@ fn build(method: &'static Method) -> World {
         last = id;
     }
     world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -9.81, 0.0) });
-    world.add_force(LinearDrag { coefficient: 0.1 });
+    world.add_force(air(last, 0.1));
     world.add_force(ConstantForce { bodies: vec![last], force: DVec3::X, torque: DVec3::Z });
     world
 }

@@ -1,10 +1,12 @@
 //! What makes bodies move: the interface of a force, and one file for each kind.
 
 mod constant;
+mod drag;
 mod gravity;
 mod spring;
 
 pub use constant::ConstantForce;
+pub use drag::Drag;
 pub use gravity::UniformGravity;
 pub use spring::{Anchor, Spring};
 

@@ -6,6 +6,7 @@ use super::Kind::{
     Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
     Reference, Sdl, Table, Text,
 };
+use super::forces::FORCE;
 use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
@@ -186,65 +187,6 @@ static ORIENTATION: TableSpec = TableSpec {
             .default("none"),
         Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w]; its length does not matter")
             .default("[0, 0, 0, 1]"),
-    ],
-};
-
-static FORCE: TableSpec = TableSpec {
-    noun: "a force",
-    rule: Rule::ExactlyOne(&["constant", "spring"]),
-    keys: &[
-        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
-            .also(&["uniform"]),
-        Key::new(
-            "spring",
-            Table(&SPRING),
-            "A spring with a damper, between two bodies or a body and a point; it is not drawn",
-        ),
-    ],
-};
-
-static CONSTANT: TableSpec = TableSpec {
-    noun: "a constant force",
-    rule: Rule::Any,
-    keys: &[
-        Key::new("force", VECTOR, "The force at the centre of each body, in world axes")
-            .unit("N")
-            .default("[0, 0, 0]"),
-        Key::new("torque", VECTOR, "The torque on each body, in world axes").unit("N·m").default("[0, 0, 0]"),
-        Key::new(
-            "on",
-            List { of: &Reference(Collection::Body), min: 1, max: usize::MAX },
-            "The bodies that it acts on",
-        )
-        .default("all that can move")
-        .also(&["bodies", "body"]),
-    ],
-};
-
-static SPRING: TableSpec = TableSpec {
-    noun: "a spring",
-    rule: Rule::Any,
-    keys: &[
-        Key::new(
-            "between",
-            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: 2 },
-            "Its two ends: each the name of a body, or a point",
-        )
-        .unit("m")
-        .required()
-        .also(&["bodies", "ends", "connects"]),
-        Key::new("stiffness", NON_NEGATIVE, "Force per change of length")
-            .unit("N/m")
-            .required()
-            .also(&["k", "constant", "strength"]),
-        Key::new("damping", NON_NEGATIVE, "Force per speed of that change, against it")
-            .unit("N·s/m")
-            .default("0")
-            .also(&["c", "friction", "damper"]),
-        Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
-            .unit("m")
-            .default("its length at the start")
-            .also(&["length", "rest"]),
     ],
 };
 

@@ -146,7 +146,8 @@ impl Kind {
                 format!("a list of {min} values, each {}", of.in_words())
             }
             Kind::List { of, min: 0, .. } => format!("a list of values, each {}", of.in_words()),
-            Kind::List { of, min, .. } => format!("a list of at least {min} value, each {}", of.in_words()),
+            Kind::List { of, min: 1, .. } => format!("a list of at least 1 value, each {}", of.in_words()),
+            Kind::List { of, min, .. } => format!("a list of at least {min} values, each {}", of.in_words()),
             Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),
             Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(" or "),

@@ -4,6 +4,7 @@
 //! for a key that does not exist. The description is data: [`SCENE`] is the root, and everything that a scene can
 //! hold is reached from it.
 
+mod forces;
 mod keys;
 mod kind;
 mod reference;

@@ -1,0 +1,67 @@
+//! The resistance of a fluid.
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Force, Loads, Moment};
+
+/// Drag on each of some bodies, F = −(c₁ + c₂ |u|) u, where u = v − w is the velocity relative to the fluid.
+///
+/// The linear part is that of slow and small bodies (Stokes: c₁ = 6π η r for a sphere), the quadratic one that of fast
+/// and large ones (Newton: c₂ = ½ ρ C A, with the density ρ of the fluid, the drag coefficient C and the cross-section
+/// A). Source: L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 20 and § 45.
+///
+/// Drag has no potential; its power F·v is counted. In a wind it may be positive: the fluid does work on the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drag {
+    /// The bodies it acts on.
+    pub bodies: Vec<BodyId>,
+    /// The linear coefficient c₁, N s/m.
+    pub linear: f64,
+    /// The quadratic coefficient c₂, N s²/m².
+    pub quadratic: f64,
+    /// The velocity w of the fluid, m/s.
+    pub wind: DVec3,
+}
+
+impl Force for Drag {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        for body in &self.bodies {
+            let i = body.index();
+            let velocity = moment.state.velocity[i];
+            let relative = velocity - self.wind;
+            let drag = -(self.linear + self.quadratic * relative.length()) * relative;
+            loads.force[i] += drag;
+            loads.power += drag.dot(velocity);
+        }
+    }
+
+    fn potential(&self, _: &Moment) -> f64 {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{bodies, loads};
+    use super::*;
+
+    #[test]
+    fn it_acts_on_the_named_bodies_against_their_velocity_in_the_air() {
+        let (model, state) = bodies(&[(DVec3::X, DVec3::Y), (DVec3::ZERO, DVec3::new(4.0, 0.0, 4.0))]);
+        let wind = DVec3::new(1.0, 0.0, 0.0);
+        let drag = Drag { bodies: vec![BodyId::new(1)], linear: 2.0, quadratic: 0.5, wind };
+        let loads = loads(&drag, &model, &state);
+        // u = (3, 0, 4), |u| = 5, c₁ + c₂ |u| = 4.5
+        assert_eq!(loads.force, [DVec3::ZERO, DVec3::new(-13.5, 0.0, -18.0)]);
+        assert_eq!(loads.power, -13.5 * 4.0 - 18.0 * 4.0);
+    }
+
+    #[test]
+    fn a_wind_does_work_on_what_it_carries_along() {
+        let (model, state) = bodies(&[(DVec3::ZERO, DVec3::X)]);
+        let wind = DVec3::new(3.0, 0.0, 0.0);
+        let drag = Drag { bodies: vec![BodyId::new(0)], linear: 0.0, quadratic: 1.0, wind };
+        assert_eq!(loads(&drag, &model, &state).power, 4.0);
+    }
+}

@@ -1,0 +1,78 @@
+//! `[force.NAME]`.
+
+mod on;
+mod spring;
+
+use glam::DVec3;
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::source::Node;
+use crate::scene::{Body, Force, ForceKind};
+
+/// What every kind of force is read with.
+struct Reader<'a, 'c> {
+    /// The name of the force, and where it stands.
+    name: &'a str,
+    span: Span,
+    bodies: &'a [Body],
+    context: &'a mut Context<'c>,
+}
+
+pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Force> {
+    let tables = root.named("force");
+    let read = |(name, span, view): (&str, Span, View<'_>)| {
+        let kind = Reader { name, span, bodies, context }.kind(&view)?;
+        Some(Force { name: name.to_owned(), kind })
+    };
+    tables.into_iter().filter_map(read).collect()
+}
+
+impl Reader<'_, '_> {
+    fn kind(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        if let Some(view) = view.variant("constant") {
+            return Some(self.constant(&view));
+        }
+        if let Some(view) = view.variant("drag") {
+            return Some(self.drag(&view));
+        }
+        self.spring(&view.variant("spring")?)
+    }
+
+    fn constant(&mut self, view: &View<'_>) -> ForceKind {
+        ForceKind::Constant {
+            on: self.movable(view),
+            force: view.vector("force").unwrap_or(DVec3::ZERO),
+            torque: view.vector("torque").unwrap_or(DVec3::ZERO),
+        }
+    }
+
+    fn drag(&mut self, view: &View<'_>) -> ForceKind {
+        self.needs_one_of(view, &["linear", "quadratic"]);
+        ForceKind::Drag {
+            on: self.movable(view),
+            linear: view.number("linear").unwrap_or(0.0),
+            quadratic: view.number("quadratic").unwrap_or(0.0),
+            wind: view.vector("wind").unwrap_or(DVec3::ZERO),
+        }
+    }
+
+    /// Warns where none of the keys is there without which the force is zero.
+    fn needs_one_of(&mut self, view: &View<'_>, keys: &[&str]) {
+        if !keys.iter().any(|key| view.has(key)) {
+            let message = format!("the force `{}` has no effect", self.name);
+            let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            self.no_effect(message, self.span, format!("it has no {}", keys.join(" and no ")));
+        }
+    }
+
+    fn no_effect(&mut self, message: String, span: Span, why: impl Into<String>) {
+        self.context.diagnostics.push(Diagnostic::warning("no-effect", message).at(span, why));
+    }
+
+    /// The number of the body that is named; none if there is no such body, which the validation has said.
+    fn body(&self, node: &Node) -> Option<usize> {
+        node.as_str().and_then(|name| self.context.names.bodies.get(name)).copied()
+    }
+}

@@ -1,0 +1,50 @@
+//! The bodies that a force acts on.
+
+use super::super::view::View;
+use super::Reader;
+use crate::diagnostic::{Diagnostic, Span};
+
+impl Reader<'_, '_> {
+    /// The bodies of `on`, or all that can move. A body that stays where it is in spite of the force is a warning.
+    pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<usize> {
+        let bodies = self.bodies;
+        let moves = |i: usize| !bodies[i].start.fixed;
+        let Some(named) = self.named(view) else {
+            let all: Vec<usize> = (0..bodies.len()).filter(|&i| moves(i)).collect();
+            if all.is_empty() {
+                self.acts_on_nothing("there is none that can move");
+            }
+            return all;
+        };
+        for &(body, span) in named.iter().filter(|(body, _)| !moves(*body)) {
+            let message = format!("the force has no effect on `{}`", bodies[body].name);
+            self.no_effect(message, span, "it is fixed");
+        }
+        named.into_iter().map(|(body, _)| body).collect()
+    }
+
+    /// Each of the bodies of `on`, and where it is named; none where there is no `on`. To name one twice is an error.
+    fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
+        let items = view.list("on")?;
+        let mut seen = vec![false; self.bodies.len()];
+        let mut named = Vec::with_capacity(items.len());
+        for item in items {
+            let Some(body) = self.body(item) else { continue };
+            if std::mem::replace(&mut seen[body], true) {
+                let message = format!("the body `{}` is named twice", self.bodies[body].name);
+                let error = Diagnostic::error("named-twice", message);
+                self.context.diagnostics.push(error.at(item.span, "the second time"));
+            } else {
+                named.push((body, item.span));
+            }
+        }
+        Some(named)
+    }
+
+    /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
+    fn acts_on_nothing(&mut self, why: &str) {
+        if !self.bodies.is_empty() {
+            self.no_effect(format!("the force `{}` acts on no body", self.name), self.span, why);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! `[force.NAME.spring]`.
+
+use super::super::read;
+use super::super::view::View;
+use super::Reader;
+use crate::diagnostic::Diagnostic;
+use crate::scene::grammar::Bound;
+use crate::scene::source::{Node, Value};
+use crate::scene::{ForceKind, SpringEnd, SpringLink};
+
+impl Reader<'_, '_> {
+    /// A spring from each end to the next.
+    pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        let nodes = view.list("between")?;
+        let rest_length = view.number("rest_length");
+        let mut links = Vec::with_capacity(nodes.len());
+        for neighbours in nodes.windows(2) {
+            let [first, second] = neighbours else { continue };
+            let (Some(from), Some(to)) = (self.end(first), self.end(second)) else { continue };
+            self.link(first, second, [from, to]);
+            let length = || self.place(from).distance(self.place(to));
+            links.push(SpringLink { between: [from, to], rest_length: rest_length.unwrap_or_else(length) });
+        }
+        Some(ForceKind::Spring {
+            links,
+            stiffness: view.number("stiffness").unwrap_or(0.0),
+            damping: view.number("damping").unwrap_or(0.0),
+        })
+    }
+
+    /// Two neighbouring ends must be different, and one of them able to move.
+    fn link(&mut self, first: &Node, second: &Node, between: [SpringEnd; 2]) {
+        let moves = |end: SpringEnd| matches!(end, SpringEnd::Body(i) if !self.bodies[i].start.fixed);
+        if between[0] == between[1] {
+            let error = Diagnostic::error("spring-ends", "both ends of the spring are at the same place");
+            self.context.diagnostics.push(error.at(second.span, "the same as the end before it"));
+        } else if !between.into_iter().any(moves) {
+            let error = Diagnostic::error("spring-ends", "neither end of the spring can move");
+            let error = error.at(first.span, "").at(second.span, "");
+            self.context.diagnostics.push(error.help("one end at least must be a body that is not fixed"));
+        }
+    }
+
+    fn end(&self, node: &Node) -> Option<SpringEnd> {
+        match node.value {
+            Value::Array(_) => read::vector(node, Bound::Any).map(SpringEnd::Point),
+            _ => self.body(node).map(SpringEnd::Body),
+        }
+    }
+
+    /// Where an end is at the start.
+    fn place(&self, end: SpringEnd) -> glam::DVec3 {
+        match end {
+            SpringEnd::Body(i) => self.bodies[i].start.location,
+            SpringEnd::Point(point) => point,
+        }
+    }
+}

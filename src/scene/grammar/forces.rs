@@ -1,0 +1,98 @@
+//! The keys of `[force.NAME]`.
+
+use super::Kind::{Either, List, Reference, Table};
+use super::keys::{NON_NEGATIVE, VECTOR};
+use super::{Collection, Key, Rule, TableSpec};
+
+/// The key that names the bodies of a force.
+const fn on(meaning: &'static str, default: &'static str) -> Key {
+    Key::new("on", List { of: &Reference(Collection::Body), min: 1, max: usize::MAX }, meaning)
+        .default(default)
+        .also(&["bodies", "body"])
+}
+
+pub(super) static FORCE: TableSpec = TableSpec {
+    noun: "a force",
+    rule: Rule::ExactlyOne(&["constant", "drag", "spring"]),
+    keys: &[
+        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
+            .also(&["uniform"]),
+        Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, at rest or as a wind").also(&[
+            "air",
+            "friction",
+            "resistance",
+        ]),
+        Key::new(
+            "spring",
+            Table(&SPRING),
+            "A spring with a damper, between bodies or a body and a point, or a chain of such springs; it is not drawn",
+        ),
+    ],
+};
+
+static CONSTANT: TableSpec = TableSpec {
+    noun: "a constant force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("force", VECTOR, "The force at the centre of each body, in world axes")
+            .unit("N")
+            .default("[0, 0, 0]"),
+        Key::new("torque", VECTOR, "The torque on each body, in world axes").unit("N·m").default("[0, 0, 0]"),
+        on("The bodies that it acts on", "all that can move"),
+    ],
+};
+
+static DRAG: TableSpec = TableSpec {
+    noun: "a drag",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "linear",
+            NON_NEGATIVE,
+            "Force per speed through the air, against it: of what is slow or small",
+        )
+        .unit("N·s/m")
+        .default("0")
+        .also(&["coefficient", "c", "damping", "viscous"]),
+        Key::new(
+            "quadratic",
+            NON_NEGATIVE,
+            "Force per square of that speed: ½ density × drag coefficient × area",
+        )
+        .unit("N·s²/m²")
+        .default("0")
+        .also(&["square", "turbulent"]),
+        Key::new("wind", VECTOR, "The velocity of the air")
+            .unit("m/s")
+            .default("[0, 0, 0]")
+            .also(&["velocity", "air", "flow"]),
+        on("The bodies that it acts on", "all that can move"),
+    ],
+};
+
+static SPRING: TableSpec = TableSpec {
+    noun: "a spring",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "between",
+            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: usize::MAX },
+            "Its ends: each the name of a body, or a point; of more than two, a chain from each to the next",
+        )
+        .unit("m")
+        .required()
+        .also(&["bodies", "ends", "connects"]),
+        Key::new("stiffness", NON_NEGATIVE, "Force per change of length, of each spring of a chain")
+            .unit("N/m")
+            .required()
+            .also(&["k", "constant", "strength"]),
+        Key::new("damping", NON_NEGATIVE, "Force per speed of that change, against it")
+            .unit("N·s/m")
+            .default("0")
+            .also(&["c", "friction", "damper"]),
+        Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
+            .unit("m")
+            .default("its length at the start, for each of a chain its own")
+            .also(&["length", "rest"]),
+    ],
+};
