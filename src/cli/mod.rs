@@ -2,6 +2,7 @@
 
 mod check;
 mod compile;
+mod explain;
 mod progress;
 mod say;
 mod summary;
@@ -22,6 +23,7 @@ struct Arguments {
 enum Command {
     Compile(compile::Arguments),
     Check(check::Arguments),
+    Explain(explain::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -37,6 +39,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
