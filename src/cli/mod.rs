@@ -5,6 +5,7 @@ mod compile;
 mod explain;
 mod progress;
 mod say;
+mod schema;
 mod summary;
 
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ enum Command {
     Compile(compile::Arguments),
     Check(check::Arguments),
     Explain(explain::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -40,6 +42,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
