@@ -10,7 +10,7 @@
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //!
-//! [`diagnostic`] is what all of them say errors with.
+//! [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean.
 //!
 //! # A snapshot test of a scene
 //!
@@ -39,6 +39,7 @@
 pub mod diagnostic;
 pub mod dynamics;
 pub mod emit;
+pub mod explain;
 pub mod output;
 mod run;
 pub mod scene;

@@ -62,9 +62,7 @@ fn a_folder_without_templates_is_said_to_be_so() {
 #[test]
 fn every_code_that_a_scene_can_get_is_in_some_snapshot() {
     let source = root().join("src/scene");
-    let mut codes = codes(&source);
-    // The code of a syntax error is chosen among two.
-    codes.extend(["toml-syntax", "duplicate-key"].map(str::to_owned));
+    let codes = support::codes(&source);
     assert!(codes.len() > 25, "{codes:?}");
     let mut snapshots = String::new();
     for entry in std::fs::read_dir(root().join("tests/snapshots")).unwrap() {
@@ -230,27 +228,4 @@ fn check(scene: &Path, arguments: &[&str]) -> Output {
     let root = root().canonicalize().unwrap();
     let scene = scene.strip_prefix(&root).or_else(|_| scene.strip_prefix(support::root())).unwrap_or(scene);
     jabuka().arg("check").arg(scene).args(arguments).output().unwrap()
-}
-
-/// Every code in the sources below a folder, of whatever is made there: the word in quotes after what makes it.
-fn codes(folder: &Path) -> BTreeSet<String> {
-    let mut codes = BTreeSet::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            codes.extend(self::codes(&path));
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).unwrap();
-        let text = text.split("#[cfg(test)]").next().unwrap();
-        for maker in ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error("] {
-            for (at, _) in text.match_indices(maker) {
-                let after = text[at + maker.len()..].trim_start();
-                codes.extend(
-                    after.strip_prefix('"').and_then(|code| code.split('"').next()).map(str::to_owned),
-                );
-            }
-        }
-    }
-    codes
 }

@@ -2,8 +2,10 @@
 
 mod check;
 mod compile;
+mod explain;
 mod progress;
 mod say;
+mod schema;
 mod summary;
 mod templates;
 
@@ -24,6 +26,8 @@ enum Command {
     Compile(compile::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
+    Explain(explain::Arguments),
+    Schema(schema::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -40,6 +44,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
+        Command::Explain(arguments) => explain::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

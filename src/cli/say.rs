@@ -6,6 +6,8 @@ use std::io::{IsTerminal, Write};
 
 use jabuka::diagnostic::Report;
 
+use super::Failure;
+
 /// Says a result.
 pub(super) fn result(text: &str) {
     let _ = std::io::stdout().lock().write_all(text.as_bytes());
@@ -20,4 +22,18 @@ pub(super) fn error(text: &str) {
 pub(super) fn report(report: &Report) {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     error(&report.to_text(color));
+}
+
+/// Says a list of things, each with what there is to know about it, in two columns.
+pub(super) fn rows(rows: &[(&str, &str)]) {
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let text: String = rows.iter().map(|(name, what)| format!("{name:width$}  {what}\n")).collect();
+    result(&text);
+}
+
+/// Says that there is nothing of this name, and what may have been meant.
+pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
+    let meant = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    error(&format!("error: there is no {noun} `{name}`{meant}\n"));
+    Failure::Errors
 }

@@ -1,10 +1,12 @@
 //! What jabuka has to say about a scene or a run: errors and warnings, each at its place.
 
 mod json;
+mod nearest;
 mod source;
 mod text;
 
 pub use json::Entry;
+pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
 
 /// How grave a [`Diagnostic`] is.

@@ -1,6 +1,7 @@
 //! What the tests of the `jabuka` command share.
 #![allow(dead_code, reason = "each test program uses some of it")]
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -49,4 +50,35 @@ pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
         .collect();
     files.sort();
     files
+}
+
+/// Every code in the sources below a folder, of whatever is made there: the word in quotes after what makes it.
+pub(crate) fn codes(folder: &Path) -> BTreeSet<String> {
+    let mut codes = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            codes.extend(self::codes(&path));
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let text = text.split("#[cfg(test)]").next().unwrap();
+        for maker in ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error(", "(error("] {
+            for (at, _) in text.match_indices(maker) {
+                let after = text[at + maker.len()..].trim_start();
+                codes.extend(
+                    after.strip_prefix('"').and_then(|code| code.split('"').next()).map(str::to_owned),
+                );
+            }
+        }
+        // Where the code is one of several, all words of a code's form are codes.
+        for (choice, end) in [("let code =", ";"), ("fn code(", "\n    }\n")] {
+            for (at, _) in text.match_indices(choice) {
+                let words = text[at..].split(end).next().unwrap().split('"').skip(1).step_by(2);
+                let of_form = |c: char| c.is_ascii_lowercase() || c == '-';
+                codes.extend(words.filter(|word| word.chars().all(of_form)).map(str::to_owned));
+            }
+        }
+    }
+    codes
 }

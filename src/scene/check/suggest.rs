@@ -1,31 +1,11 @@
 //! "Did you mean …?"
 
+pub(super) use crate::diagnostic::nearest;
 use crate::scene::grammar::{TableSpec, quoted};
 
 /// So many names are compared with unknown ones in one scene: a tenth of a second's work. Who has more unknown names
 /// has another problem than their spelling.
 pub(super) const MAX_COMPARISONS: usize = 200_000;
-
-/// Longer words are no names that anyone types.
-const MAX_LENGTH: usize = 64;
-
-/// The best of the candidates for a word that is none of them, if one is near enough.
-pub(super) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let folded = word.to_lowercase();
-    let distance = |candidate: &str| strsim::damerau_levenshtein(&folded, &candidate.to_lowercase());
-    // A third of the letters may differ, as rustc has it; of two letters, one.
-    let length = word.chars().count();
-    let most = (length / 3).max(1);
-    let comparable =
-        |candidate: &&str| length <= MAX_LENGTH && candidate.chars().count().abs_diff(length) <= most;
-    candidates
-        .into_iter()
-        .filter(comparable)
-        .map(|candidate| (distance(candidate), candidate))
-        .filter(|&(distance, _)| distance <= most)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
-}
 
 /// The key of a table that an unknown one was meant to be.
 pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
@@ -63,15 +43,6 @@ pub(super) fn label(word: &str, known: &[&str], noun: &str, plural: &str) -> Str
 mod tests {
     use super::*;
     use crate::scene::grammar::SCENE;
-
-    #[test]
-    fn near_words_are_found_and_far_ones_are_not() {
-        let words = ["radius", "size", "length"];
-        assert_eq!(nearest("raduis", words), Some("radius"));
-        assert_eq!(nearest("Radius", words), Some("radius"));
-        assert_eq!(nearest("colour", words), None);
-        assert_eq!(nearest("", words), None);
-    }
 
     #[test]
     fn a_key_of_a_table_inside_is_found() {

@@ -8,12 +8,14 @@ mod forces;
 mod keys;
 mod kind;
 mod reference;
+mod schema;
 mod shapes;
 
 pub use keys::SCENE;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
 pub use reference::reference;
+pub use schema::schema;
 
 /// One key of a table.
 #[derive(Debug)]

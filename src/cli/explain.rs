@@ -1,0 +1,23 @@
+//! `jabuka explain`: what the code of an error or a warning means.
+
+use jabuka::explain::{EXPLANATIONS, Explanation};
+
+use super::{Failure, say};
+
+/// Explain the code of an error or a warning, with examples
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The code, as in `error[unknown-key]`; without it, all codes are listed
+    code: Option<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let Some(code) = &arguments.code else {
+        let rows: Vec<_> = EXPLANATIONS.iter().map(|entry| (entry.code, entry.title())).collect();
+        say::rows(&rows);
+        return Ok(());
+    };
+    let explanation = Explanation::of(code).map_err(|near| say::unknown("code", code, near))?;
+    say::result(&explanation.to_string());
+    Ok(())
+}

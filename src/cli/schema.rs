@@ -1,0 +1,14 @@
+//! `jabuka schema`: what editors need to know of scenes.
+
+use jabuka::scene::grammar;
+
+use super::{Failure, say};
+
+/// Print a JSON Schema of scenes, with which editors check and complete them
+#[derive(clap::Args)]
+pub(super) struct Arguments {}
+
+pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
+    say::result(&format!("{:#}\n", grammar::schema()));
+    Ok(())
+}

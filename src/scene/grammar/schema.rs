@@ -1,0 +1,138 @@
+//! The description of the language as a JSON Schema, with which editors check and complete scenes while they are typed.
+//!
+//! Draft 7 is what the editors' TOML plugins know. There, nothing beside a `$ref` counts, so every table is written out.
+
+use serde_json::{Map, Value, json};
+
+use super::{Bound, Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::color::NAMES;
+
+/// A JSON Schema (draft 7) of scenes.
+///
+/// It knows everything that can be said of a key and its value alone. What goes together, and which names there are, only
+/// the check of a scene knows.
+pub fn schema() -> Value {
+    let mut schema = table(&SCENE);
+    schema.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
+    schema.insert("title".to_owned(), json!("A scene of jabuka"));
+    schema.into()
+}
+
+fn table(spec: &TableSpec) -> Map<String, Value> {
+    let properties: Map<_, _> = spec.keys.iter().map(|key| (key.name.to_owned(), property(key))).collect();
+    let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+    let mut schema = object(json!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+    }));
+    if !required.is_empty() {
+        schema.insert("required".to_owned(), json!(required));
+    }
+    match &spec.rule {
+        Rule::Any => {}
+        Rule::AtMostOne(groups) => {
+            let pairs: Vec<_> = groups.iter().flat_map(|names| pairs(names)).collect();
+            schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
+        }
+        Rule::ExactlyOne(names) => {
+            let one: Vec<_> = names.iter().map(|name| json!({ "required": [name] })).collect();
+            schema.insert("oneOf".to_owned(), one.into());
+        }
+    }
+    schema
+}
+
+/// That two of the keys are there, for each two of them.
+fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
+    let with = |(i, name): (usize, &'static &str)| {
+        names[i + 1..].iter().map(move |other| json!({ "required": [name, other] }))
+    };
+    names.iter().enumerate().flat_map(with)
+}
+
+fn property(key: &Key) -> Value {
+    let mut schema = kind(&key.kind);
+    let unit = if key.unit.is_empty() { String::new() } else { format!(", in {}", key.unit) };
+    let default =
+        if key.default.is_empty() { String::new() } else { format!(" Without it: {}.", key.default) };
+    schema.insert("description".to_owned(), format!("{}{unit}.{default}", key.meaning).into());
+    if let Some(default) = default_value(key) {
+        schema.insert("default".to_owned(), default);
+    }
+    schema.into()
+}
+
+/// The default, where its words are a value too.
+fn default_value(key: &Key) -> Option<Value> {
+    match &key.kind {
+        Kind::Choice(words) => words().into_iter().find(|word| *word == key.default).map(Value::from),
+        Kind::Text | Kind::Sdl => None,
+        _ => serde_json::from_str(key.default).ok(),
+    }
+}
+
+fn kind(kind: &Kind) -> Map<String, Value> {
+    match kind {
+        Kind::Text | Kind::Sdl | Kind::Reference(_) => object(json!({ "type": "string" })),
+        Kind::Boolean => object(json!({ "type": "boolean" })),
+        Kind::Number(bound) => number(*bound),
+        Kind::Integer(low, high) => object(json!({ "type": "integer", "minimum": low, "maximum": high })),
+        Kind::Numbers(count, bound) => list(number(*bound), *count, *count),
+        Kind::Direction(count) => {
+            let mut numbers = list(number(Bound::Any), *count, *count);
+            numbers.insert("contains".to_owned(), json!({ "not": { "enum": [0] } }));
+            numbers
+        }
+        Kind::Color => {
+            let names: Vec<_> = NAMES.iter().map(|(name, _)| name).collect();
+            object(json!({ "anyOf": [
+                { "type": "string", "enum": names },
+                { "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" },
+                list(number(Bound::From(0.0, 1.0)), 3, 3),
+            ] }))
+        }
+        Kind::Identifier => {
+            object(json!({ "type": "string", "pattern": "^[A-Za-z_][A-Za-z0-9_]*$", "maxLength": 255 }))
+        }
+        Kind::Include => {
+            object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
+        }
+        Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),
+        Kind::List { of, min, max } => list(self::kind(of), *min, *max),
+        Kind::Table(spec) => table(spec),
+        Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec) })),
+        Kind::Either(kinds) => {
+            let kinds: Vec<_> = kinds.iter().map(self::kind).collect();
+            object(json!({ "anyOf": kinds }))
+        }
+    }
+}
+
+fn number(bound: Bound) -> Map<String, Value> {
+    object(match bound {
+        Bound::Any => json!({ "type": "number" }),
+        Bound::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        Bound::NonNegative => json!({ "type": "number", "minimum": 0 }),
+        Bound::Between(low, high) => {
+            json!({ "type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high })
+        }
+        Bound::From(low, high) => json!({ "type": "number", "minimum": low, "maximum": high }),
+    })
+}
+
+fn list(of: Map<String, Value>, min: usize, max: usize) -> Map<String, Value> {
+    let mut list = object(json!({ "type": "array", "items": of, "minItems": min }));
+    if max < usize::MAX {
+        list.insert("maxItems".to_owned(), json!(max));
+    }
+    list
+}
+
+/// The members of what is written as an object.
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(members) => members,
+        _ => Map::new(),
+    }
+}
