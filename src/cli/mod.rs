@@ -3,6 +3,7 @@
 mod check;
 mod compile;
 mod explain;
+mod list;
 mod progress;
 mod say;
 mod schema;
@@ -25,6 +26,7 @@ enum Command {
     Compile(compile::Arguments),
     Check(check::Arguments),
     Explain(explain::Arguments),
+    List(list::Arguments),
     Schema(schema::Arguments),
 }
 
@@ -42,6 +44,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };
     match result {

@@ -16,6 +16,7 @@ pub mod source;
 use std::path::Path;
 
 pub use color::Color;
+pub(crate) use color::names as color_names;
 pub use look::{
     Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay, Sky,
 };
