@@ -11,7 +11,7 @@
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //!
 //! [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
-//! what there is to choose from.
+//! what there is to choose from, and [`starter`] a scene to start from.
 //!
 //! # A snapshot test of a scene
 //!
@@ -46,6 +46,7 @@ pub mod output;
 mod run;
 pub mod scene;
 pub mod simulate;
+pub mod starter;
 
 pub use run::{Run, RunError};
 pub use scene::Scene;

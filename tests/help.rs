@@ -28,3 +28,26 @@ fn what_cannot_be_listed_is_an_error() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(stderr(&output), "error: there is no list of `shape`; did you mean `shapes`?\n");
 }
+
+#[test]
+fn a_new_scene_compiles_without_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let new = |name: &str| jabuka().current_dir(folder.path()).args(["new", name]).output().unwrap();
+    let output = new("first");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("first.toml: "));
+    let scene = folder.path().join("first.toml");
+    let output = support::compile(&scene, &folder.path().join("out"), &[]);
+    assert_eq!(stderr(&output), "");
+
+    // What is there stays, whatever the name it is called by.
+    std::fs::write(&scene, "mine").unwrap();
+    for name in ["first", "first.toml"] {
+        let output = new(name);
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(stderr(&output), format!("error: the scene `{name}` is there already\n"));
+    }
+    assert_eq!(std::fs::read_to_string(&scene).unwrap(), "mine");
+    assert_eq!(new("no/such/folder/x").status.code(), Some(1));
+    assert!(new("a.b").status.success() && folder.path().join("a.b.toml").is_file());
+}

@@ -4,6 +4,7 @@ mod check;
 mod compile;
 mod explain;
 mod list;
+mod new;
 mod progress;
 mod say;
 mod schema;
@@ -23,6 +24,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    New(new::Arguments),
     Compile(compile::Arguments),
     Check(check::Arguments),
     Explain(explain::Arguments),
@@ -45,6 +47,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };
     match result {
