@@ -51,3 +51,41 @@ fn a_new_scene_compiles_without_a_warning() {
     assert_eq!(new("no/such/folder/x").status.code(), Some(1));
     assert!(new("a.b").status.success() && folder.path().join("a.b.toml").is_file());
 }
+
+#[test]
+fn shells_and_the_manual_know_every_command() {
+    for arguments in [["completions", "bash"].as_slice(), &["completions", "fish"], &["man"]] {
+        let output = jabuka().args(arguments).output().unwrap();
+        assert!(output.status.success());
+        for command in ["compile", "check", "explain", "schema", "list", "new", "completions", "man"] {
+            assert!(stdout(&output).contains(command), "{arguments:?}: {command}");
+        }
+    }
+    assert_eq!(jabuka().args(["completions", "smoke"]).output().unwrap().status.code(), Some(2));
+}
+
+#[test]
+fn a_scene_in_place_of_a_command_is_told_the_command() {
+    let output = jabuka().arg("throw.toml").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = "error: `throw.toml` is not a command; did you mean `jabuka compile throw.toml`?\n";
+    assert_eq!((stderr(&output).as_str(), stdout(&output).as_str()), (said, ""));
+    let output = jabuka().arg("throw").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("unrecognized subcommand"));
+    assert_eq!(jabuka().arg("--help").output().unwrap().status.code(), Some(0));
+}
+
+#[test]
+fn ranges_without_an_end_are_told_what_they_lack() {
+    for (frames, expected) in [
+        ("-1", "`-1` does not say where it begins: the first frame is 0"),
+        ("50-", "`50-` does not say where it ends, as `50-60` does"),
+        ("-", "does not say where it begins"),
+    ] {
+        let mut command = jabuka();
+        let output = command.args(["compile", "scenes/parabola.toml", "--frames", frames]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{frames}");
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+}
