@@ -10,7 +10,8 @@
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //!
-//! [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean.
+//! [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
+//! what there is to choose from, and [`starter`] a scene to start from.
 //!
 //! # A snapshot test of a scene
 //!
@@ -36,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod catalog;
 pub mod diagnostic;
 pub mod dynamics;
 pub mod emit;
@@ -44,6 +46,7 @@ pub mod output;
 mod run;
 pub mod scene;
 pub mod simulate;
+pub mod starter;
 
 pub use run::{Run, RunError};
 pub use scene::Scene;

@@ -142,6 +142,10 @@ fn a_setting_is_refused_at_its_place_in_the_argument() {
             "body.ball.velocity=[1, 2]",
             "error[wrong-length]: expected a list of 3 numbers, found a list of 2\n --> --set:1:20\n",
         ),
+        (
+            "simulation.gravity=[0,-1.6,0",
+            "error[bad-set]: the value begins as TOML, and is none\n --> --set:1:20\n",
+        ),
         ("output.size=[640, 0]", "--> --set:1:19\n"),
     ] {
         let folder = tempfile::tempdir().unwrap();

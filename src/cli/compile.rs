@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_set)]
     set: Vec<Override>,
     /// Write only these frames, as in 0,50,90-100
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
     frames: Option<Selection>,
     /// Write the scripts of this view instead of the main camera's, or of `all` cameras; may be repeated
     #[arg(long, value_name = "NAME")]

@@ -2,7 +2,11 @@
 
 mod check;
 mod compile;
+mod completions;
 mod explain;
+mod list;
+mod man;
+mod new;
 mod progress;
 mod say;
 mod schema;
@@ -23,11 +27,15 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    New(new::Arguments),
     Compile(compile::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
+    List(list::Arguments),
     Schema(schema::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -40,12 +48,20 @@ enum Failure {
 
 /// Runs the command that the process was started with.
 pub(crate) fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return say::misused(&error),
+    };
+    let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::List(arguments) => list::run(&arguments),
+        Command::New(arguments) => new::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Man(arguments) => man::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -3,7 +3,9 @@
 //! A reader that has gone away (`jabuka … | head`) is no error of ours, so failures to write are of no account.
 
 use std::io::{IsTerminal, Write};
+use std::process::ExitCode;
 
+use clap::error::ContextKind;
 use jabuka::diagnostic::Report;
 
 use super::Failure;
@@ -36,4 +38,15 @@ pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
     let meant = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     error(&format!("error: there is no {noun} `{name}`{meant}\n"));
     Failure::Errors
+}
+
+/// Says what is wrong with the arguments, or the help that they ask for.
+pub(super) fn misused(error: &clap::Error) -> ExitCode {
+    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
+    if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
+        self::error(&format!("error: `{scene}` is not a command; did you mean `jabuka compile {scene}`?\n"));
+        return ExitCode::from(2);
+    }
+    let _ = error.print();
+    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
 }

@@ -28,6 +28,11 @@ pub(super) const NAMES: &[(&str, u32)] = &[
     ("gold", 0xff_d7_00),
 ];
 
+/// The colors that have names, each with what it is short for.
+pub(crate) fn names() -> Vec<(&'static str, String)> {
+    NAMES.iter().map(|&(name, code)| (name, format!("#{code:06x}"))).collect()
+}
+
 impl Color {
     /// White.
     pub const WHITE: Color = Color([1.0; 3]);

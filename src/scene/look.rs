@@ -71,6 +71,18 @@ impl Finish {
             Finish::Luminous => "luminous",
         }
     }
+
+    /// What it is like, in one line.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Finish::Matte => "Like chalk",
+            Finish::Satin => "Like eggshell",
+            Finish::Glossy => "Like enamel; the usual one",
+            Finish::Metal => "Like polished, colored metal",
+            Finish::Mirror => "Like a mirror",
+            Finish::Luminous => "Shines by itself",
+        }
+    }
 }
 
 /// From where the scene is seen. What is not given follows from the motion.

@@ -16,6 +16,7 @@ pub mod source;
 use std::path::{Path, PathBuf};
 
 pub use color::Color;
+pub(crate) use color::names as color_names;
 pub use look::{
     Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material, Output,
     OwnTemplate, PovRay, Projection, Sky, View,

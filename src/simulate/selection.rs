@@ -41,6 +41,16 @@ impl FromStr for Selection {
         };
         let range = |part: &str| match part.split_once('-') {
             None => number(part).map(|frame| frame..=frame),
+            Some((first, _)) if first.trim().is_empty() => {
+                Err(format!("`{}` does not say where it begins: the first frame is 0", part.trim()))
+            }
+            Some((first, last)) if last.trim().is_empty() => {
+                let first = number(first)?;
+                Err(format!(
+                    "`{first}-` does not say where it ends, as `{first}-{}` does",
+                    first.saturating_add(10)
+                ))
+            }
             Some((first, last)) => {
                 let (first, last) = (number(first)?, number(last)?);
                 if first > last {

@@ -122,7 +122,8 @@ fn number(bound: Bound) -> Map<String, Value> {
 }
 
 fn list(of: Map<String, Value>, min: usize, max: usize) -> Map<String, Value> {
-    let mut list = object(json!({ "type": "array", "items": of, "minItems": min }));
+    let mut list = object(json!({ "type": "array", "minItems": min }));
+    list.insert("items".to_owned(), of.into());
     if max < usize::MAX {
         list.insert("maxItems".to_owned(), json!(max));
     }

@@ -46,6 +46,14 @@ impl Override {
         let span = Span::new(source, key.len() + 1..self.0.len());
         let node = match toml::parse_value(value.trim(), source) {
             Ok(node) => moved(node, key.len() + 1 + (value.len() - value.trim_start().len())),
+            // A string by intention does not begin so.
+            Err(_) if value.trim_start().starts_with(['[', '{', '"']) => {
+                let help = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
+                let message = "the value begins as TOML, and is none";
+                let error =
+                    Diagnostic::error("bad-set", message).at(span, "a bracket, quote or comma is amiss");
+                return Err(error.help(help));
+            }
             Err(_) => Node { span, value: Value::String(value.to_owned()) },
         };
         Ok((path, node))
@@ -151,5 +159,9 @@ mod tests {
         }
         let (_, diagnostics) = set("title = 'x'", "title.y=1");
         assert_eq!(diagnostics.len(), 1);
+        for argument in ["a=[1, 2", "a={ b = 1", "a=\"b", "a=[1 2]"] {
+            let (_, diagnostics) = set("", argument);
+            assert!(diagnostics[0].message.starts_with("the value begins as TOML"), "{argument}");
+        }
     }
 }

@@ -1,0 +1,82 @@
+//! What there is to choose from in a scene: integrators, shapes, colors and so on, each with a line about it.
+//!
+//! The names come from the tables that scenes are checked with. A new category is one line in [`CATEGORIES`].
+
+use crate::dynamics::METHODS;
+use crate::scene::Finish;
+use crate::scene::color_names;
+use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
+
+/// Things of one sort to choose from.
+pub struct Category {
+    /// The word for them: `shapes`.
+    pub name: &'static str,
+    /// Where in a scene they are named.
+    pub place: &'static str,
+    /// Each with its name and what there is to know about it.
+    pub entries: fn() -> Vec<(&'static str, String)>,
+}
+
+/// All of them.
+pub static CATEGORIES: &[Category] = &[
+    Category { name: "integrators", place: "`integrator` of [simulation]", entries: integrators },
+    Category { name: "shapes", place: "`shape` of [body.NAME]", entries: || variants(&["body", "shape"]) },
+    Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
+    Category { name: "lights", place: "[light.NAME]", entries: || variants(&["light"]) },
+    Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
+    Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
+];
+
+fn integrators() -> Vec<(&'static str, String)> {
+    METHODS.iter().map(|method| (method.name, method.summary.to_owned())).collect()
+}
+
+fn finishes() -> Vec<(&'static str, String)> {
+    Finish::ALL.iter().map(|finish| (finish.name(), finish.summary().to_owned())).collect()
+}
+
+/// What a table of which exactly one key is given can be, with the keys of each.
+fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
+    let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
+    let variants = keys.iter().filter(|key| names.contains(&key.name));
+    let entry = |key: &'static Key| {
+        let inner = key.kind.table().map_or_else(Vec::new, |table| table.keys.iter().collect());
+        let inner: Vec<_> = inner.iter().map(|key| format!("`{}`", key.name)).collect();
+        let keys = if inner.is_empty() { String::new() } else { format!(" ({})", inner.join(", ")) };
+        (key.name, format!("{}{keys}", key.meaning))
+    };
+    variants.map(entry).collect()
+}
+
+/// The table that these keys lead to.
+fn table(way: &[&str]) -> Option<&'static TableSpec> {
+    way.iter().try_fold(&SCENE, |table, name| match &table.key(name)?.kind {
+        Kind::Named(inner) => Some(*inner),
+        kind => kind.table(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_category_has_entries_and_every_entry_a_line() {
+        for Category { name, entries, .. } in CATEGORIES {
+            let entries = entries();
+            assert!(entries.len() > 1, "{name}");
+            for (entry, what) in entries {
+                assert!(!what.is_empty() && !what.contains('\n'), "{name}: {entry}");
+            }
+        }
+    }
+
+    #[test]
+    fn of_a_table_with_variants_each_is_there_with_its_keys() {
+        let shapes = variants(&["body", "shape"]);
+        assert_eq!(shapes[0], ("sphere", "A ball (`radius`)".to_owned()));
+        let lights = variants(&["light"]);
+        assert!(lights.iter().all(|(name, _)| *name != "color"));
+        assert!(variants(&["body"]).is_empty() && variants(&["nothing"]).is_empty());
+    }
+}

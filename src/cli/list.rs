@@ -1,0 +1,27 @@
+//! `jabuka list`: what there is to choose from.
+
+use jabuka::catalog::CATEGORIES;
+use jabuka::diagnostic::nearest;
+
+use super::{Failure, say};
+
+/// List what there is to choose from in scenes: integrators, shapes, colors, …
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// What is listed, as in `shapes`; without it, what can be
+    category: Option<String>,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let Some(name) = &arguments.category else {
+        let rows: Vec<_> = CATEGORIES.iter().map(|category| (category.name, category.place)).collect();
+        say::rows(&rows);
+        return Ok(());
+    };
+    let names = CATEGORIES.iter().map(|category| category.name);
+    let found = CATEGORIES.iter().find(|category| category.name == name);
+    let category = found.ok_or_else(|| say::unknown("list of", name, nearest(name, names)))?;
+    let entries = (category.entries)();
+    say::rows(&entries.iter().map(|(name, what)| (*name, what.as_str())).collect::<Vec<_>>());
+    Ok(())
+}

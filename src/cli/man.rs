@@ -1,0 +1,20 @@
+//! `jabuka man`: the page of the manual.
+
+use clap::CommandFactory;
+
+use super::{Failure, say};
+
+/// Print the page of the manual, in the format of `man`
+#[derive(clap::Args)]
+pub(super) struct Arguments {}
+
+pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
+    let mut page = Vec::new();
+    let written = clap_mangen::Man::new(super::Arguments::command()).render(&mut page);
+    written.map_err(|error| {
+        say::error(&format!("error: {error}\n"));
+        Failure::Errors
+    })?;
+    say::result(&String::from_utf8_lossy(&page));
+    Ok(())
+}

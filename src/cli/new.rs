@@ -1,0 +1,31 @@
+//! `jabuka new`: a scene to start from.
+
+use std::io::ErrorKind;
+use std::path::PathBuf;
+
+use jabuka::starter::write_starter;
+
+use super::{Failure, say};
+
+/// Write a scene to start from, with comments
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file, which must not be there yet; `.toml` is added where it is missing
+    name: PathBuf,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = write_starter(&arguments.name).map_err(|error| {
+        let name = arguments.name.display();
+        say::error(&match error.kind() {
+            ErrorKind::AlreadyExists => format!("error: the scene `{name}` is there already\n"),
+            _ => format!("error: cannot write the scene `{name}`: {error}\n"),
+        });
+        Failure::Errors
+    })?;
+    say::result(&format!(
+        "{}: a scene to start from; `jabuka compile` makes scripts of it\n",
+        path.display()
+    ));
+    Ok(())
+}

@@ -1,0 +1,21 @@
+//! The scene that a new one starts from.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A scene that shows the main keys, with comments.
+pub const STARTER: &str = include_str!("starter.toml");
+
+/// Writes the starter into a new file, and returns its path: the given one, with `.toml` where that is missing.
+///
+/// # Errors
+/// Where there is such a file already, or none can be written.
+pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        path.as_mut_os_string().push(".toml");
+    }
+    File::create_new(&path)?.write_all(STARTER.as_bytes())?;
+    Ok(path)
+}

@@ -1,0 +1,91 @@
+//! What helps in writing scenes: `jabuka list` and its kin.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
+mod support;
+
+use jabuka::catalog::CATEGORIES;
+use support::{jabuka, stderr, stdout};
+
+#[test]
+fn list_shows_what_there_is_to_choose_from() {
+    let output = jabuka().args(["list", "shapes"]).output().unwrap();
+    assert!(output.status.success());
+    insta::assert_snapshot!(stdout(&output), @r"
+    sphere  A ball (`radius`)
+    box     A box (`size`)
+    plane   An endless plane, which is always fixed (`normal`)
+    axes    A triad of arrows along x, y, z, as heavy as a ball of half their length (`length`)
+    ");
+    let said = stdout(&jabuka().args(["list", "colors"]).output().unwrap());
+    assert!(said.starts_with("white    #ffffff\n"), "{said}");
+    let said = stdout(&jabuka().arg("list").output().unwrap());
+    assert_eq!(said.lines().count(), CATEGORIES.len());
+}
+
+#[test]
+fn what_cannot_be_listed_is_an_error() {
+    let output = jabuka().args(["list", "shape"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stderr(&output), "error: there is no list of `shape`; did you mean `shapes`?\n");
+}
+
+#[test]
+fn a_new_scene_compiles_without_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let new = |name: &str| jabuka().current_dir(folder.path()).args(["new", name]).output().unwrap();
+    let output = new("first");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("first.toml: "));
+    let scene = folder.path().join("first.toml");
+    let output = support::compile(&scene, &folder.path().join("out"), &[]);
+    assert_eq!(stderr(&output), "");
+
+    // What is there stays, whatever the name it is called by.
+    std::fs::write(&scene, "mine").unwrap();
+    for name in ["first", "first.toml"] {
+        let output = new(name);
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(stderr(&output), format!("error: the scene `{name}` is there already\n"));
+    }
+    assert_eq!(std::fs::read_to_string(&scene).unwrap(), "mine");
+    assert_eq!(new("no/such/folder/x").status.code(), Some(1));
+    assert!(new("a.b").status.success() && folder.path().join("a.b.toml").is_file());
+}
+
+#[test]
+fn shells_and_the_manual_know_every_command() {
+    for arguments in [["completions", "bash"].as_slice(), &["completions", "fish"], &["man"]] {
+        let output = jabuka().args(arguments).output().unwrap();
+        assert!(output.status.success());
+        for command in ["compile", "check", "explain", "schema", "list", "new", "completions", "man"] {
+            assert!(stdout(&output).contains(command), "{arguments:?}: {command}");
+        }
+    }
+    assert_eq!(jabuka().args(["completions", "smoke"]).output().unwrap().status.code(), Some(2));
+}
+
+#[test]
+fn a_scene_in_place_of_a_command_is_told_the_command() {
+    let output = jabuka().arg("throw.toml").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = "error: `throw.toml` is not a command; did you mean `jabuka compile throw.toml`?\n";
+    assert_eq!((stderr(&output).as_str(), stdout(&output).as_str()), (said, ""));
+    let output = jabuka().arg("throw").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("unrecognized subcommand"));
+    assert_eq!(jabuka().arg("--help").output().unwrap().status.code(), Some(0));
+}
+
+#[test]
+fn ranges_without_an_end_are_told_what_they_lack() {
+    for (frames, expected) in [
+        ("-1", "`-1` does not say where it begins: the first frame is 0"),
+        ("50-", "`50-` does not say where it ends, as `50-60` does"),
+        ("-", "does not say where it begins"),
+    ] {
+        let mut command = jabuka();
+        let output = command.args(["compile", "scenes/parabola.toml", "--frames", frames]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{frames}");
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+}
