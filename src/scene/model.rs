@@ -82,6 +82,15 @@ pub enum ForceKind {
         /// The velocity of the air, m/s.
         wind: DVec3,
     },
+    /// Newton's gravitation between all pairs.
+    Gravitation {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Newton's constant, m³/(kg·s²).
+        constant: f64,
+        /// The softening length, m.
+        softening: f64,
+    },
     /// A spring with a damper, or a chain of such springs.
     Spring {
         /// The springs, one behind the other.

@@ -7,6 +7,7 @@ mod closed_forms;
 mod common;
 mod conservation;
 mod energy;
+mod gravitation;
 mod order;
 mod rotation;
 mod same_bits;

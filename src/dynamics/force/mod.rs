@@ -2,11 +2,14 @@
 
 mod constant;
 mod drag;
+mod gravitation;
 mod gravity;
+mod pairs;
 mod spring;
 
 pub use constant::ConstantForce;
 pub use drag::Drag;
+pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
 pub use spring::{Anchor, Spring};
 

@@ -12,8 +12,8 @@ use crate::scene::{Body, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
-/// The keys that say how easily a body is moved, and by what.
-const PUSHING: [&str; 5] = ["mass", "density", "inertia", "force", "torque"];
+/// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
+const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
 pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
     let tables = root.named("body");

@@ -1,7 +1,7 @@
 //! The keys of `[force.NAME]`.
 
 use super::Kind::{Either, List, Reference, Table};
-use super::keys::{NON_NEGATIVE, VECTOR};
+use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Collection, Key, Rule, TableSpec};
 
 /// The key that names the bodies of a force.
@@ -11,10 +11,22 @@ const fn on(meaning: &'static str, default: &'static str) -> Key {
         .also(&["bodies", "body"])
 }
 
+/// The key that keeps a force between pairs finite.
+const fn softening() -> Key {
+    Key::new(
+        "softening",
+        NON_NEGATIVE,
+        "Keeps close encounters mild: √(r² + softening²) counts for r (Plummer)",
+    )
+    .unit("m")
+    .default("0")
+    .also(&["epsilon", "eps"])
+}
+
 pub(super) static FORCE: TableSpec =
     TableSpec {
         noun: "a force",
-        rule: Rule::ExactlyOne(&["constant", "drag", "spring"]),
+        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation"]),
         keys: &[
             Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
                 .also(&["uniform"]),
@@ -23,8 +35,10 @@ pub(super) static FORCE: TableSpec =
             Key::new(
                 "spring",
                 Table(&SPRING),
-                "A spring with a damper, between bodies or a body and a point, or a chain of such springs",
+                "A spring with a damper between bodies or points, or a chain of such springs",
             ),
+            Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
+                .also(&["newton", "gravity"]),
         ],
     };
 
@@ -92,5 +106,18 @@ static SPRING: TableSpec = TableSpec {
             .unit("m")
             .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
+    ],
+};
+
+static GRAVITATION: TableSpec = TableSpec {
+    noun: "gravitation",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("constant", POSITIVE, "Newton's constant G")
+            .unit("m³/(kg·s²)")
+            .default("6.67430e-11")
+            .also(&["g", "G", "strength"]),
+        softening(),
+        on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
     ],
 };

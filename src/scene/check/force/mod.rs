@@ -1,6 +1,7 @@
 //! `[force.NAME]`.
 
 mod on;
+mod pairs;
 mod spring;
 
 use glam::DVec3;
@@ -8,6 +9,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::dynamics::Gravitation;
 use crate::scene::source::Node;
 use crate::scene::{Body, Force, ForceKind};
 
@@ -37,6 +39,9 @@ impl Reader<'_, '_> {
         if let Some(view) = view.variant("drag") {
             return Some(self.drag(&view));
         }
+        if let Some(view) = view.variant("gravitation") {
+            return Some(self.gravitation(&view));
+        }
         self.spring(&view.variant("spring")?)
     }
 
@@ -55,6 +60,15 @@ impl Reader<'_, '_> {
             linear: view.number("linear").unwrap_or(0.0),
             quadratic: view.number("quadratic").unwrap_or(0.0),
             wind: view.vector("wind").unwrap_or(DVec3::ZERO),
+        }
+    }
+
+    fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
+        let softening = view.number("softening").unwrap_or(0.0);
+        ForceKind::Gravitation {
+            on: self.pairs(view, softening, |_| true),
+            constant: view.number("constant").unwrap_or(Gravitation::CONSTANT),
+            softening,
         }
     }
 

@@ -24,7 +24,7 @@ impl Reader<'_, '_> {
     }
 
     /// Each of the bodies of `on`, and where it is named; none where there is no `on`. To name one twice is an error.
-    fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
+    pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
         let items = view.list("on")?;
         let mut seen = vec![false; self.bodies.len()];
         let mut named = Vec::with_capacity(items.len());
@@ -42,7 +42,7 @@ impl Reader<'_, '_> {
     }
 
     /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
-    fn acts_on_nothing(&mut self, why: &str) {
+    pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() {
             self.no_effect(format!("the force `{}` acts on no body", self.name), self.span, why);
         }
