@@ -91,6 +91,15 @@ pub enum ForceKind {
         /// The softening length, m.
         softening: f64,
     },
+    /// Coulomb's force between all pairs of charges.
+    Coulomb {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Coulomb's constant, N·m²/C².
+        constant: f64,
+        /// The softening length, m.
+        softening: f64,
+    },
     /// A spring with a damper, or a chain of such springs.
     Spring {
         /// The springs, one behind the other.

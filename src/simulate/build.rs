@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Drag, Gravitation, Spring, UniformGravity};
+use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Spring, UniformGravity};
 use crate::dynamics::{BodyId, World};
 use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
@@ -31,6 +31,9 @@ fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
         }
         &ForceKind::Gravitation { ref on, constant, softening } => {
             world.add_force(Gravitation { bodies: named(on), constant, softening });
+        }
+        &ForceKind::Coulomb { ref on, constant, softening } => {
+            world.add_force(Coulomb { bodies: named(on), constant, softening });
         }
         &ForceKind::Spring { ref links, stiffness, damping } => {
             for link in links {

@@ -34,6 +34,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
     RigidBody {
         mass,
+        charge: view.number("charge").unwrap_or(0.0),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
         location: vector("location"),
         orientation: orientation(name, view, context),

@@ -5,23 +5,27 @@ use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Body, Force, ForceKind};
 
-/// Warns of masses that neither make a body slow to move nor attract another.
+/// Warns of masses that neither make a body slow to move nor attract another, and of charges that no force acts on.
 pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context: &mut Context<'_>) {
-    let mut attracts = vec![false; bodies.len()];
+    let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     for force in forces {
-        if let ForceKind::Gravitation { on, .. } = &force.kind {
-            on.iter().for_each(|&body| attracts[body] = true);
+        match &force.kind {
+            ForceKind::Gravitation { on, .. } => on.iter().for_each(|&body| attracts[body] = true),
+            ForceKind::Coulomb { on, .. } => on.iter().for_each(|&body| electric[body] = true),
+            _ => {}
         }
     }
-    for ((name, _, view), (body, attracts)) in root.named("body").into_iter().zip(bodies.iter().zip(attracts))
-    {
-        if !body.start.fixed || attracts {
-            continue;
-        }
-        for key in ["mass", "density"].into_iter().filter(|key| view.has(key)) {
+    for (i, ((name, _, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
+        let mut warn = |key: &str, why: &str| {
             let warning = Diagnostic::warning("no-effect", format!("`{key}` of `{name}` has no effect"));
-            let why = if body.shape.is_unbounded() { "a plane is always fixed" } else { "it is fixed" };
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        };
+        if body.start.fixed && !attracts[i] {
+            let why = if body.shape.is_unbounded() { "a plane is always fixed" } else { "it is fixed" };
+            ["mass", "density"].into_iter().for_each(|key| warn(key, why));
+        }
+        if body.start.charge != 0.0 && !electric[i] {
+            warn("charge", "no force acts on this charge");
         }
     }
 }

@@ -26,7 +26,7 @@ const fn softening() -> Key {
 pub(super) static FORCE: TableSpec =
     TableSpec {
         noun: "a force",
-        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation"]),
+        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb"]),
         keys: &[
             Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
                 .also(&["uniform"]),
@@ -39,6 +39,8 @@ pub(super) static FORCE: TableSpec =
             ),
             Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
                 .also(&["newton", "gravity"]),
+            Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
+                .also(&["electrostatic", "electric"]),
         ],
     };
 
@@ -119,5 +121,18 @@ static GRAVITATION: TableSpec = TableSpec {
             .also(&["g", "G", "strength"]),
         softening(),
         on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
+    ],
+};
+
+static COULOMB: TableSpec = TableSpec {
+    noun: "a Coulomb force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
+            .unit("N·m²/C²")
+            .default("8.9875517862e9")
+            .also(&["k", "strength"]),
+        softening(),
+        on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
     ],
 };

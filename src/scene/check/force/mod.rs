@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::dynamics::Gravitation;
+use crate::dynamics::{Coulomb, Gravitation};
 use crate::scene::source::Node;
 use crate::scene::{Body, Force, ForceKind};
 
@@ -42,6 +42,9 @@ impl Reader<'_, '_> {
         if let Some(view) = view.variant("gravitation") {
             return Some(self.gravitation(&view));
         }
+        if let Some(view) = view.variant("coulomb") {
+            return Some(self.coulomb(&view));
+        }
         self.spring(&view.variant("spring")?)
     }
 
@@ -68,6 +71,16 @@ impl Reader<'_, '_> {
         ForceKind::Gravitation {
             on: self.pairs(view, softening, |_| true),
             constant: view.number("constant").unwrap_or(Gravitation::CONSTANT),
+            softening,
+        }
+    }
+
+    fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
+        let softening = view.number("softening").unwrap_or(0.0);
+        let bodies = self.bodies;
+        ForceKind::Coulomb {
+            on: self.pairs(view, softening, |i| bodies[i].start.charge != 0.0),
+            constant: view.number("constant").unwrap_or(Coulomb::CONSTANT),
             softening,
         }
     }

@@ -19,12 +19,13 @@ impl Reader<'_, '_> {
         let bodies = self.bodies;
         let endless = |i: usize| bodies[i].shape.is_unbounded();
         let on: Vec<(usize, Option<Span>)> = match self.named(view) {
+            // What is named and has no charge is warned of, and left out.
             None => (0..bodies.len()).filter(|&i| !endless(i) && able(i)).map(|i| (i, None)).collect(),
             Some(named) => {
                 for &(body, span) in &named {
                     self.one_of_pair(body, span, endless(body), able(body));
                 }
-                let with_centre = named.into_iter().filter(|(body, _)| !endless(*body));
+                let with_centre = named.into_iter().filter(|&(body, _)| !endless(body) && able(body));
                 with_centre.map(|(body, span)| (body, Some(span))).collect()
             }
         };
