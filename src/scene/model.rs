@@ -100,6 +100,15 @@ pub enum ForceKind {
         /// The softening length, m.
         softening: f64,
     },
+    /// Uniform electric and magnetic fields.
+    Lorentz {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// The electric field, V/m.
+        electric: DVec3,
+        /// The magnetic field, T.
+        magnetic: DVec3,
+    },
     /// A spring with a damper, or a chain of such springs.
     Spring {
         /// The springs, one behind the other.

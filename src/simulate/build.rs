@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Spring, UniformGravity};
+use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring, UniformGravity};
 use crate::dynamics::{BodyId, World};
 use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
@@ -34,6 +34,9 @@ fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
         }
         &ForceKind::Coulomb { ref on, constant, softening } => {
             world.add_force(Coulomb { bodies: named(on), constant, softening });
+        }
+        &ForceKind::Lorentz { ref on, electric, magnetic } => {
+            world.add_force(Lorentz { bodies: named(on), electric, magnetic });
         }
         &ForceKind::Spring { ref links, stiffness, damping } => {
             for link in links {

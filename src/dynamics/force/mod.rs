@@ -5,6 +5,7 @@ mod coulomb;
 mod drag;
 mod gravitation;
 mod gravity;
+mod lorentz;
 mod pairs;
 mod spring;
 
@@ -13,6 +14,7 @@ pub use coulomb::Coulomb;
 pub use drag::Drag;
 pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
+pub use lorentz::Lorentz;
 pub use spring::{Anchor, Spring};
 
 use super::{Loads, Model, State};

@@ -11,7 +11,9 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     for force in forces {
         match &force.kind {
             ForceKind::Gravitation { on, .. } => on.iter().for_each(|&body| attracts[body] = true),
-            ForceKind::Coulomb { on, .. } => on.iter().for_each(|&body| electric[body] = true),
+            ForceKind::Coulomb { on, .. } | ForceKind::Lorentz { on, .. } => {
+                on.iter().for_each(|&body| electric[body] = true);
+            }
             _ => {}
         }
     }

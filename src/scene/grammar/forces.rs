@@ -26,7 +26,7 @@ const fn softening() -> Key {
 pub(super) static FORCE: TableSpec =
     TableSpec {
         noun: "a force",
-        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb"]),
+        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz"]),
         keys: &[
             Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
                 .also(&["uniform"]),
@@ -40,7 +40,13 @@ pub(super) static FORCE: TableSpec =
             Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
                 .also(&["newton", "gravity"]),
             Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
-                .also(&["electrostatic", "electric"]),
+                .also(&["electrostatic"]),
+            Key::new(
+                "lorentz",
+                Table(&LORENTZ),
+                "Uniform electric and magnetic fields, which act on charged bodies",
+            )
+            .also(&["field", "electromagnetic"]),
         ],
     };
 
@@ -134,5 +140,21 @@ static COULOMB: TableSpec = TableSpec {
             .also(&["k", "strength"]),
         softening(),
         on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
+    ],
+};
+
+static LORENTZ: TableSpec = TableSpec {
+    noun: "a Lorentz force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("electric", VECTOR, "The electric field E")
+            .unit("V/m")
+            .default("[0, 0, 0]")
+            .also(&["e", "E"]),
+        Key::new("magnetic", VECTOR, "The magnetic field B: the force is q (E + v × B)")
+            .unit("T")
+            .default("[0, 0, 0]")
+            .also(&["b", "B"]),
+        on("The bodies that it acts on", "all with a charge that can move"),
     ],
 };

@@ -45,6 +45,9 @@ impl Reader<'_, '_> {
         if let Some(view) = view.variant("coulomb") {
             return Some(self.coulomb(&view));
         }
+        if let Some(view) = view.variant("lorentz") {
+            return Some(self.lorentz(&view));
+        }
         self.spring(&view.variant("spring")?)
     }
 
@@ -82,6 +85,15 @@ impl Reader<'_, '_> {
             on: self.pairs(view, softening, |i| bodies[i].start.charge != 0.0),
             constant: view.number("constant").unwrap_or(Coulomb::CONSTANT),
             softening,
+        }
+    }
+
+    fn lorentz(&mut self, view: &View<'_>) -> ForceKind {
+        self.needs_one_of(view, &["electric", "magnetic"]);
+        ForceKind::Lorentz {
+            on: self.charged(view),
+            electric: view.vector("electric").unwrap_or(DVec3::ZERO),
+            magnetic: view.vector("magnetic").unwrap_or(DVec3::ZERO),
         }
     }
 
