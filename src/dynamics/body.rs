@@ -12,6 +12,8 @@ use super::Shape;
 pub struct RigidBody {
     /// Mass, kg. A body whose mass is not positive does not move.
     pub mass: f64,
+    /// Electric charge, C.
+    pub charge: f64,
     /// Principal moments of inertia about the centre of mass, in the frame of the body, kg m². No torque turns a
     /// body about an axis whose moment is zero.
     pub inertia: DVec3,
@@ -32,12 +34,13 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// A homogeneous solid of `shape` and `mass` (kg), at rest at the origin, free of forces. A body of unbounded
+    /// A homogeneous solid of `shape` and `mass` (kg), at rest at the origin, without charge, free of forces. A body of unbounded
     /// shape is fixed.
     #[must_use]
     pub fn new(shape: &Shape, mass: f64) -> Self {
         Self {
             mass,
+            charge: 0.0,
             inertia: shape.inertia(mass),
             location: DVec3::ZERO,
             orientation: DQuat::IDENTITY,
@@ -83,6 +86,12 @@ impl RigidBody {
     #[must_use]
     pub fn with_torque(self, torque: DVec3) -> Self {
         Self { torque, ..self }
+    }
+
+    /// The same body with the electric `charge`, C.
+    #[must_use]
+    pub fn with_charge(self, charge: f64) -> Self {
+        Self { charge, ..self }
     }
 
     /// The same body with other principal moments of inertia, kg m².

@@ -74,7 +74,9 @@ mod world;
 
 pub use body::{BodyId, RigidBody};
 pub use energy::{Balance, EnergyLedger};
-pub use force::{Anchor, ConstantForce, Drag, Force, Moment, Spring, UniformGravity};
+pub use force::{
+    Anchor, ConstantForce, Coulomb, Drag, Force, Gravitation, Lorentz, Moment, Spring, UniformGravity,
+};
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;

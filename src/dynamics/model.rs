@@ -11,6 +11,7 @@ use super::{Force, Loads, Moment, RigidBody, State};
 #[derive(Clone, Default)]
 pub struct Model {
     mass: Vec<f64>,
+    charge: Vec<f64>,
     inverse_mass: Vec<f64>,
     inertia: Vec<DVec3>,
     inverse_inertia: Vec<DVec3>,
@@ -41,6 +42,12 @@ impl Model {
     #[must_use]
     pub fn mass(&self) -> &[f64] {
         &self.mass
+    }
+
+    /// The electric charges of the bodies, C.
+    #[must_use]
+    pub fn charge(&self) -> &[f64] {
+        &self.charge
     }
 
     /// 1/m of each body, 1/kg; 0 for one that does not move.
@@ -94,6 +101,7 @@ impl Model {
         let orientation = body.orientation.normalize();
 
         self.mass.push(body.mass);
+        self.charge.push(body.charge);
         self.inverse_mass.push(inverse(body.mass));
         self.inertia.push(body.inertia);
         self.inverse_inertia.push(inverse_inertia);

@@ -161,6 +161,7 @@ impl World {
         let i = body.index();
         RigidBody {
             mass: self.model.mass()[i],
+            charge: self.model.charge()[i],
             inertia: self.model.inertia()[i],
             location: self.state.location[i],
             orientation: self.state.orientation[i],

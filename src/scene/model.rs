@@ -109,6 +109,33 @@ pub enum ForceKind {
         /// The velocity of the air, m/s.
         wind: DVec3,
     },
+    /// Newton's gravitation between all pairs.
+    Gravitation {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Newton's constant, m³/(kg·s²).
+        constant: f64,
+        /// The softening length, m.
+        softening: f64,
+    },
+    /// Coulomb's force between all pairs of charges.
+    Coulomb {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// Coulomb's constant, N·m²/C².
+        constant: f64,
+        /// The softening length, m.
+        softening: f64,
+    },
+    /// Uniform electric and magnetic fields.
+    Lorentz {
+        /// The numbers of the bodies.
+        on: Vec<usize>,
+        /// The electric field, V/m.
+        electric: DVec3,
+        /// The magnetic field, T.
+        magnetic: DVec3,
+    },
     /// A spring with a damper, or a chain of such springs.
     Spring {
         /// The springs, one behind the other.

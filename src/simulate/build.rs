@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Drag, Spring, UniformGravity};
+use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring, UniformGravity};
 use crate::dynamics::{BodyId, World};
 use crate::scene::{Force, ForceKind, Scene, SpringEnd};
 
@@ -28,6 +28,15 @@ fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
         }
         &ForceKind::Drag { ref on, linear, quadratic, wind } => {
             world.add_force(Drag { bodies: named(on), linear, quadratic, wind });
+        }
+        &ForceKind::Gravitation { ref on, constant, softening } => {
+            world.add_force(Gravitation { bodies: named(on), constant, softening });
+        }
+        &ForceKind::Coulomb { ref on, constant, softening } => {
+            world.add_force(Coulomb { bodies: named(on), constant, softening });
+        }
+        &ForceKind::Lorentz { ref on, electric, magnetic } => {
+            world.add_force(Lorentz { bodies: named(on), electric, magnetic });
         }
         &ForceKind::Spring { ref links, stiffness, damping } => {
             for link in links {

@@ -3,10 +3,12 @@
 //! Tests that loop over `METHODS` take in a new method by its being in the table: its order p is all they ask for.
 //! Unless said otherwise, a tolerance is that of [`common::tolerance`].
 
+mod charges;
 mod closed_forms;
 mod common;
 mod conservation;
 mod energy;
+mod gravitation;
 mod order;
 mod rotation;
 mod same_bits;

@@ -1,13 +1,20 @@
 //! What makes bodies move: the interface of a force, and one file for each kind.
 
 mod constant;
+mod coulomb;
 mod drag;
+mod gravitation;
 mod gravity;
+mod lorentz;
+mod pairs;
 mod spring;
 
 pub use constant::ConstantForce;
+pub use coulomb::Coulomb;
 pub use drag::Drag;
+pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
+pub use lorentz::Lorentz;
 pub use spring::{Anchor, Spring};
 
 use super::{Loads, Model, State};
@@ -57,6 +64,16 @@ mod testing {
                 &RigidBody::new(&sphere, mass).with_location(location).with_velocity(velocity),
                 &mut state,
             );
+        }
+        (model, state)
+    }
+
+    /// Free bodies of 1 kg at rest, with the given charges at the given locations.
+    pub(super) fn charged(located: &[(f64, DVec3)]) -> (Model, State) {
+        let (mut model, mut state) = (Model::default(), State::default());
+        for &(charge, location) in located {
+            let body = RigidBody::new(&Shape::Sphere { radius: 0.1 }, 1.0);
+            model.push(&body.with_charge(charge).with_location(location), &mut state);
         }
         (model, state)
     }

@@ -12,8 +12,8 @@ use crate::scene::{Body, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
-/// The keys that say how easily a body is moved, and by what.
-const PUSHING: [&str; 5] = ["mass", "density", "inertia", "force", "torque"];
+/// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
+const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
 pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
     let tables = root.named("body");
@@ -36,6 +36,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
     RigidBody {
         mass,
+        charge: view.number("charge").unwrap_or(0.0),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
         location: vector("location"),
         orientation: orientation(name, view, context),

@@ -3,6 +3,7 @@
 mod body;
 mod camera;
 mod consequence;
+mod effect;
 mod force;
 mod look;
 mod povray;
@@ -117,6 +118,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     let mut materials = look::materials(&root, context);
     let bodies = body::read(&root, &mut materials, context);
     let forces = force::read(&root, &bodies, context);
+    effect::check(&root, &bodies, &forces, context);
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";

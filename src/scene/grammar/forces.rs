@@ -1,7 +1,7 @@
 //! The keys of `[force.NAME]`.
 
 use super::Kind::{Either, List, Reference, Table};
-use super::keys::{NON_NEGATIVE, VECTOR};
+use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Collection, Key, Rule, TableSpec};
 
 /// The key that names the bodies of a force.
@@ -11,9 +11,21 @@ const fn on(meaning: &'static str, default: &'static str) -> Key {
         .also(&["bodies", "body"])
 }
 
+/// The key that keeps a force between pairs finite.
+const fn softening() -> Key {
+    Key::new(
+        "softening",
+        NON_NEGATIVE,
+        "Keeps close encounters mild: √(r² + softening²) counts for r (Plummer)",
+    )
+    .unit("m")
+    .default("0")
+    .also(&["epsilon", "eps"])
+}
+
 pub(super) static FORCE: TableSpec = TableSpec {
     noun: "a force",
-    rule: Rule::ExactlyOne(&["constant", "drag", "spring"]),
+    rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz"]),
     keys: &[
         Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
             .also(&["uniform"]),
@@ -25,8 +37,18 @@ pub(super) static FORCE: TableSpec = TableSpec {
         Key::new(
             "spring",
             Table(&SPRING),
-            "A spring with a damper, between bodies or a body and a point, or a chain of such springs; it is not drawn",
+            "A spring with a damper between bodies or points, or a chain of such springs; it is not drawn",
         ),
+        Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
+            .also(&["newton", "gravity"]),
+        Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
+            .also(&["electrostatic"]),
+        Key::new(
+            "lorentz",
+            Table(&LORENTZ),
+            "Uniform electric and magnetic fields, which act on charged bodies",
+        )
+        .also(&["field", "electromagnetic"]),
     ],
 };
 
@@ -94,5 +116,47 @@ static SPRING: TableSpec = TableSpec {
             .unit("m")
             .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
+    ],
+};
+
+static GRAVITATION: TableSpec = TableSpec {
+    noun: "gravitation",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("constant", POSITIVE, "Newton's constant G")
+            .unit("m³/(kg·s²)")
+            .default("6.67430e-11")
+            .also(&["g", "G", "strength"]),
+        softening(),
+        on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
+    ],
+};
+
+static COULOMB: TableSpec = TableSpec {
+    noun: "a Coulomb force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
+            .unit("N·m²/C²")
+            .default("8.9875517862e9")
+            .also(&["k", "strength"]),
+        softening(),
+        on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
+    ],
+};
+
+static LORENTZ: TableSpec = TableSpec {
+    noun: "a Lorentz force",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("electric", VECTOR, "The electric field E")
+            .unit("V/m")
+            .default("[0, 0, 0]")
+            .also(&["e", "E"]),
+        Key::new("magnetic", VECTOR, "The magnetic field B: the force is q (E + v × B)")
+            .unit("T")
+            .default("[0, 0, 0]")
+            .also(&["b", "B"]),
+        on("The bodies that it acts on", "all with a charge that can move"),
     ],
 };

@@ -101,6 +101,10 @@ static BODY: TableSpec = TableSpec {
         Key::new("density", POSITIVE, "Its mass, as mass per volume of its shape")
             .unit("kg/m³")
             .default("from `mass`"),
+        Key::new("charge", ANY, "Its electric charge, for the forces `coulomb` and `lorentz`")
+            .unit("C")
+            .default("0")
+            .also(&["q", "electric_charge"]),
         Key::new(
             "inertia",
             Numbers(3, Bound::Positive),

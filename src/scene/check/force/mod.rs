@@ -1,6 +1,7 @@
 //! `[force.NAME]`.
 
 mod on;
+mod pairs;
 mod spring;
 
 use glam::DVec3;
@@ -8,6 +9,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::dynamics::{Coulomb, Gravitation};
 use crate::scene::source::Node;
 use crate::scene::{Body, Force, ForceKind};
 
@@ -37,6 +39,15 @@ impl Reader<'_, '_> {
         if let Some(view) = view.variant("drag") {
             return Some(self.drag(&view));
         }
+        if let Some(view) = view.variant("gravitation") {
+            return Some(self.gravitation(&view));
+        }
+        if let Some(view) = view.variant("coulomb") {
+            return Some(self.coulomb(&view));
+        }
+        if let Some(view) = view.variant("lorentz") {
+            return Some(self.lorentz(&view));
+        }
         self.spring(&view.variant("spring")?)
     }
 
@@ -55,6 +66,34 @@ impl Reader<'_, '_> {
             linear: view.number("linear").unwrap_or(0.0),
             quadratic: view.number("quadratic").unwrap_or(0.0),
             wind: view.vector("wind").unwrap_or(DVec3::ZERO),
+        }
+    }
+
+    fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
+        let softening = view.number("softening").unwrap_or(0.0);
+        ForceKind::Gravitation {
+            on: self.pairs(view, softening, |_| true),
+            constant: view.number("constant").unwrap_or(Gravitation::CONSTANT),
+            softening,
+        }
+    }
+
+    fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
+        let softening = view.number("softening").unwrap_or(0.0);
+        let bodies = self.bodies;
+        ForceKind::Coulomb {
+            on: self.pairs(view, softening, |i| bodies[i].start.charge != 0.0),
+            constant: view.number("constant").unwrap_or(Coulomb::CONSTANT),
+            softening,
+        }
+    }
+
+    fn lorentz(&mut self, view: &View<'_>) -> ForceKind {
+        self.needs_one_of(view, &["electric", "magnetic"]);
+        ForceKind::Lorentz {
+            on: self.charged(view),
+            electric: view.vector("electric").unwrap_or(DVec3::ZERO),
+            magnetic: view.vector("magnetic").unwrap_or(DVec3::ZERO),
         }
     }
 

@@ -23,8 +23,32 @@ impl Reader<'_, '_> {
         named.into_iter().map(|(body, _)| body).collect()
     }
 
+    /// Those of [`movable`](Self::movable) that have a charge; a body that is named and has none is a warning.
+    pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<usize> {
+        let bodies = self.bodies;
+        let mut on = self.movable(view);
+        for (body, span) in self.spans(view) {
+            if bodies[body].start.charge == 0.0 {
+                let message = format!("the force has no effect on `{}`", bodies[body].name);
+                self.no_effect(message, span, "it has no charge");
+            }
+        }
+        let before = on.len();
+        on.retain(|&body| bodies[body].start.charge != 0.0 && !bodies[body].start.fixed);
+        if on.is_empty() && before > 0 && !view.has("on") {
+            self.acts_on_nothing("there is none with a charge that can move");
+        }
+        on
+    }
+
+    /// The bodies that `on` names, and where.
+    fn spans(&self, view: &View<'_>) -> Vec<(usize, Span)> {
+        let items = view.list("on").unwrap_or_default();
+        items.iter().filter_map(|item| Some((self.body(item)?, item.span))).collect()
+    }
+
     /// Each of the bodies of `on`, and where it is named; none where there is no `on`. To name one twice is an error.
-    fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
+    pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
         let items = view.list("on")?;
         let mut seen = vec![false; self.bodies.len()];
         let mut named = Vec::with_capacity(items.len());
@@ -42,7 +66,7 @@ impl Reader<'_, '_> {
     }
 
     /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
-    fn acts_on_nothing(&mut self, why: &str) {
+    pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() {
             self.no_effect(format!("the force `{}` acts on no body", self.name), self.span, why);
         }

@@ -1,0 +1,60 @@
+//! Coulomb's force between charges.
+
+use super::super::BodyId;
+use super::pairs::Pairs;
+use super::{Force, Loads, Moment};
+
+/// Each two of some bodies repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other where their charges
+/// have different signs; the potential is k q₁ q₂ / √(r² + ε²).
+///
+/// A body that does not move acts on the others all the same. No magnetic forces between moving charges: this is the
+/// law for velocities far below that of light. Source: J. D. Jackson, *Classical Electrodynamics*, 1.1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coulomb {
+    /// The bodies that act on each other.
+    pub bodies: Vec<BodyId>,
+    /// The constant k = 1/4πε₀, N m²/C².
+    pub constant: f64,
+    /// The softening length ε, m.
+    pub softening: f64,
+}
+
+impl Coulomb {
+    /// 1/4πε₀, N m²/C². Source: with ε₀ of CODATA 2022.
+    pub const CONSTANT: f64 = 8.987_551_786_2e9;
+
+    fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
+        let strength = moment.model.charge();
+        Pairs { bodies: &self.bodies, strength, constant: self.constant, softening: self.softening }
+    }
+}
+
+impl Force for Coulomb {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        self.pairs(moment).apply(moment, loads);
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        self.pairs(moment).potential(moment)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::testing::{assert_minus_gradient, charged, loads};
+    use super::*;
+
+    #[test]
+    fn charges_of_the_same_sign_repel_and_others_attract() {
+        for (charge, x) in [(3.0, -1.5), (-3.0, 1.5)] {
+            let (model, state) = charged(&[(2.0, DVec3::ZERO), (charge, 2.0 * DVec3::X)]);
+            let bodies = [0, 1].map(BodyId::new).to_vec();
+            let coulomb = Coulomb { bodies, constant: 1.0, softening: 0.0 };
+            // k q₁ q₂ / r² = 6 / 4
+            assert_eq!(loads(&coulomb, &model, &state).force, [x * DVec3::X, -x * DVec3::X]);
+            assert_minus_gradient(&coulomb, &model, &state);
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Newton's gravitation.
+
+use super::super::BodyId;
+use super::pairs::Pairs;
+use super::{Force, Loads, Moment};
+
+/// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2); the potential is −G m₁ m₂ / √(r² + ε²).
+///
+/// A body that does not move attracts the others all the same. Source: I. Newton, *Principia* III, prop. 7; for the
+/// softening ε, H. C. Plummer, Mon. Not. R. Astron. Soc. 71 (1911) 460.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gravitation {
+    /// The bodies that attract each other.
+    pub bodies: Vec<BodyId>,
+    /// The constant G, m³/(kg s²).
+    pub constant: f64,
+    /// The softening length ε, m.
+    pub softening: f64,
+}
+
+impl Gravitation {
+    /// Newton's constant, m³/(kg s²). Source: CODATA 2018, Rev. Mod. Phys. 93 (2021) 025010.
+    pub const CONSTANT: f64 = 6.674_30e-11;
+
+    fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
+        let strength = moment.model.mass();
+        Pairs { bodies: &self.bodies, strength, constant: -self.constant, softening: self.softening }
+    }
+}
+
+impl Force for Gravitation {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        self.pairs(moment).apply(moment, loads);
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        self.pairs(moment).potential(moment)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::testing::{assert_minus_gradient, bodies, loads};
+    use super::*;
+
+    fn all(count: usize, softening: f64) -> Gravitation {
+        Gravitation { bodies: (0..count).map(BodyId::new).collect(), constant: 2.0, softening }
+    }
+
+    #[test]
+    fn two_bodies_by_hand() {
+        let (model, state) = bodies(&[(DVec3::ZERO, DVec3::X), (DVec3::new(0.0, 3.0, 4.0), DVec3::ZERO)]);
+        // G m₁ m₂ / r² = 2 · 1 · 2 / 25, and r̂ = (0, 0.6, 0.8)
+        let force = DVec3::new(0.0, 0.096, 0.128);
+        let loads = loads(&all(2, 0.0), &model, &state);
+        assert!(loads.force[0].abs_diff_eq(force, 1e-16) && loads.force[1] == -loads.force[0]);
+        assert_eq!(loads.power, 0.0);
+        let potential =
+            |softening| all(2, softening).potential(&Moment { time: 0.0, state: &state, model: &model });
+        assert_eq!(potential(0.0), -0.8);
+        assert!((potential(12.0) + 4.0 / 13.0).abs() < 1e-16, "√(25 + 144) = 13");
+    }
+
+    #[test]
+    fn the_force_is_minus_the_gradient_of_the_potential() {
+        let located = [(1.0, 0.5), (-2.0, 1.0), (0.3, -1.7), (2.5, 2.0)]
+            .map(|(x, y)| (DVec3::new(x, y, x * y), DVec3::X));
+        let (model, state) = bodies(&located);
+        for softening in [0.0, 0.7] {
+            assert_minus_gradient(&all(4, softening), &model, &state);
+        }
+    }
+
+    /// Tiles hold 128 bodies: fewer, two that are full, one that is not behind those. Each sum of n terms is rounded
+    /// by n · 1e-16 of the sum of their magnitudes.
+    #[test]
+    fn any_number_of_bodies_is_the_plain_double_sum() {
+        for count in [1, 5, 128, 129, 300] {
+            let at = |i: usize, k: f64| (i as f64 * k).fract() * 10.0;
+            let located: Vec<_> = (0..count)
+                .map(|i| (DVec3::new(at(i, 0.618_033), at(i, 0.414_213), at(i, 0.732_050)), DVec3::ZERO))
+                .collect();
+            let (model, state) = bodies(&located);
+            let gravitation = all(count, 0.1);
+            let loads = loads(&gravitation, &model, &state);
+            let mut potential = 0.0;
+            for (i, (here, _)) in located.iter().enumerate() {
+                let (mut force, mut magnitude) = (DVec3::ZERO, 0.0);
+                for (j, (there, _)) in located.iter().enumerate().filter(|(j, _)| *j != i) {
+                    let (d, masses) = (*there - *here, model.mass()[i] * model.mass()[j]);
+                    let square = d.length_squared() + 0.01;
+                    let pull = 2.0 * masses / (square * square.sqrt()) * d;
+                    force += pull;
+                    magnitude += pull.length();
+                    potential -= masses / square.sqrt();
+                }
+                let off = (loads.force[i] - force).length();
+                assert!(off <= count as f64 * 1e-15 * magnitude, "{count} {i}: {off:e} of {magnitude}");
+            }
+            let given = gravitation.potential(&Moment { time: 0.0, state: &state, model: &model });
+            assert!(
+                (given - potential).abs() <= count as f64 * 1e-15 * potential.abs(),
+                "{given} {potential}"
+            );
+        }
+    }
+}

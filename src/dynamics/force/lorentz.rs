@@ -1,0 +1,55 @@
+//! Uniform electric and magnetic fields.
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Force, Loads, Moment};
+
+/// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are the same everywhere.
+///
+/// The electric field has the potential −q E·x; the magnetic force is perpendicular to the velocity, and does no work.
+/// Source: J. D. Jackson, *Classical Electrodynamics*, 6.7 and 12.2 (for velocities far below that of light).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lorentz {
+    /// The bodies it acts on.
+    pub bodies: Vec<BodyId>,
+    /// The electric field E, V/m.
+    pub electric: DVec3,
+    /// The magnetic field B, T.
+    pub magnetic: DVec3,
+}
+
+impl Force for Lorentz {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        for body in &self.bodies {
+            let i = body.index();
+            let field = self.electric + moment.state.velocity[i].cross(self.magnetic);
+            loads.force[i] += moment.model.charge()[i] * field;
+        }
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        let model = moment.model;
+        let movable = self.bodies.iter().map(|body| body.index()).filter(|&i| model.movable()[i]);
+        movable.map(|i| -model.charge()[i] * self.electric.dot(moment.state.location[i])).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_minus_gradient, charged, loads};
+    use super::*;
+
+    #[test]
+    fn the_magnetic_force_is_perpendicular_and_the_electric_one_has_a_potential() {
+        let (model, mut state) = charged(&[(2.0, DVec3::X), (-1.0, DVec3::Y)]);
+        let bodies = [0, 1].map(BodyId::new).to_vec();
+        let lorentz = Lorentz { bodies, electric: DVec3::new(3.0, 0.0, 1.0), magnetic: 4.0 * DVec3::Z };
+        assert_minus_gradient(&lorentz, &model, &state);
+        state.velocity[0] = DVec3::X;
+        // q (E + v × B) with x × z = −y
+        let loads = loads(&lorentz, &model, &state);
+        assert_eq!(loads.force, [DVec3::new(6.0, -8.0, 2.0), DVec3::new(-3.0, 0.0, -1.0)]);
+        assert_eq!(loads.power, 0.0);
+    }
+}

@@ -1,0 +1,209 @@
+//! Forces between all pairs of bodies that fall with the square of their distance.
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Loads, Moment};
+
+/// The bodies in one tile: two tiles and their sums fit into the first-level cache, and lie on the stack.
+const TILE: usize = 128;
+/// As many interactions side by side as give the compiler something to vectorise.
+const LANES: usize = 4;
+
+/// The force and the potential of all pairs of some bodies:
+///
+/// Fᵢⱼ = c sᵢ sⱼ d / (d² + ε²)^(3/2) on i, with d = xᵢ − xⱼ; Uᵢⱼ = c sᵢ sⱼ / √(d² + ε²).
+///
+/// c > 0 repels what has equal signs, c < 0 attracts it. The softening ε (Plummer's) makes of a point a small cloud, so
+/// that close encounters stay harmless. Source: S. J. Aarseth, *Gravitational N-Body Simulations* (2003), 1.2.
+///
+/// Every pair is looked at once, and what one body gets the other loses. The sums run over tiles of bodies that are
+/// copied coordinate by coordinate; their order depends on nothing but the number of bodies.
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<'a> {
+    /// The bodies that act on each other.
+    pub(super) bodies: &'a [BodyId],
+    /// s of every body of the world.
+    pub(super) strength: &'a [f64],
+    /// The constant c.
+    pub(super) constant: f64,
+    /// The softening length ε, m.
+    pub(super) softening: f64,
+}
+
+impl Pairs<'_> {
+    /// Adds the forces on all bodies.
+    pub(super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let softening = self.softening * self.softening;
+        self.each_pair_of_tiles(moment, |first, second, last| {
+            match second {
+                None => first.attract_itself(softening),
+                Some(second) => {
+                    first.attract(second, softening);
+                    second.add_to(loads, self.constant);
+                }
+            }
+            if last {
+                first.add_to(loads, self.constant);
+            }
+        });
+    }
+
+    /// The potential of all pairs of which at least one body can move.
+    pub(super) fn potential(&self, moment: &Moment) -> f64 {
+        let softening = self.softening * self.softening;
+        let mut sum = 0.0;
+        self.each_pair_of_tiles(moment, |first, second, _| {
+            sum += match second {
+                None => first.potential_of_itself(softening),
+                Some(second) => first.potential(second, softening),
+            };
+        });
+        self.constant * sum
+    }
+
+    /// Shows every tile alone, then with each of those behind it; the flag says that it is shown for the last time.
+    fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
+        let mut rest = self.bodies;
+        while !rest.is_empty() {
+            let (head, behind) = rest.split_at(TILE.min(rest.len()));
+            let mut first = self.tile(head, moment);
+            see(&mut first, None, behind.is_empty());
+            let mut others = behind.chunks(TILE).peekable();
+            while let Some(other) = others.next() {
+                let mut second = self.tile(other, moment);
+                see(&mut first, Some(&mut second), others.peek().is_none());
+            }
+            rest = behind;
+        }
+    }
+
+    fn tile<'b>(&self, bodies: &'b [BodyId], moment: &Moment) -> Tile<'b> {
+        let zero = [0.0; TILE];
+        let mut tile =
+            Tile { bodies, at: [zero; 3], strength: zero, movable: [false; TILE], pull: [zero; 3] };
+        for (k, body) in bodies.iter().enumerate() {
+            let i = body.index();
+            let location = moment.state.location[i];
+            (tile.at[0][k], tile.at[1][k], tile.at[2][k]) = location.into();
+            tile.strength[k] = self.strength[i];
+            tile.movable[k] = moment.model.movable()[i];
+        }
+        tile
+    }
+}
+
+/// Some bodies, coordinate by coordinate.
+struct Tile<'a> {
+    bodies: &'a [BodyId],
+    at: [[f64; TILE]; 3],
+    strength: [f64; TILE],
+    movable: [bool; TILE],
+    /// Σ sⱼ d / (d² + ε²)^(3/2) over the bodies j met so far.
+    pull: [[f64; TILE]; 3],
+}
+
+impl Tile<'_> {
+    fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// All pairs within the tile.
+    fn attract_itself(&mut self, softening: f64) {
+        for j in 1..self.len() {
+            let (at, strength) = (self.at.map(|at| at[j]), self.strength[j]);
+            let mut back = [[0.0]; 3];
+            for i in 0..j {
+                self.attract_lanes(i, at, strength, softening, &mut back);
+            }
+            self.pull_back(j, back);
+        }
+    }
+
+    /// All pairs of one body here and one there.
+    fn attract(&mut self, other: &mut Tile<'_>, softening: f64) {
+        // Every tile but the last is full; the number of lanes of those is known beforehand.
+        let full = if self.len() == TILE { TILE } else { 0 };
+        for j in 0..other.len() {
+            let (at, strength) = (other.at.map(|at| at[j]), other.strength[j]);
+            let mut back = [[0.0; LANES]; 3];
+            for i in (0..full).step_by(LANES) {
+                self.attract_lanes(i, at, strength, softening, &mut back);
+            }
+            other.pull_back(j, back);
+        }
+    }
+
+    /// The pairs of bodies `i`, `i + 1`, … with a body elsewhere, which gets `back`.
+    #[inline(always)]
+    fn attract_lanes<const N: usize>(
+        &mut self,
+        i: usize,
+        at: [f64; 3],
+        strength: f64,
+        softening: f64,
+        [back_x, back_y, back_z]: &mut [[f64; N]; 3],
+    ) {
+        for lane in 0..N {
+            let k = i + lane;
+            let d = [self.at[0][k] - at[0], self.at[1][k] - at[1], self.at[2][k] - at[2]];
+            let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + softening;
+            let weight = 1.0 / (square * square.sqrt());
+            let (here, there) = (strength * weight, self.strength[k] * weight);
+            self.pull[0][k] += here * d[0];
+            self.pull[1][k] += here * d[1];
+            self.pull[2][k] += here * d[2];
+            back_x[lane] -= there * d[0];
+            back_y[lane] -= there * d[1];
+            back_z[lane] -= there * d[2];
+        }
+    }
+
+    fn pull_back<const N: usize>(&mut self, j: usize, back: [[f64; N]; 3]) {
+        for (pull, back) in self.pull.iter_mut().zip(back) {
+            pull[j] += back.iter().sum::<f64>();
+        }
+    }
+
+    fn add_to(&self, loads: &mut Loads, constant: f64) {
+        for (k, body) in self.bodies.iter().enumerate() {
+            let pull = DVec3::new(self.pull[0][k], self.pull[1][k], self.pull[2][k]);
+            loads.force[body.index()] += constant * self.strength[k] * pull;
+        }
+    }
+
+    /// Σ sᵢ sⱼ / √(d² + ε²) over all pairs within the tile.
+    fn potential_of_itself(&self, softening: f64) -> f64 {
+        let mut sum = 0.0;
+        for j in 1..self.len() {
+            sum +=
+                self.potential_of(self.at.map(|at| at[j]), self.movable[j], j, softening) * self.strength[j];
+        }
+        sum
+    }
+
+    /// The same over all pairs of one body here and one there.
+    fn potential(&self, other: &Tile<'_>, softening: f64) -> f64 {
+        let mut sum = 0.0;
+        for j in 0..other.len() {
+            let potential =
+                self.potential_of(other.at.map(|at| at[j]), other.movable[j], self.len(), softening);
+            sum += potential * other.strength[j];
+        }
+        sum
+    }
+
+    /// Σ sᵢ / √(d² + ε²) over the first bodies of the tile, at a place.
+    #[inline(always)]
+    fn potential_of(&self, at: [f64; 3], movable: bool, bodies: usize, softening: f64) -> f64 {
+        let mut lanes = [0.0; LANES];
+        for i in 0..bodies {
+            let d = [self.at[0][i] - at[0], self.at[1][i] - at[1], self.at[2][i] - at[2]];
+            let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + softening;
+            // Two bodies that cannot move may well be at the same place.
+            lanes[i % LANES] +=
+                if movable || self.movable[i] { self.strength[i] / square.sqrt() } else { 0.0 };
+        }
+        lanes.iter().sum()
+    }
+}

@@ -1,0 +1,33 @@
+//! Keys of a body that need a force to have an effect.
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::Diagnostic;
+use crate::scene::{Body, Force, ForceKind};
+
+/// Warns of masses that neither make a body slow to move nor attract another, and of charges that no force acts on.
+pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context: &mut Context<'_>) {
+    let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
+    for force in forces {
+        match &force.kind {
+            ForceKind::Gravitation { on, .. } => on.iter().for_each(|&body| attracts[body] = true),
+            ForceKind::Coulomb { on, .. } | ForceKind::Lorentz { on, .. } => {
+                on.iter().for_each(|&body| electric[body] = true);
+            }
+            _ => {}
+        }
+    }
+    for (i, ((name, _, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
+        let mut warn = |key: &str, why: &str| {
+            let warning = Diagnostic::warning("no-effect", format!("`{key}` of `{name}` has no effect"));
+            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        };
+        if body.start.fixed && !attracts[i] {
+            let why = if body.shape.is_unbounded() { "a plane is always fixed" } else { "it is fixed" };
+            ["mass", "density"].into_iter().for_each(|key| warn(key, why));
+        }
+        if body.start.charge != 0.0 && !electric[i] {
+            warn("charge", "no force acts on this charge");
+        }
+    }
+}
