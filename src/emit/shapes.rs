@@ -58,3 +58,15 @@ pub(super) fn open(shape: &Shape, style: Style) -> String {
         Shape::Axes { length: arm } => format!("object {{ Axes scale {} ", length(arm)),
     }
 }
+
+/// An object in the scene's own words, whose lengths are metres, so many times larger; like [`open`].
+pub(super) fn open_sdl(object: &str, scale: f64, style: Style) -> String {
+    // On lines of their own, since the words may end with a comment.
+    let mut out = format!("object {{\n{object}\n");
+    if scale != style.unit {
+        out.push_str("scale ");
+        style.length(&mut out, scale);
+        out.push(' ');
+    }
+    out
+}

@@ -24,7 +24,9 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
         includes => scene.povray.include.iter().map(include).collect::<Vec<_>>(),
         sdl => scene.povray.sdl.clone(),
         materials => Value::from(Serde(materials)),
-        rounded_boxes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::RoundedBox { .. })),
+        rounded_boxes => scene.bodies.iter().any(|body| {
+            matches!(body.shape, Shape::RoundedBox { .. }) && body.look.object.is_none()
+        }),
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
     }
@@ -92,7 +94,7 @@ impl FrameConstants {
     ) -> FrameConstants {
         let body = |body: &Body| BodyConstants {
             name: body.name.clone(),
-            shape: shape_name(&body.shape),
+            shape: if body.look.object.is_some() { "sdl" } else { shape_name(&body.shape) },
             material: body.material.map(|material| materials[material].identifier.clone()),
         };
         FrameConstants {

@@ -180,5 +180,7 @@ fn material(
     // Also a body with a material of its own takes its turn: giving it one changes no other's color.
     let usual = palette.next(shape);
     let given = view.text("material").and_then(|name| context.names.materials.get(name));
-    Some(given.copied().unwrap_or_else(|| palette.material(usual, materials)))
+    // An object in POV-Ray's own words brings its own textures along, which another one would cover.
+    let has_own = view.table("shape").has("sdl");
+    given.copied().or_else(|| (!has_own).then(|| palette.material(usual, materials)))
 }

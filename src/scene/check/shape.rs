@@ -8,7 +8,7 @@ use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
 
-/// The shape of a body. Where it is missing or wrong, which has been said, any other takes its place.
+/// The shape of a body in mechanics. Where it is missing or wrong, which has been said, any other takes its place.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(plane) = view.variant("plane") {
         let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
@@ -16,6 +16,12 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Shape {
     }
     if let Some(axes) = view.variant("axes") {
         return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
+    }
+    if let Some(sdl) = view.variant("sdl") {
+        if sdl.text("object").is_some_and(|text| text.trim().is_empty()) {
+            impossible(&sdl, "object", "an object in SDL needs words", "there are none", context);
+        }
+        return solid(&sdl.table("stand_in"), context).unwrap_or(Shape::Sphere { radius: 1.0 });
     }
     solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
 }

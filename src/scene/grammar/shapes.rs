@@ -1,6 +1,6 @@
 //! The keys of shapes.
 
-use super::Kind::{Numbers, Table};
+use super::Kind::{Numbers, Sdl, Table};
 use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
 use super::{Bound, Key, Rule, TableSpec};
 
@@ -21,7 +21,9 @@ const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y ax
 
 pub(super) static SHAPE: TableSpec = TableSpec {
     noun: "a shape",
-    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes"]),
+    rule: Rule::ExactlyOne(&[
+        "sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes", "sdl",
+    ]),
     keys: &[
         SPHERE,
         BOX,
@@ -37,7 +39,37 @@ pub(super) static SHAPE: TableSpec = TableSpec {
             "A triad of arrows along x, y, z, as heavy as a ball of half their length",
         )
         .also(&["axis", "triad", "frame"]),
+        Key::new(
+            "sdl",
+            Table(&SDL),
+            "An object in POV-Ray's own words, and what stands in for it in mechanics",
+        )
+        .also(&["povray", "custom", "isosurface", "mesh"]),
     ],
+};
+
+static SDL: TableSpec = TableSpec {
+    noun: "a shape in SDL",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "object",
+            Sdl,
+            "One object in POV-Ray's own words, lengths in metres, its centre of mass at the origin; without \
+             `material` it has the textures that it brings along, and is black without any",
+        )
+        .required()
+        .also(&["sdl", "code", "text", "draw"]),
+        Key::new("stand_in", Table(&STAND_IN), "The solid that it weighs and reaches as far as")
+            .required()
+            .also(&["physics", "collider", "proxy", "bounds", "shape"]),
+    ],
+};
+
+static STAND_IN: TableSpec = TableSpec {
+    noun: "a stand-in",
+    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus"]),
+    keys: &[SPHERE, BOX, CYLINDER, CAPSULE, CONE, TORUS],
 };
 
 static SPHERE_KEYS: TableSpec = TableSpec {
