@@ -12,9 +12,12 @@ use super::Shape;
 pub struct RigidBody {
     /// Mass, kg. A body whose mass is not positive does not move.
     pub mass: f64,
-    /// Principal moments of inertia about the centre of mass, in the frame of the body, kg m². No torque turns a
-    /// body about an axis whose moment is zero.
+    /// Principal moments of inertia about the centre of mass, kg m². No torque turns a body about an axis whose moment
+    /// is zero.
     pub inertia: DVec3,
+    /// The rotation that takes the principal axes of inertia to the frame of the body; the identity but for compounds.
+    /// Within a world, a body turns in the frame of its principal axes.
+    pub principal_axes: DQuat,
     /// Location of the centre of mass, m.
     pub location: DVec3,
     /// Orientation: the rotation that takes the frame of the body to the world's (`world_from_body`).
@@ -39,6 +42,7 @@ impl RigidBody {
         Self {
             mass,
             inertia: shape.inertia(mass),
+            principal_axes: shape.principal_axes(),
             location: DVec3::ZERO,
             orientation: DQuat::IDENTITY,
             velocity: DVec3::ZERO,
@@ -85,7 +89,7 @@ impl RigidBody {
         Self { torque, ..self }
     }
 
-    /// The same body with other principal moments of inertia, kg m².
+    /// The same body with other principal moments of inertia, kg m², about the same axes.
     #[must_use]
     pub fn with_inertia(self, inertia: DVec3) -> Self {
         Self { inertia, ..self }

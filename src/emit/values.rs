@@ -25,7 +25,7 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
         sdl => scene.povray.sdl.clone(),
         materials => Value::from(Serde(materials)),
         rounded_boxes => scene.bodies.iter().any(|body| {
-            matches!(body.shape, Shape::RoundedBox { .. }) && body.look.object.is_none()
+            has_rounded_box(&body.shape) && body.look.object.is_none()
         }),
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
@@ -137,6 +137,14 @@ impl FrameConstants {
     }
 }
 
+fn has_rounded_box(shape: &Shape) -> bool {
+    match shape {
+        Shape::RoundedBox { .. } => true,
+        Shape::Compound(compound) => compound.parts().iter().any(|part| has_rounded_box(&part.shape)),
+        _ => false,
+    }
+}
+
 fn shape_name(shape: &Shape) -> &'static str {
     match shape {
         Shape::Sphere { .. } => "sphere",
@@ -147,6 +155,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "torus",
         Shape::Plane { .. } => "plane",
         Shape::Axes { .. } => "axes",
+        Shape::Compound(_) => "compound",
     }
 }
 

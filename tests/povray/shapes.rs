@@ -129,3 +129,14 @@ shape.sdl.stand_in.capsule = { radius = 0.3, height = 2.6 }";
         own,
     ]);
 }
+
+#[test]
+fn parts_of_a_compound_are_drawn_about_their_centre_of_mass() {
+    let hammer = "compound.parts = [{ cylinder = { radius = 0.1, height = 1.6 }, location = [9, 0, 0] },
+  { box = { size = [0.9, 0.4, 0.4], rounding = 0.1 }, location = [9, 0.9, 0], orientation = [0, 30, 0] }]";
+    let one = "compound.parts = [{ cone = { radius = 0.5, height = 1.5 }, location = [5, 5, 5], orientation = [0, 0, 90] }]";
+    assert_fills(&[hammer, one].map(|shape| body(&format!("shape.{shape}\n{TURNED}"))));
+    let grouped = body(&format!("shape.{hammer}\n{TURNED}"))
+        + "[body.behind]\nshape.sphere.radius = 0.05\nmaterial = \"red\"\n";
+    assert_fills(&[grouped]);
+}
