@@ -14,9 +14,12 @@ pub struct RigidBody {
     pub mass: f64,
     /// Electric charge, C.
     pub charge: f64,
-    /// Principal moments of inertia about the centre of mass, in the frame of the body, kg m². No torque turns a
-    /// body about an axis whose moment is zero.
+    /// Principal moments of inertia about the centre of mass, kg m². No torque turns a body about an axis whose moment
+    /// is zero.
     pub inertia: DVec3,
+    /// The rotation that takes the principal axes of inertia to the frame of the body; the identity but for compounds.
+    /// Within a world, a body turns in the frame of its principal axes.
+    pub principal_axes: DQuat,
     /// Location of the centre of mass, m.
     pub location: DVec3,
     /// Orientation: the rotation that takes the frame of the body to the world's (`world_from_body`).
@@ -42,6 +45,7 @@ impl RigidBody {
             mass,
             charge: 0.0,
             inertia: shape.inertia(mass),
+            principal_axes: shape.principal_axes(),
             location: DVec3::ZERO,
             orientation: DQuat::IDENTITY,
             velocity: DVec3::ZERO,
@@ -94,7 +98,7 @@ impl RigidBody {
         Self { charge, ..self }
     }
 
-    /// The same body with other principal moments of inertia, kg m².
+    /// The same body with other principal moments of inertia, kg m², about the same axes.
     #[must_use]
     pub fn with_inertia(self, inertia: DVec3) -> Self {
         Self { inertia, ..self }

@@ -80,11 +80,11 @@ pub use force::{
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;
-pub use shape::{Shape, cone_base};
+pub use shape::{Compound, Part, Shape, cone_base};
 pub use state::State;
 pub use world::World;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 /// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
 pub trait Dynamics: Send {
@@ -97,6 +97,9 @@ pub trait Dynamics: Send {
 
     /// The bodies as they are now.
     fn state(&self) -> &State;
+
+    /// The orientation of a body (`world_from_body`).
+    fn orientation(&self, body: BodyId) -> DQuat;
 
     /// The angular velocity of a body, world axes, rad/s.
     fn angular_velocity(&self, body: BodyId) -> DVec3;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::{Force, Loads, Moment, RigidBody, State};
 
@@ -15,6 +15,7 @@ pub struct Model {
     inverse_mass: Vec<f64>,
     inertia: Vec<DVec3>,
     inverse_inertia: Vec<DVec3>,
+    principal_axes: Vec<DQuat>,
     movable: Vec<bool>,
     /// The bodies that are not movable.
     immovable: Vec<usize>,
@@ -56,7 +57,7 @@ impl Model {
         &self.inverse_mass
     }
 
-    /// The principal moments of inertia of each body, in its frame, kg m².
+    /// The principal moments of inertia of each body, kg m².
     #[must_use]
     pub fn inertia(&self) -> &[DVec3] {
         &self.inertia
@@ -66,6 +67,12 @@ impl Model {
     #[must_use]
     pub fn inverse_inertia(&self) -> &[DVec3] {
         &self.inverse_inertia
+    }
+
+    /// The rotation of each body that takes its principal axes of inertia to its frame.
+    #[must_use]
+    pub fn principal_axes(&self) -> &[DQuat] {
+        &self.principal_axes
     }
 
     /// Whether each body can move: it is not fixed, and its mass is positive.
@@ -98,13 +105,17 @@ impl Model {
         let movable = !body.fixed && body.mass > 0.0;
         let inverse = |x: f64| if movable && x > 0.0 { 1.0 / x } else { 0.0 };
         let inverse_inertia = body.inertia.map(inverse);
-        let orientation = body.orientation.normalize();
+        // Without a turn, the product would be the same but for signs of zeros.
+        let turned = body.principal_axes != DQuat::IDENTITY;
+        let orientation = if turned { body.orientation * body.principal_axes } else { body.orientation };
+        let orientation = orientation.normalize();
 
         self.mass.push(body.mass);
         self.charge.push(body.charge);
         self.inverse_mass.push(inverse(body.mass));
         self.inertia.push(body.inertia);
         self.inverse_inertia.push(inverse_inertia);
+        self.principal_axes.push(body.principal_axes);
         self.movable.push(movable);
         if !movable {
             self.immovable.push(index);

@@ -12,7 +12,8 @@ pub struct State {
     pub location: Vec<DVec3>,
     /// Velocities of the centres of mass, m/s.
     pub velocity: Vec<DVec3>,
-    /// Orientations (`world_from_body`), unit quaternions.
+    /// Orientations of the principal axes of inertia, unit quaternions; but for compounds, `world_from_body`.
+    /// [`Dynamics::orientation`](super::Dynamics::orientation) is that of any body.
     pub orientation: Vec<DQuat>,
     /// Angular momenta, each about the body's own centre of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,

@@ -152,7 +152,9 @@ impl World {
     /// The orientation of a body (`world_from_body`).
     #[must_use]
     pub fn orientation(&self, body: BodyId) -> DQuat {
-        self.state.orientation[body.index()]
+        let orientation = self.state.orientation[body.index()];
+        let axes = self.model.principal_axes()[body.index()];
+        if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
     }
 
     /// A body as it is now.
@@ -163,8 +165,9 @@ impl World {
             mass: self.model.mass()[i],
             charge: self.model.charge()[i],
             inertia: self.model.inertia()[i],
+            principal_axes: self.model.principal_axes()[i],
             location: self.state.location[i],
-            orientation: self.state.orientation[i],
+            orientation: self.orientation(body),
             velocity: self.state.velocity[i],
             angular_velocity: self.angular_velocity(body),
             force: self.model.constant_force()[i],
@@ -202,6 +205,10 @@ impl Dynamics for World {
 
     fn state(&self) -> &State {
         &self.state
+    }
+
+    fn orientation(&self, body: BodyId) -> DQuat {
+        World::orientation(self, body)
     }
 
     fn angular_velocity(&self, body: BodyId) -> DVec3 {

@@ -144,7 +144,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     // A pattern moves with the body: the transform comes after it.
     match place {
         Place::Matrix(_) => {
-            before.truncate(before.trim_end().len());
+            before.truncate(before.trim_end_matches(' ').len());
             let _ = write!(before, "{usage} ");
         }
         Place::Centre | Place::Plane(_) => after.push_str(&usage),
@@ -155,6 +155,10 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
 
 /// The text before the place of a body, how its place is written, and the text after it.
 fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
+    if let Some(object) = &body.look.object {
+        let place = Place::Matrix(DQuat::IDENTITY);
+        return (shapes::open_sdl(object, body.look.scale, style), place, String::new());
+    }
     match body.drawn() {
         Shape::Sphere { radius } if uniform => {
             let mut after = ", ".to_owned();

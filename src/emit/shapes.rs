@@ -1,9 +1,9 @@
 //! Shapes in POV-Ray's words.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::sdl::Style;
-use crate::dynamics::{Shape, cone_base};
+use crate::dynamics::{Part, Shape, cone_base};
 
 /// A shape in its own frame: the words of an object up to where its material and its place go, which the closing
 /// brace follows.
@@ -56,5 +56,38 @@ pub(super) fn open(shape: &Shape, style: Style) -> String {
             out + ", 0 "
         }
         Shape::Axes { length: arm } => format!("object {{ Axes scale {} ", length(arm)),
+        Shape::Compound(ref compound) => match compound.parts() {
+            // POV-Ray warns of a union of one.
+            [only] => part(only, style),
+            parts => {
+                let parts = parts.iter().map(|each| format!("  {}}}\n", part(each, style)));
+                format!("union {{\n{}  ", parts.collect::<String>())
+            }
+        },
     }
+}
+
+/// A part of a compound at its place; like [`open`].
+fn part(Part { shape, location, orientation }: &Part, style: Style) -> String {
+    let mut out = open(shape, style);
+    if *orientation == DQuat::IDENTITY {
+        out.push_str("translate ");
+        style.point(&mut out, *location);
+    } else {
+        style.matrix(&mut out, *orientation, *location);
+    }
+    out.push(' ');
+    out
+}
+
+/// An object in the scene's own words, whose lengths are metres, so many times larger; like [`open`].
+pub(super) fn open_sdl(object: &str, scale: f64, style: Style) -> String {
+    // On lines of their own, since the words may end with a comment.
+    let mut out = format!("object {{\n{object}\n");
+    if scale != style.unit {
+        out.push_str("scale ");
+        style.length(&mut out, scale);
+        out.push(' ');
+    }
+    out
 }

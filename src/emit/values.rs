@@ -28,7 +28,9 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
             Layout::SelfContained => "local",
             Layout::Shared => "declare",
         },
-        rounded_boxes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::RoundedBox { .. })),
+        rounded_boxes => scene.bodies.iter().any(|body| {
+            has_rounded_box(&body.shape) && body.look.object.is_none()
+        }),
         axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
         ..Value::from(Serde(stage))
     }
@@ -96,7 +98,7 @@ impl FrameConstants {
     ) -> FrameConstants {
         let body = |body: &Body| BodyConstants {
             name: body.name.clone(),
-            shape: shape_name(&body.shape),
+            shape: if body.look.object.is_some() { "sdl" } else { shape_name(&body.shape) },
             material: body.material.map(|material| materials[material].identifier.clone()),
         };
         FrameConstants {
@@ -139,6 +141,14 @@ impl FrameConstants {
     }
 }
 
+fn has_rounded_box(shape: &Shape) -> bool {
+    match shape {
+        Shape::RoundedBox { .. } => true,
+        Shape::Compound(compound) => compound.parts().iter().any(|part| has_rounded_box(&part.shape)),
+        _ => false,
+    }
+}
+
 fn shape_name(shape: &Shape) -> &'static str {
     match shape {
         Shape::Sphere { .. } => "sphere",
@@ -149,6 +159,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Torus { .. } => "torus",
         Shape::Plane { .. } => "plane",
         Shape::Axes { .. } => "axes",
+        Shape::Compound(_) => "compound",
     }
 }
 

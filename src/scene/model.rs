@@ -46,7 +46,8 @@ pub struct Body {
     pub shape: Shape,
     /// What it is at the start.
     pub start: RigidBody,
-    /// The number of its material among the scene's; none for axes, which have colors of their own.
+    /// The number of its material among the scene's; none for axes, which have colors of their own, and for
+    /// an object in SDL that is given none.
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
     pub look: BodyLook,
@@ -57,6 +58,8 @@ pub struct Body {
 pub struct BodyLook {
     /// How many times larger it is drawn.
     pub scale: f64,
+    /// The object that is drawn, in POV-Ray's own words and in metres; none: its shape is drawn.
+    pub object: Option<String>,
     /// POV-Ray's own words in its object, before its place.
     pub sdl_before: Option<String>,
     /// POV-Ray's own words in its object, after its place.
@@ -66,12 +69,12 @@ pub struct BodyLook {
 impl BodyLook {
     /// Whether the body has words of POV-Ray's own.
     pub fn has_sdl(&self) -> bool {
-        self.sdl_before.is_some() || self.sdl_after.is_some()
+        self.object.is_some() || self.sdl_before.is_some() || self.sdl_after.is_some()
     }
 }
 
 impl Body {
-    /// The shape that pictures show.
+    /// The shape that pictures show, or that stands in for what they show.
     pub fn drawn(&self) -> Shape {
         self.shape.scaled(self.look.scale)
     }

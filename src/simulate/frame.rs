@@ -43,7 +43,7 @@ impl Frame {
         let body = |id: usize| BodyFrame {
             id,
             location: state.location[id],
-            orientation: state.orientation[id],
+            orientation: dynamics.orientation(BodyId::new(id)),
             velocity: state.velocity[id],
             angular_velocity: dynamics.angular_velocity(BodyId::new(id)),
             force: forces[id],

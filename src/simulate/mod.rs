@@ -107,6 +107,41 @@ mod tests {
         }
     }
 
+    /// The same brick, whole and in two halves whose common frame is turned against it, tumbles the same.
+    #[test]
+    fn a_compound_tumbles_as_the_solid_that_it_makes_up() {
+        let tumble = |shape: &str, orientation: &str| {
+            let text = format!(
+                "
+                [simulation]
+                duration = 2
+                integrator = 'rk4'
+                [body.brick]
+                mass = 2
+                angular_velocity = [0.3, 0.2, 3]
+                torque = [0.1, 0, 0]
+                shape.{shape}
+                orientation = {orientation}
+                "
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+            (frames[0].bodies[0], frames[50].bodies[0])
+        };
+        let turn = glam::DQuat::from_rotation_z(30f64.to_radians());
+        let (_, whole) = tumble("box.size = [3, 1, 2]", "[0, 0, 30]");
+        let half = |x: f64| {
+            let place = turn * glam::DVec3::new(x, 0.0, 0.0) + 5.0;
+            format!("{{ box.size = [1.5, 1, 2], orientation = [0, 0, 30], location = {place} }}")
+        };
+        let parts = format!("compound.parts = [{}, {}]", half(-0.75), half(0.75));
+        let (first, halves) = tumble(&parts, "[0, 0, 0]");
+        assert!(first.orientation.abs_diff_eq(glam::DQuat::IDENTITY, 1e-15), "{}", first.orientation);
+        assert!(halves.angular_velocity.abs_diff_eq(whole.angular_velocity, 1e-9));
+        let whole = whole.orientation * turn.conjugate();
+        assert!((halves.orientation.dot(whole).abs() - 1.0).abs() < 1e-9, "{whole} {}", halves.orientation);
+    }
+
     #[test]
     fn frames_know_their_time_and_the_forces() {
         let scene = Scene::parse(TUMBLE).unwrap();

@@ -110,3 +110,33 @@ angular_velocity = [0, 0, 1.5707963267948966]\n{DARK}{}",
     }
     assert_eq!(hidden.brightness(), 0.0);
 }
+
+/// Objects in POV-Ray's words are in metres, whatever the unit of the script, and are placed as their stand-in.
+#[test]
+fn an_object_in_sdl_is_drawn_in_place_of_its_stand_in() {
+    let cone = "shape.sdl.object = \"object { cone { -y*0.45, 0.8, y*1.35, 0 } } // a cone\"
+shape.sdl.stand_in.cone = { radius = 0.8, height = 1.8 }";
+    let own = "shape.sdl.object = \"union { sphere { y, 0.3 } sphere { -y, 0.3 } pigment { rgb x } finish { emission 1 } }\"
+shape.sdl.stand_in.capsule = { radius = 0.3, height = 2.6 }";
+    let small = format!("{}\nlook.scale = 0.5", cone.replace("0.8", "1.6").replace("0.45", "0.9"));
+    let small = small.replace("1.35", "2.7").replace("height = 1.8", "height = 3.6");
+    let in_centimetres = format!("{}\n[povray]\nunit = 0.01\n", body(&format!("{cone}\n{TURNED}")));
+    let own = body(&format!("{own}\n{TURNED}")).replace("material = \"red\"\n", "");
+    assert_fills(&[
+        body(&format!("{cone}\n{TURNED}")),
+        body(&format!("{small}\n{TURNED}")),
+        in_centimetres,
+        own,
+    ]);
+}
+
+#[test]
+fn parts_of_a_compound_are_drawn_about_their_centre_of_mass() {
+    let hammer = "compound.parts = [{ cylinder = { radius = 0.1, height = 1.6 }, location = [9, 0, 0] },
+  { box = { size = [0.9, 0.4, 0.4], rounding = 0.1 }, location = [9, 0.9, 0], orientation = [0, 30, 0] }]";
+    let one = "compound.parts = [{ cone = { radius = 0.5, height = 1.5 }, location = [5, 5, 5], orientation = [0, 0, 90] }]";
+    assert_fills(&[hammer, one].map(|shape| body(&format!("shape.{shape}\n{TURNED}"))));
+    let grouped = body(&format!("shape.{hammer}\n{TURNED}"))
+        + "[body.behind]\nshape.sphere.radius = 0.05\nmaterial = \"red\"\n";
+    assert_fills(&[grouped]);
+}

@@ -1,13 +1,17 @@
 //! What a body looks like, as far as mechanics cares: volume, inertia and extent.
 
+mod compound;
+mod principal;
 mod solids;
 #[cfg(test)]
 mod tests;
 
 use glam::{DQuat, DVec3};
 
-/// The shape of a body, in its own frame: the centre of mass is the origin and the principal axes of inertia are
-/// the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
+pub use compound::{Compound, Part};
+
+/// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds, the principal axes
+/// of inertia are the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A solid sphere.
@@ -69,6 +73,8 @@ pub enum Shape {
         /// Length of an arm, m.
         length: f64,
     },
+    /// Several solids as one.
+    Compound(Compound),
 }
 
 /// The radius of an arm of the axes, at its thickest, in lengths of an arm.
@@ -88,6 +94,7 @@ impl Shape {
             Shape::Torus { radius, tube_radius } => solids::torus_volume(radius, tube_radius),
             Shape::Plane { .. } => return None,
             Shape::Axes { length } => solids::sphere_volume(length / 2.0),
+            Shape::Compound(ref compound) => compound.volume(),
         })
     }
 
@@ -106,6 +113,16 @@ impl Shape {
             Shape::Torus { radius, tube_radius } => mass * solids::torus(radius, tube_radius),
             Shape::Plane { .. } => DVec3::ZERO,
             Shape::Axes { length } => mass * solids::sphere(length / 2.0),
+            Shape::Compound(ref compound) => mass * compound.inertia(),
+        }
+    }
+
+    /// The rotation that takes the principal axes of inertia to the frame of the body: none but for compounds.
+    #[must_use]
+    pub fn principal_axes(&self) -> DQuat {
+        match self {
+            Shape::Compound(compound) => compound.principal_axes(),
+            _ => DQuat::IDENTITY,
         }
     }
 
@@ -131,6 +148,7 @@ impl Shape {
             Shape::Plane { .. } => return None,
             // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
             Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
+            Shape::Compound(ref compound) => return compound.support(direction),
         })
     }
 
@@ -149,6 +167,7 @@ impl Shape {
             Shape::Torus { tube_radius, .. } => tube_radius,
             Shape::Plane { .. } => return None,
             Shape::Axes { length } => length * SHAFT_RADIUS,
+            Shape::Compound(ref compound) => return compound.half_thickness(),
         })
     }
 
@@ -178,6 +197,7 @@ impl Shape {
             }
             Shape::Plane { .. } => {}
             Shape::Axes { length } => *length *= factor,
+            Shape::Compound(compound) => compound.scale(factor),
         }
         scaled
     }

@@ -46,7 +46,8 @@ pub(super) fn capsule(radius: f64, height: f64) -> DVec3 {
     let (tube, balls) = (cylinder_volume(radius, length), sphere_volume(radius));
     let across = length * length / 4.0 + 0.375 * length * radius;
     let of_balls = sphere(radius) + about_y(0.0, across);
-    (tube * cylinder(radius, length) + balls * of_balls) / (tube + balls)
+    let share = tube / (tube + balls);
+    share * cylinder(radius, length) + (1.0 - share) * of_balls
 }
 
 /// ⅓ π h (R² + R r + r²).
@@ -63,11 +64,14 @@ pub(super) fn cone_centre(radius: f64, top_radius: f64, height: f64) -> f64 {
 /// About the axis ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³), here with R − r taken out; across it half of that, and the mean square
 /// of the distance from the centre of mass along the axis, ³⁄₈₀ h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
 pub(super) fn cone(radius: f64, top_radius: f64, height: f64) -> DVec3 {
+    // Fourth powers of lengths may be no numbers; those of ratios are.
+    let widest = radius.max(top_radius);
+    let (radius, top_radius) = (radius / widest, top_radius / widest);
     let (a, b, sum) = (radius * radius, top_radius * top_radius, cone_sum(radius, top_radius));
     let product = radius * top_radius;
     // R⁴ + R³ r + R² r² + R r³ + r⁴
     let fourth = a * a + product * (a + product + b) + b * b;
-    let along = 0.3 * fourth / sum;
+    let along = 0.3 * fourth / sum * widest * widest;
     let both = (radius + top_radius) * (radius + top_radius);
     let spread = 3.0 / 80.0 * height * height * (both * both + 4.0 * product * product) / (sum * sum);
     about_y(along, along / 2.0 + spread)
@@ -94,7 +98,9 @@ pub(super) fn torus(radius: f64, tube_radius: f64) -> DVec3 {
 /// farther out is one with corners of radius √(r² − u²). Its area is b c + 2 (b + c) r + π r². The mean of x²
 /// follows from ∫ uⁿ du, ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
 pub(super) fn rounded_box(size: DVec3, rounding: f64) -> (f64, DVec3) {
-    let (inner, r) = ((size - 2.0 * rounding).max(DVec3::ZERO), rounding);
+    // Fifth powers of lengths may be no numbers; those of ratios are.
+    let unit = size.max_element();
+    let (inner, r) = ((size - 2.0 * rounding).max(DVec3::ZERO) / unit, rounding / unit);
     let (r2, r3) = (r * r, r * r * r);
     let integral = |a: f64, b: f64, c: f64| {
         let area = |one: f64, root: f64, square: f64| b * c * one + 2.0 * (b + c) * root + PI * square;
@@ -110,7 +116,8 @@ pub(super) fn rounded_box(size: DVec3, rounding: f64) -> (f64, DVec3) {
     };
     let DVec3 { x: a, y: b, z: c } = inner;
     let ((volume, x2), (_, y2), (_, z2)) = (integral(a, b, c), integral(b, c, a), integral(c, a, b));
-    (volume, DVec3::new(y2 + z2, z2 + x2, x2 + y2) / volume)
+    let moments = DVec3::new(y2 + z2, z2 + x2, x2 + y2) / volume;
+    (volume * unit * unit * unit, moments * unit * unit)
 }
 
 fn about_y(along: f64, across: f64) -> DVec3 {

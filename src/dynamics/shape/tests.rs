@@ -180,6 +180,7 @@ fn support_is_the_reach_along_a_direction() {
 fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
     let size = DVec3::new(1.0, 2.0, 3.0);
     for shape in [
+        Shape::Compound(ell(DQuat::IDENTITY)),
         Shape::Sphere { radius: 0.7 },
         Shape::Box { size },
         Shape::RoundedBox { size, rounding: 0.2 },
@@ -193,8 +194,80 @@ fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13 * b.abs(), "{shape:?}: {a} {b}");
         near(scaled.volume().unwrap(), 27.0 * shape.volume().unwrap());
         near(scaled.inertia(1.0).x, 9.0 * shape.inertia(1.0).x);
+        // Also where powers of lengths come near to the ends of the numbers.
+        for factor in [1e-90, 1e90] {
+            near(shape.scaled(factor).inertia(1.0).y, factor * factor * shape.inertia(1.0).y);
+        }
         near(scaled.half_thickness().unwrap(), 3.0 * shape.half_thickness().unwrap());
         let reach = |shape: &Shape| shape.support(DQuat::IDENTITY, size.normalize()).unwrap();
         near(reach(&scaled), 3.0 * reach(&shape));
     }
+}
+
+/// Two bricks as an L, turned as a whole: no axis of it is an axis of theirs.
+fn ell(turn: DQuat) -> Compound {
+    let brick = |size: DVec3, location: DVec3| Part {
+        shape: Shape::Box { size },
+        location: turn * location + 7.0,
+        orientation: turn,
+    };
+    Compound::new(vec![
+        brick(DVec3::new(0.4, 1.6, 0.4), DVec3::new(-0.4, 0.0, 0.0)),
+        brick(DVec3::new(0.8, 0.4, 0.4), DVec3::new(0.2, -0.6, 0.0)),
+    ])
+}
+
+#[test]
+fn a_compound_is_the_sum_over_its_cells() {
+    let compound = ell(DQuat::IDENTITY);
+    let shape = Shape::Compound(compound.clone());
+    let inside = |p: DVec3| {
+        compound.parts().iter().any(|part| match part.shape {
+            Shape::Box { size } => (p - part.location).abs().cmplt(size / 2.0).all(),
+            _ => false,
+        })
+    };
+    let reach = |direction: DVec3| shape.support(DQuat::IDENTITY, direction).unwrap();
+    let low = -DVec3::new(reach(-DVec3::X), reach(-DVec3::Y), reach(-DVec3::Z));
+    let high = DVec3::new(reach(DVec3::X), reach(DVec3::Y), reach(DVec3::Z));
+    assert!((high - low).abs_diff_eq(DVec3::new(1.2, 1.6, 0.4), 1e-14));
+    // The inner edges fall within a cell: up to a cell in 50 of the thickness of a brick.
+    let tolerance = 0.01;
+    let (volume, centre, moments) = by_cells(low, high, inside);
+    assert!((shape.volume().unwrap() - volume).abs() < tolerance * volume);
+    assert!(centre.abs_diff_eq(DVec3::ZERO, tolerance), "{centre}");
+    // About the body's own axes: the diagonal of the tensor that the principal moments are when turned.
+    let turn = glam::DMat3::from_quat(shape.principal_axes());
+    let tensor = turn * glam::DMat3::from_diagonal(shape.inertia(1.0)) * turn.transpose();
+    let own = DVec3::new(tensor.x_axis.x, tensor.y_axis.y, tensor.z_axis.z);
+    assert!(own.abs_diff_eq(moments, tolerance * moments.max_element()), "{own} {moments}");
+    assert!(tensor.x_axis.y.abs() > 0.01, "the axes of an L are not its own: {tensor}");
+}
+
+#[test]
+fn a_compound_that_is_turned_has_the_same_principal_moments() {
+    let sorted = |shape: &Compound| {
+        let mut moments = shape.inertia().to_array();
+        moments.sort_unstable_by(f64::total_cmp);
+        DVec3::from_array(moments)
+    };
+    let straight = ell(DQuat::IDENTITY);
+    for angle in [0.1, 1.0, 2.5] {
+        let turned = ell(DQuat::from_euler(glam::EulerRot::XYZ, angle, -angle, 0.3));
+        assert!(sorted(&turned).abs_diff_eq(sorted(&straight), 1e-14));
+    }
+}
+
+#[test]
+fn halves_of_a_box_are_the_box() {
+    let half = |y: f64| Part {
+        shape: Shape::Box { size: DVec3::new(1.0, 1.0, 3.0) },
+        location: DVec3::Y * y,
+        orientation: DQuat::IDENTITY,
+    };
+    let (both, whole) =
+        (Compound::new(vec![half(4.5), half(5.5)]), Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) });
+    assert!(both.inertia().abs_diff_eq(whole.inertia(1.0), 1e-14));
+    assert_eq!((both.volume(), both.principal_axes()), (6.0, DQuat::IDENTITY));
+    assert_eq!(both.parts()[0].location, DVec3::new(0.0, -0.5, 0.0));
 }

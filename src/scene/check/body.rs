@@ -19,7 +19,7 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
     let tables = root.named("body");
     let mut palette = Palette::default();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let shape = shape::read(&view.table("shape"), context);
+        let shape = shape::read(name, &view.table("shape"), context);
         let material = material(&view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
         let look = look::of_body(name, &view, &shape, context);
@@ -33,11 +33,14 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let fixed = fixed(name, view, shape, context);
     let mass = mass(name, span, view, shape, context);
     let inertia = inertia(name, view, context);
+    // Moments that are given are those about the body's own axes.
+    let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
     let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
     RigidBody {
         mass,
         charge: view.number("charge").unwrap_or(0.0),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
+        principal_axes,
         location: vector("location"),
         orientation: orientation(name, view, context),
         velocity: vector("velocity"),
@@ -134,7 +137,8 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
     Some(inertia)
 }
 
-fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
+/// An orientation under the key of that name; `name` is the body's.
+pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
     if let Some(angles) = view.vector("orientation") {
         return euler(angles);
     }
@@ -181,5 +185,7 @@ fn material(
     // Also a body with a material of its own takes its turn: giving it one changes no other's color.
     let usual = palette.next(shape);
     let given = view.text("material").and_then(|name| context.names.materials.get(name));
-    Some(given.copied().unwrap_or_else(|| palette.material(usual, materials)))
+    // An object in POV-Ray's own words brings its own textures along, which another one would cover.
+    let has_own = view.table("shape").has("sdl");
+    given.copied().or_else(|| (!has_own).then(|| palette.material(usual, materials)))
 }

@@ -55,6 +55,7 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
     }
     BodyLook {
         scale: look.number("scale").unwrap_or(1.0),
+        object: view.table("shape").table("sdl").text("object").map(str::to_owned),
         sdl_before: look.text("sdl_before").map(str::to_owned),
         sdl_after: look.text("sdl_after").map(str::to_owned),
     }

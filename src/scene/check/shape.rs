@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use super::Context;
 use super::read::figure;
 use super::view::View;
+use super::{Context, body};
 use crate::diagnostic::Diagnostic;
-use crate::dynamics::Shape;
+use crate::dynamics::{Compound, Part, Shape};
 
-/// The shape of a body. Where it is missing or wrong, which has been said, any other takes its place.
-pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Shape {
+/// The shape of a body in mechanics. Where it is missing or wrong, which has been said, any other takes its place.
+pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(plane) = view.variant("plane") {
         let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
         return Shape::Plane { normal: DVec3::from_array(normal) };
@@ -17,7 +17,27 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(axes) = view.variant("axes") {
         return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
     }
+    if let Some(view) = view.variant("compound") {
+        return compound(name, &view, context).unwrap_or(Shape::Sphere { radius: 1.0 });
+    }
+    if let Some(sdl) = view.variant("sdl") {
+        if sdl.text("object").is_some_and(|text| text.trim().is_empty()) {
+            impossible(&sdl, "object", "an object in SDL needs words", "there are none", context);
+        }
+        return solid(&sdl.table("stand_in"), context).unwrap_or(Shape::Sphere { radius: 1.0 });
+    }
     solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
+}
+
+/// A compound; none where all of its parts are missing or wrong.
+fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
+    let mut parts = Vec::new();
+    for part in view.tables("parts") {
+        let orientation = body::orientation(name, &part, context);
+        let location = part.vector("location").unwrap_or(DVec3::ZERO);
+        parts.extend(solid(&part, context).map(|shape| Part { shape, location, orientation }));
+    }
+    (!parts.is_empty()).then(|| Shape::Compound(Compound::new(parts)))
 }
 
 /// A solid of finite size; none where a number of it is missing or wrong.

@@ -116,6 +116,17 @@ impl<'a> View<'a> {
         view.table.is_some().then_some(view)
     }
 
+    /// The tables of a list of tables.
+    pub(super) fn tables(&self, name: &str) -> Vec<View<'a>> {
+        let Some(Kind::List { of: Kind::Table(spec), .. }) =
+            self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Table(_), .. }))
+        else {
+            return Vec::new();
+        };
+        let items = self.list(name).unwrap_or_default();
+        items.iter().map(|node| View { spec, table: node.as_table() }).collect()
+    }
+
     /// The tables with names under a key: name, where the name stands, table.
     pub(super) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {

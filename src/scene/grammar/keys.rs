@@ -174,7 +174,7 @@ static BODY_LOOK: TableSpec = TableSpec {
     ],
 };
 
-static ORIENTATION: TableSpec = TableSpec {
+pub(super) static ORIENTATION: TableSpec = TableSpec {
     noun: "an orientation",
     rule: Rule::AtMostOne(&[&["euler", "axis", "quaternion"], &["euler", "angle", "quaternion"]]),
     keys: &[

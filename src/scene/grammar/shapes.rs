@@ -1,7 +1,7 @@
 //! The keys of shapes.
 
-use super::Kind::{Numbers, Table};
-use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
+use super::Kind::{Either, List, Numbers, Sdl, Table};
+use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};
 use super::{Bound, Key, Rule, TableSpec};
 
 const SPHERE: Key = Key::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
@@ -21,7 +21,9 @@ const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y ax
 
 pub(super) static SHAPE: TableSpec = TableSpec {
     noun: "a shape",
-    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes"]),
+    rule: Rule::ExactlyOne(&[
+        "sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes", "compound", "sdl",
+    ]),
     keys: &[
         SPHERE,
         BOX,
@@ -37,7 +39,79 @@ pub(super) static SHAPE: TableSpec = TableSpec {
             "A triad of arrows along x, y, z, as heavy as a ball of half their length",
         )
         .also(&["axis", "triad", "frame"]),
+        Key::new(
+            "compound",
+            Table(&COMPOUND),
+            "Several solids of one density as one body; its `location` is the centre of mass of all",
+        )
+        .also(&["union", "parts", "composite", "group"]),
+        Key::new(
+            "sdl",
+            Table(&SDL),
+            "An object in POV-Ray's own words, and what stands in for it in mechanics",
+        )
+        .also(&["povray", "custom", "isosurface", "mesh"]),
     ],
+};
+
+static COMPOUND: TableSpec = TableSpec {
+    noun: "a compound",
+    rule: Rule::Any,
+    keys: &[Key::new(
+        "parts",
+        List { of: &Table(&PART), min: 1, max: usize::MAX },
+        "Its parts; where they overlap, both weigh",
+    )
+    .required()
+    .also(&["shapes", "children", "of"])],
+};
+
+static PART: TableSpec = TableSpec {
+    noun: "a part",
+    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus"]),
+    keys: &[
+        SPHERE,
+        BOX,
+        CYLINDER,
+        CAPSULE,
+        CONE,
+        TORUS,
+        Key::new(
+            "location",
+            VECTOR,
+            "The part's own centre of mass, along the body's axes; their common origin does not matter",
+        )
+        .unit("m")
+        .default("[0, 0, 0]")
+        .also(&["position", "pos", "center", "translate", "origin", "offset"]),
+        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned within the body")
+            .default("not turned")
+            .also(&["rotation", "rotate", "angle", "attitude"]),
+    ],
+};
+
+static SDL: TableSpec = TableSpec {
+    noun: "a shape in SDL",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "object",
+            Sdl,
+            "One object in POV-Ray's own words, lengths in metres, its centre of mass at the origin; without \
+             `material` it has the textures that it brings along, and is black without any",
+        )
+        .required()
+        .also(&["sdl", "code", "text", "draw"]),
+        Key::new("stand_in", Table(&STAND_IN), "The solid that it weighs and reaches as far as")
+            .required()
+            .also(&["physics", "collider", "proxy", "bounds", "shape"]),
+    ],
+};
+
+static STAND_IN: TableSpec = TableSpec {
+    noun: "a stand-in",
+    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus"]),
+    keys: &[SPHERE, BOX, CYLINDER, CAPSULE, CONE, TORUS],
 };
 
 static SPHERE_KEYS: TableSpec = TableSpec {
