@@ -113,7 +113,7 @@ fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style)
     Group {
         before: format!("union {{ // {}: {} bodies\n", text::comment(&material.name), bodies.len()),
         bodies: bodies.iter().map(item).collect(),
-        after: format!("  {}\n}}\n", material.usage),
+        after: format!("  {}\n}}\n", material.usage()),
     }
 }
 
@@ -122,14 +122,15 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
-    if let (Shape::Plane { normal }, Some(material)) = (body.shape, material.filter(|m| m.makes_plane)) {
-        let before = format!("{}(transform {{ ", material.identifier);
+    let plane_macro = material.and_then(MaterialText::plane_macro);
+    if let (Shape::Plane { normal }, Some(plane)) = (body.shape, plane_macro) {
+        let before = format!("{plane}(transform {{ ");
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
         return Group { before: String::new(), bodies: vec![item], after: String::new() };
     }
     let (mut before, place, mut after) = shape(body, material.is_none_or(|m| m.is_uniform), style);
-    let usage = material.map_or(String::new(), |material| format!(" {}", material.usage));
+    let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
     // A pattern moves with the body: the transform comes after it.
     match place {
         Place::Matrix(_) => {

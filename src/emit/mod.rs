@@ -61,7 +61,7 @@ impl Emitter {
         let templates = templates::environment(scene.povray.digits)?;
         let stage = Stage::new(scene, survey);
         let style = Style { unit: stage.unit, digits: scene.povray.digits };
-        let materials = materials::texts(&scene.materials);
+        let materials = materials::texts(scene);
         let common =
             templates.get_template("common.inc")?.render(values::common(scene, &stage, &materials))?;
         let looks_at_bodies = |(_, template): (_, minijinja::Template<'_, '_>)| {

@@ -194,7 +194,7 @@ mod tests {
         )
         .unwrap();
         let stage = Stage::new(&scene, &survey(&scene, |_| {}).unwrap());
-        let materials = materials::texts(&scene.materials);
+        let materials = materials::texts(&scene);
         let style = Style { unit: 1.0, digits: 9 };
         let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
         let frame = Frames::new(&scene).next().unwrap().unwrap();

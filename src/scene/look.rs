@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Color;
+use super::{Color, LibraryMaterial, Pattern};
 
 /// What bodies look like.
 #[derive(Clone, Debug)]
@@ -23,6 +23,13 @@ pub enum Look {
         /// How the surface throws light back.
         finish: Finish,
     },
+    /// One of the library.
+    Library {
+        /// Which.
+        material: &'static LibraryMaterial,
+        /// Its color, unless it has colors of its own.
+        color: Option<Color>,
+    },
     /// The checkered look of the ground, for planes without a material.
     Checkered,
     /// A texture that an include file declares.
@@ -34,7 +41,20 @@ pub enum Look {
 impl Look {
     /// Whether a body of this look that is the same from all sides looks the same however it is turned.
     pub fn is_uniform(&self) -> bool {
-        matches!(self, Look::Plain { .. })
+        match self {
+            Look::Plain { .. } => true,
+            Look::Library { material, .. } => material.pattern == Pattern::None,
+            Look::Checkered | Look::Texture(_) | Look::Sdl(_) => false,
+        }
+    }
+
+    /// Whether it shines by itself, so that a lamp in a body of it must shine out.
+    pub fn glows(&self) -> bool {
+        match self {
+            Look::Plain { finish, .. } => *finish == Finish::Luminous,
+            Look::Library { material, .. } => material.glows(),
+            Look::Checkered | Look::Texture(_) | Look::Sdl(_) => false,
+        }
     }
 }
 
@@ -59,6 +79,11 @@ impl Finish {
     /// All of them.
     pub const ALL: [Finish; 6] =
         [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Mirror, Finish::Luminous];
+
+    /// The finish of a name.
+    pub fn named(name: &str) -> Option<Finish> {
+        Finish::ALL.into_iter().find(|finish| finish.name() == name)
+    }
 
     /// Its name in scenes and templates.
     pub fn name(self) -> &'static str {

@@ -7,6 +7,7 @@
 mod check;
 mod color;
 pub mod grammar;
+mod library;
 mod look;
 mod model;
 mod number;
@@ -16,6 +17,7 @@ pub mod source;
 use std::path::Path;
 
 pub use color::Color;
+pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
     Camera, Environment, Finish, Ground, Include, Light, LightKind, Look, Material, Output, PovRay, Sky,
 };

@@ -6,6 +6,7 @@
 mod every_script;
 mod hostile;
 mod image;
+mod library;
 mod lights;
 mod looks;
 mod pinhole;

@@ -8,7 +8,7 @@ use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, Material};
+use crate::scene::{Body, LibraryMaterial, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -192,6 +192,8 @@ fn material(
     }
     // Also a body with a material of its own takes its turn: giving it one changes no other's color.
     let usual = palette.next(shape);
-    let given = view.text("material").and_then(|name| context.names.materials.get(name));
-    Some(given.copied().unwrap_or_else(|| palette.material(usual, materials)))
+    let Some(name) = view.text("material") else { return Some(palette.material(usual, materials)) };
+    let number = context.names.materials.get(name).copied();
+    let number = number.or_else(|| Some(palette.of_library(LibraryMaterial::named(name)?, materials)));
+    Some(number.unwrap_or_else(|| palette.material(usual, materials)))
 }

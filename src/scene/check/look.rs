@@ -1,4 +1,4 @@
-//! `[material.NAME]`, `[camera]`, `[light.NAME]`, `[environment]`, `[output]`.
+//! `[camera]`, `[light.NAME]`, `[environment]`, `[output]`.
 
 use glam::DVec3;
 
@@ -6,38 +6,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
-use crate::scene::{
-    Body, Camera, Color, Environment, Finish, Ground, Light, LightKind, Look, Material, Output, Sky,
-};
-
-pub(super) fn materials(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
-    let povray = root.table("povray");
-    let declares = povray.has("include") || povray.has("sdl");
-    let read = |(name, _, view): (&str, _, View<'_>)| {
-        if let (Some(texture), Some(span), false) = (view.text("texture"), view.span("texture"), declares) {
-            let error =
-                Diagnostic::error("undeclared-texture", format!("nothing declares the texture `{texture}`"));
-            let help = "name the include file that does: `[povray]` `include = [\"metals.inc\"]`";
-            context.diagnostics.push(error.at(span, "").help(help));
-        }
-        Material { name: name.to_owned(), look: look(&view) }
-    };
-    root.named("material").into_iter().map(read).collect()
-}
-
-fn look(view: &View<'_>) -> Look {
-    if let Some(texture) = view.text("texture") {
-        return Look::Texture(texture.to_owned());
-    }
-    if let Some(sdl) = view.text("sdl") {
-        return Look::Sdl(sdl.to_owned());
-    }
-    let named = |name: &str| Finish::ALL.into_iter().find(|finish| finish.name() == name);
-    Look::Plain {
-        color: view.color("color").unwrap_or(Color::WHITE),
-        finish: view.text("finish").and_then(named).unwrap_or(Finish::Glossy),
-    }
-}
+use crate::scene::{Body, Camera, Color, Environment, Ground, Light, LightKind, Output, Sky};
 
 pub(super) fn camera(view: &View<'_>, context: &mut Context<'_>) -> Camera {
     let camera = Camera {

@@ -4,6 +4,7 @@ mod body;
 mod consequence;
 mod force;
 mod look;
+mod material;
 mod povray;
 mod read;
 mod sdl;
@@ -111,7 +112,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
 fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Context<'_>) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
-    let mut materials = look::materials(&root, context);
+    let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &mut materials, context);
     let forces = force::read(&root, &bodies, context);
     if bodies.is_empty() {

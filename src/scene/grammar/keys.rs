@@ -8,7 +8,7 @@ use super::Kind::{
 };
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
-use crate::scene::Finish;
+use crate::scene::{Finish, MATERIALS};
 
 const ANY: Kind = Number(Bound::Any);
 const POSITIVE: Kind = Number(Bound::Positive);
@@ -22,6 +22,10 @@ fn integrators() -> Vec<&'static str> {
 
 fn finishes() -> Vec<&'static str> {
     Finish::ALL.iter().map(|finish| finish.name()).collect()
+}
+
+fn library() -> Vec<&'static str> {
+    MATERIALS.iter().map(|material| material.name).collect()
 }
 
 /// A whole scene.
@@ -122,9 +126,13 @@ static BODY: TableSpec = TableSpec {
         Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
             .default("false")
             .also(&["static", "anchored", "kinematic"]),
-        Key::new("material", Reference(Collection::Material), "What it looks like: a `[material.NAME]`")
-            .default("a color of the palette, after its place in the file")
-            .also(&["color", "colour", "texture", "look"]),
+        Key::new(
+            "material",
+            Reference(Collection::Material),
+            "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md)",
+        )
+        .default("a color of the palette, after its place in the file")
+        .also(&["color", "colour", "texture", "look"]),
     ],
 };
 
@@ -255,11 +263,14 @@ static SPRING: TableSpec = TableSpec {
 
 static MATERIAL: TableSpec = TableSpec {
     noun: "a material",
-    rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "texture", "sdl"]]),
+    rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]),
     keys: &[
         Key::new("color", Color, "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", or a name")
-            .default("white")
+            .default("white, or that of what it is `like`")
             .also(&["colour", "rgb", "pigment", "diffuse"]),
+        Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
+            .default("from `color` and `finish`")
+            .also(&["base", "preset", "kind", "from", "extends"]),
         Key::new("finish", Choice(finishes), "How its surface throws light back").default("glossy"),
         Key::new("texture", Identifier, "A texture that an include file declares, by its name")
             .default("from `color` and `finish`"),
