@@ -44,6 +44,8 @@ shape.box.size = [1, 1, 1]
 material = "wood"
 ```
 
+Or it has a material of its own, with the keys of a `[material.NAME]`: `material.color = "tomato"`.
+
 With `like`, a material of the scene starts from one of these, and `color` tints it:
 
 ```toml

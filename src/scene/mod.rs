@@ -6,6 +6,7 @@
 
 mod check;
 mod color;
+mod color_names;
 pub mod grammar;
 mod library;
 mod look;
@@ -40,7 +41,7 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The forces that are not a single body's own, in the order of the file.
     pub forces: Vec<Force>,
-    /// The materials of the file in its order, then those of the palette that bodies without a material have.
+    /// The materials of the file in its order, then those of bodies' own, the library and the palette.
     pub materials: Vec<Material>,
     /// From where the scene is seen.
     pub camera: Camera,

@@ -20,7 +20,7 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
     let mut palette = Palette::default();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let shape = shape(&view.table("shape"));
-        let material = material(&view, &shape, materials, &mut palette, context);
+        let material = material(name, root, &view, &shape, materials, &mut palette, context);
         Body { name: name.to_owned(), shape, start: start(name, span, &view, &shape, context), material }
     };
     tables.into_iter().map(read).collect()
@@ -178,6 +178,8 @@ fn euler(angles: DVec3) -> DQuat {
 
 /// The number of a body's material; bodies without one get one of the palette's, and axes have colors of their own.
 fn material(
+    name: &str,
+    root: &View<'_>,
     view: &View<'_>,
     shape: &Shape,
     materials: &mut Vec<Material>,
@@ -192,6 +194,11 @@ fn material(
     }
     // Also a body with a material of its own takes its turn: giving it one changes no other's color.
     let usual = palette.next(shape);
+    if let Some(table) = view.variant("material") {
+        let look = super::material::look(&table, root, context);
+        materials.push(Material { name: name.to_owned(), look });
+        return Some(materials.len() - 1);
+    }
     let Some(name) = view.text("material") else { return Some(palette.material(usual, materials)) };
     let number = context.names.materials.get(name).copied();
     let number = number.or_else(|| Some(palette.of_library(LibraryMaterial::named(name)?, materials)));

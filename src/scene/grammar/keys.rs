@@ -128,11 +128,11 @@ static BODY: TableSpec = TableSpec {
             .also(&["static", "anchored", "kinematic"]),
         Key::new(
             "material",
-            Reference(Collection::Material),
-            "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md)",
+            Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
+            "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md); or its keys, here",
         )
         .default("a color of the palette, after its place in the file")
-        .also(&["color", "colour", "texture", "look"]),
+        .also(&["look"]),
     ],
 };
 
@@ -265,12 +265,16 @@ static MATERIAL: TableSpec = TableSpec {
     noun: "a material",
     rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]),
     keys: &[
-        Key::new("color", Color, "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", or a name")
-            .default("white, or that of what it is `like`")
-            .also(&["colour", "rgb", "pigment", "diffuse"]),
+        Key::new(
+            "color",
+            Color,
+            "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a name of CSS",
+        )
+        .default("white, or that of what it is `like`")
+        .also(&["colour", "rgb", "pigment", "diffuse"]),
         Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
             .default("from `color` and `finish`")
-            .also(&["base", "preset", "kind", "from", "extends"]),
+            .also(&["base", "kind", "extends"]),
         Key::new("finish", Choice(finishes), "How its surface throws light back").default("glossy"),
         Key::new("texture", Identifier, "A texture that an include file declares, by its name")
             .default("from `color` and `finish`"),
