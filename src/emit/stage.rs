@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
 use crate::dynamics::Shape;
-use crate::scene::{Color, Light, LightKind, Scene, Sky};
+use crate::scene::{Color, Environment, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
 /// What surrounds the bodies. Lengths are in POV-Ray's units.
@@ -28,6 +28,10 @@ pub(super) struct Stage {
     tiles_fade: f64,
     /// The distance from the middle over which ground and checkered planes fade into the horizon.
     fade: f64,
+    /// The name of the surroundings.
+    preset: &'static str,
+    /// The ambient light, linear; none: as materials expect it.
+    ambient: Option<[f64; 3]>,
     sky: SkyText,
     fog: bool,
     /// The number of a body that POV-Ray may not draw.
@@ -123,10 +127,22 @@ impl Stage {
             tiles_fade: 4.5 * size / unit,
             // From far away, more of the ground is to be seen.
             fade: 11.0 * size.max(distance / 2.0) / unit,
+            preset: scene.environment.preset.name(),
+            ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
             sky,
             fog: scene.environment.fog,
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
+    }
+}
+
+/// The ambient light, linear: that of the preset, or what a plain sky sends.
+fn ambient(environment: &Environment) -> [f64; 3] {
+    match environment.sky {
+        Sky::Gradient => environment.preset.ambient(),
+        // A plain sky of a light gray is as bright as the usual one. A little is left below a black one, since no
+        // place is quite without light.
+        Sky::Plain(color) => linear(color).map(|c| (0.03 + 1.6 * c).min(1.0)),
     }
 }
 

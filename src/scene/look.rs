@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Color, LibraryMaterial, Pattern};
+use super::{Color, LibraryMaterial, Pattern, Preset};
 
 /// What bodies look like.
 #[derive(Clone, Debug)]
@@ -149,6 +149,8 @@ pub enum LightKind {
 /// Ground, sky and fog.
 #[derive(Clone, Debug)]
 pub struct Environment {
+    /// What goes together where nothing else is given.
+    pub preset: Preset,
     /// The ground, if there is one.
     pub ground: Option<Ground>,
     /// The sky.
@@ -169,7 +171,7 @@ pub struct Ground {
 /// The sky.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sky {
-    /// Blue, paler towards the horizon.
+    /// That of the preset.
     Gradient,
     /// The same color everywhere.
     Plain(Color),

@@ -13,6 +13,7 @@ mod look;
 mod model;
 mod number;
 mod palette;
+mod preset;
 pub mod source;
 
 use std::path::Path;
@@ -24,6 +25,7 @@ pub use look::{
 };
 pub use model::{Body, Force, ForceKind, Simulation, SpringEnd};
 pub use number::Number;
+pub use preset::Preset;
 pub use source::Override;
 
 use crate::diagnostic::Report;

@@ -6,7 +6,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
-use crate::scene::{Body, Camera, Color, Environment, Ground, Light, LightKind, Output, Sky};
+use crate::scene::{Body, Camera, Color, Environment, Ground, Light, LightKind, Output, Preset, Sky};
 
 pub(super) fn camera(view: &View<'_>, context: &mut Context<'_>) -> Camera {
     let camera = Camera {
@@ -50,17 +50,21 @@ fn light_kind(view: &View<'_>) -> Option<LightKind> {
     Some(LightKind::Sun { direction: DVec3::from_array(direction) })
 }
 
-pub(super) fn environment(view: &View<'_>, bodies: &[Body]) -> Environment {
+pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
+    let view = root.table("environment");
+    let name = root.text("environment").or_else(|| view.text("preset"));
+    let preset = name.and_then(Preset::named).unwrap_or_default();
     let has_plane = bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
     let table = view.variant("ground");
     let given = table.map(|t| Ground { height: t.number("height"), tile: t.number("tile") });
-    let wanted = view.boolean("ground").unwrap_or(!has_plane);
+    let wanted = view.boolean("ground").unwrap_or(preset.has_ground() && !has_plane);
     let sky = match (view.boolean("sky"), view.color("sky")) {
         (_, Some(color)) => Sky::Plain(color),
         (Some(false), None) => Sky::Plain(Color([0.0; 3])),
         (_, None) => Sky::Gradient,
     };
     Environment {
+        preset,
         ground: given.or_else(|| wanted.then(Ground::default)),
         fog: view.boolean("fog").unwrap_or(true),
         sky,

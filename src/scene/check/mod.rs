@@ -127,7 +127,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         simulation,
         camera: look::camera(&root.table("camera"), context),
         lights: look::lights(&root),
-        environment: look::environment(&root.table("environment"), &bodies),
+        environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),
         digest: digest(input, options, &povray.include),
         bodies,

@@ -8,7 +8,7 @@ use super::Kind::{
 };
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
-use crate::scene::{Finish, MATERIALS};
+use crate::scene::{Finish, MATERIALS, Preset};
 
 const ANY: Kind = Number(Bound::Any);
 const POSITIVE: Kind = Number(Bound::Positive);
@@ -22,6 +22,10 @@ fn integrators() -> Vec<&'static str> {
 
 fn finishes() -> Vec<&'static str> {
     Finish::ALL.iter().map(|finish| finish.name()).collect()
+}
+
+fn presets() -> Vec<&'static str> {
+    Preset::ALL.iter().map(|preset| preset.name()).collect()
 }
 
 fn library() -> Vec<&'static str> {
@@ -47,7 +51,13 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new("camera", Table(&CAMERA), "From where the scene is seen"),
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
-        Key::new("environment", Table(&ENVIRONMENT), "Ground, sky and fog").also(&["world"]),
+        Key::new(
+            "environment",
+            Either(&[Choice(presets), Table(&ENVIRONMENT)]),
+            "Ground, sky, fog and the usual lights: a name is short for `environment.preset`",
+        )
+        .default("\"daylight\"")
+        .also(&["world"]),
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
     ],
@@ -353,12 +363,22 @@ static ENVIRONMENT: TableSpec = TableSpec {
     noun: "the environment",
     rule: Rule::Any,
     keys: &[
+        Key::new(
+            "preset",
+            Choice(presets),
+            "Sky, ground, usual lights and ambient light that go together; each can be replaced",
+        )
+        .default("\"daylight\""),
         Key::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
-            .default("true, and false where a body is a plane")
+            .default("true, and false in space and where a body is a plane")
             .also(&["floor"]),
-        Key::new("sky", Either(&[Boolean, Color]), "The sky: the usual one, a plain color, or none (black)")
-            .default("true")
-            .also(&["background"]),
+        Key::new(
+            "sky",
+            Either(&[Boolean, Color]),
+            "The sky: that of the preset, a plain color, or none (black)",
+        )
+        .default("true")
+        .also(&["background"]),
         Key::new("fog", Boolean, "Haze in which the ground fades towards the horizon")
             .default("true")
             .also(&["haze"]),
