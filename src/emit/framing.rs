@@ -119,7 +119,7 @@ pub(super) fn decimal_step(number: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const WIDE: Output = Output { width: 1280, height: 720 };
+    const WIDE: Output = Output { width: 1280, height: 720, transparent: false };
 
     #[test]
     fn all_corners_are_in_the_picture_and_it_is_filled() {

@@ -33,6 +33,8 @@ pub(super) struct Stage {
     /// The ambient light, linear; none: as materials expect it.
     ambient: Option<[f64; 3]>,
     sky: SkyText,
+    /// Whether there is nothing behind the bodies.
+    transparent: bool,
     fog: bool,
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
@@ -98,7 +100,7 @@ impl Stage {
         let unit =
             scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, camera), thinnest.map(|(_, half)| half)));
 
-        let ground = scene.environment.ground.as_ref().map(|ground| {
+        let ground = scene.environment.ground.as_ref().filter(|_| !scene.output.transparent).map(|ground| {
             let tile = ground.tile.unwrap_or_else(|| tile(size));
             GroundText {
                 height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
@@ -130,6 +132,7 @@ impl Stage {
             preset: scene.environment.preset.name(),
             ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
             sky,
+            transparent: scene.output.transparent,
             fog: scene.environment.fog,
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }

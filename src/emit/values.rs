@@ -44,6 +44,7 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         padding => "0".repeat(if last == 0 { digits } else { digits - last.to_string().len() }),
         width => scene.output.width,
         height => scene.output.height,
+        transparent => scene.output.transparent,
         frame_rate => scene.simulation.frame_rate,
         end => scene.simulation.time(last),
     }

@@ -211,4 +211,6 @@ pub struct Output {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
+    /// Whether nothing stands behind the bodies: no sky, no ground, and alpha in the images.
+    pub transparent: bool,
 }

@@ -72,7 +72,8 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
 }
 
 pub(super) fn output(view: &View<'_>) -> Output {
-    let mut output = Output { width: 1280, height: 720 };
+    let mut output =
+        Output { width: 1280, height: 720, transparent: view.boolean("transparent").unwrap_or(false) };
     if let Some([width, height]) = view.list("size") {
         let pixels = |node| super::read::integer(node, 1, 65535).ok().and_then(|n| u32::try_from(n).ok());
         output.width = pixels(width).unwrap_or(output.width);

@@ -422,12 +422,17 @@ static POVRAY: TableSpec = TableSpec {
 static OUTPUT: TableSpec = TableSpec {
     noun: "the output",
     rule: Rule::Any,
-    keys: &[Key::new(
-        "size",
-        List { of: &Integer(1, 65535), min: 2, max: 2 },
-        "Width and height of the images",
-    )
-    .unit("pixels")
-    .default("[1280, 720]")
-    .also(&["resolution", "width", "height"])],
+    keys: &[
+        Key::new("size", List { of: &Integer(1, 65535), min: 2, max: 2 }, "Width and height of the images")
+            .unit("pixels")
+            .default("[1280, 720]")
+            .also(&["resolution", "width", "height"]),
+        Key::new(
+            "transparent",
+            Boolean,
+            "Whether the images have no background: no sky and no ground, but transparency (alpha)",
+        )
+        .default("false")
+        .also(&["alpha"]),
+    ],
 };
