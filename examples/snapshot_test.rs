@@ -51,7 +51,7 @@ fn the_stone_after_ten_frames() {
     #version 3.7;
     // A stone is thrown
     // right-handed: x right, y up, z towards the viewer; one unit is 1 m
-    global_settings { assumed_gamma 1.0 charset utf8 }
+    global_settings { assumed_gamma 1.0 charset utf8 ambient_light rgb <0.03, 0.03, 0.03> }
 
     camera {
       location <1.5, 0.5, 6>

@@ -3,9 +3,9 @@
 //! The names come from the tables that scenes are checked with. A new category is one line in [`CATEGORIES`].
 
 use crate::dynamics::METHODS;
-use crate::scene::Finish;
 use crate::scene::color_names;
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::{Finish, MATERIALS, Preset};
 
 /// Things of one sort to choose from.
 pub struct Category {
@@ -24,6 +24,8 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
     Category { name: "lights", place: "[light.NAME]", entries: || variants(&["light"]) },
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
+    Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
+    Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
 ];
 
@@ -33,6 +35,14 @@ fn integrators() -> Vec<(&'static str, String)> {
 
 fn finishes() -> Vec<(&'static str, String)> {
     Finish::ALL.iter().map(|finish| (finish.name(), finish.summary().to_owned())).collect()
+}
+
+fn materials() -> Vec<(&'static str, String)> {
+    MATERIALS.iter().map(|material| (material.name, material.meaning.to_owned())).collect()
+}
+
+fn environments() -> Vec<(&'static str, String)> {
+    Preset::ALL.iter().map(|preset| (preset.name(), preset.meaning().to_owned())).collect()
 }
 
 /// What a table of which exactly one key is given can be, with the keys of each.

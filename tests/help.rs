@@ -11,13 +11,19 @@ fn list_shows_what_there_is_to_choose_from() {
     let output = jabuka().args(["list", "shapes"]).output().unwrap();
     assert!(output.status.success());
     insta::assert_snapshot!(stdout(&output), @r"
-    sphere  A ball (`radius`)
-    box     A box (`size`)
-    plane   An endless plane, which is always fixed (`normal`)
-    axes    A triad of arrows along x, y, z, as heavy as a ball of half their length (`length`)
+    sphere    A ball (`radius`)
+    box       A box, also with round edges (`size`, `rounding`)
+    cylinder  A cylinder (`radius`, `height`)
+    capsule   A cylinder with a half ball on either end (`radius`, `height`)
+    cone      A cone that points up, or a part of one; its centre of mass is a quarter of the height above its base (`radius`, `height`, `top_radius`)
+    torus     A ring around the y axis (`radius`, `tube_radius`)
+    plane     An endless plane, which is always fixed (`normal`)
+    axes      A triad of arrows along x, y, z, as heavy as a ball of half their length (`length`)
+    compound  Several solids of one density as one body; its `location` is the centre of mass of all (`parts`)
+    sdl       An object in POV-Ray's own words, and what stands in for it in mechanics (`object`, `stand_in`)
     ");
     let said = stdout(&jabuka().args(["list", "colors"]).output().unwrap());
-    assert!(said.starts_with("white    #ffffff\n"), "{said}");
+    assert!(said.starts_with("aliceblue             #f0f8ff\n"), "{said}");
     let said = stdout(&jabuka().arg("list").output().unwrap());
     assert_eq!(said.lines().count(), CATEGORIES.len());
 }

@@ -118,7 +118,7 @@ fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style)
     Group {
         before: format!("union {{ // {}: {} bodies\n", text::comment(&material.name), bodies.len()),
         bodies: bodies.iter().map(item).collect(),
-        after: format!("  {}\n}}\n", material.usage),
+        after: format!("  {}\n}}\n", material.usage()),
     }
 }
 
@@ -127,8 +127,9 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
-    if let (&Shape::Plane { normal }, Some(material)) = (&body.shape, material.filter(|m| m.makes_plane)) {
-        let before = format!("{}(transform {{ ", material.identifier);
+    let plane_macro = material.and_then(MaterialText::plane_macro);
+    if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {
+        let before = format!("{plane}(transform {{ ");
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
         return Group { before: String::new(), bodies: vec![item], after: String::new() };
@@ -136,7 +137,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     // What words of the scene's own make of a body may look different when it turns.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
     let (mut before, place, mut after) = shape(body, uniform, style);
-    let usage = material.map_or(String::new(), |material| format!(" {}", material.usage));
+    let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
     // On lines of their own, since the words may end with a comment.
     let own = |sdl: &Option<String>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
     let usage = usage + &own(&body.look.sdl_before);

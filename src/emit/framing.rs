@@ -151,7 +151,8 @@ pub(super) fn decimal_step(number: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const WIDE: Output = Output { width: 1280, height: 720, layout: crate::scene::Layout::SelfContained };
+    const WIDE: Output =
+        Output { width: 1280, height: 720, layout: crate::scene::Layout::SelfContained, transparent: false };
 
     #[test]
     fn all_corners_are_in_the_picture_and_it_is_filled() {

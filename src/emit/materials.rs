@@ -1,9 +1,12 @@
 //! The materials of a scene as the scripts know them.
 
+use glam::DVec3;
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 
+use super::sdl::Style;
 use super::text::Identifiers;
-use crate::scene::{Look, Material};
+use crate::scene::{Body, Look, Material, Pattern, Scene};
 
 /// A material as templates see it.
 #[derive(Clone, Debug, Serialize)]
@@ -12,56 +15,75 @@ pub(super) struct MaterialText {
     pub(super) name: String,
     /// Its identifier in the scripts.
     pub(super) identifier: String,
-    /// `plain`, `checkered`, `texture` or `sdl`.
+    /// `plain`, `library`, `checkered`, `texture` or `sdl`.
     kind: &'static str,
-    /// Of a plain one: its color in sRGB.
+    /// Of a plain one and one of the library: its color in sRGB.
     color: Option<[f64; 3]>,
     /// Of a plain one: the name of its finish.
     finish: Option<&'static str>,
+    /// Of one of the library: its name there.
+    like: Option<&'static str>,
+    /// Of one of the library: the template of its family.
+    family: Option<&'static str>,
+    /// Of a clear one of the library: how strongly it refracts light.
+    ior: Option<f64>,
+    /// Whether it shines by itself, and casts no shadow.
+    glows: bool,
+    /// Whether a plane is made of it, which must be able to fade.
+    on_plane: bool,
     /// The name of the texture that an include file declares.
     texture: Option<String>,
     /// POV-Ray's own words.
     sdl: Option<String>,
-    /// What stands in an object that is made of it.
+    /// Its pattern, if bodies have it in a size of their own.
     #[serde(skip)]
-    pub(super) usage: String,
+    pattern: Pattern,
     /// Whether it looks the same however it is turned.
     #[serde(skip)]
     pub(super) is_uniform: bool,
-    /// Whether it is a macro that makes a whole plane of a transform.
-    #[serde(skip)]
-    pub(super) makes_plane: bool,
 }
 
 /// The materials of a scene, each with an identifier of its own.
-pub(super) fn texts(materials: &[Material]) -> Vec<MaterialText> {
+pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
     let mut identifiers = Identifiers::default();
-    materials.iter().map(|material| text(material, &mut identifiers)).collect()
+    let mut texts: Vec<_> = scene.materials.iter().map(|m| text(m, &mut identifiers)).collect();
+    for body in scene.bodies.iter().filter(|body| body.shape.is_unbounded()) {
+        if let Some(material) = body.material {
+            texts[material].on_plane = true;
+        }
+    }
+    texts
 }
 
 fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
-    let identifier = identifiers.add("Material", &material.name);
-    let usage = match &material.look {
-        // Raw SDL may hold more than a texture, so it is a macro, whose text stands wherever it is called.
-        Look::Sdl(_) => format!("{identifier}()"),
-        _ => format!("material {{ {identifier} }}"),
-    };
     let mut text = MaterialText {
         name: material.name.clone(),
-        identifier,
+        identifier: identifiers.add("Material", &material.name),
         kind: "plain",
         color: None,
         finish: None,
+        like: None,
+        family: None,
+        ior: None,
+        glows: material.look.glows(),
+        on_plane: false,
         texture: None,
         sdl: None,
-        usage,
+        pattern: Pattern::None,
         is_uniform: material.look.is_uniform(),
-        makes_plane: matches!(material.look, Look::Checkered),
     };
     match &material.look {
         Look::Plain { color, finish } => {
             text.color = Some(color.0);
             text.finish = Some(finish.name());
+        }
+        Look::Library { material, color } => {
+            text.kind = "library";
+            text.color = color.map(|color| color.0);
+            text.like = Some(material.name);
+            text.family = Some(material.family);
+            text.ior = material.ior;
+            text.pattern = material.pattern;
         }
         Look::Checkered => text.kind = "checkered",
         Look::Texture(texture) => {
@@ -74,4 +96,81 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         }
     }
     text
+}
+
+impl MaterialText {
+    /// The name of a macro that makes a whole plane of a transform, if planes of this material need one: to fade into
+    /// the haze, or to have a pattern of the size of the ground's tiles.
+    pub(super) fn plane_macro(&self) -> Option<String> {
+        match self.kind {
+            "checkered" => Some(self.identifier.clone()),
+            "plain" | "library" if self.on_plane => Some(format!("{}_plane", self.identifier)),
+            _ => None,
+        }
+    }
+
+    /// What stands in an object that is made of it, for all bodies alike.
+    pub(super) fn usage(&self) -> String {
+        match self.kind {
+            // Raw SDL may hold more than a texture, so it is a macro, whose text stands wherever it is called.
+            "sdl" => format!("{}()", self.identifier),
+            _ if self.glows => format!("material {{ {} }} no_shadow", self.identifier),
+            _ => format!("material {{ {} }}", self.identifier),
+        }
+    }
+
+    /// What stands in a body that is made of it.
+    ///
+    /// A pattern is made for a ball of radius 1. On a body it is as large as for a ball of the same volume: a crate has
+    /// as many rings of wood as a matchbox.
+    pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
+        let (Pattern::Centred | Pattern::Cut, Some(volume)) = (self.pattern, body.shape.volume()) else {
+            return self.usage();
+        };
+        let mut place = String::new();
+        if self.pattern == Pattern::Cut {
+            place.push_str(" translate ");
+            Style { unit: 1.0, ..style }.vector(&mut place, of_name(&body.name));
+        }
+        place.push_str(" scale ");
+        style.length(&mut place, libm::cbrt(volume * 0.75 / std::f64::consts::PI));
+        let no_shadow = if self.glows { " no_shadow" } else { "" };
+        format!("material {{ {}{place} }}{no_shadow}", self.identifier)
+    }
+}
+
+/// A place within a block of a patterned material, from which the body of a name is cut; not far, so that a place that
+/// the pattern is centred on, as the rings of wood are, stays in sight.
+fn of_name(name: &str) -> DVec3 {
+    let digest = Sha256::digest(name);
+    let [x, y, z] = [0, 1, 2].map(|i| f64::from(digest[i]) / 256.0);
+    // Two decimals are enough to tell two bodies apart.
+    (DVec3::new(3.0 * x, 0.4 * y, 0.4 * z) * 100.0).round() / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pattern_is_as_large_as_the_body() {
+        let scene = |size: f64| {
+            let text =
+                format!("[body.crate]\nshape.box.size = [{size}, {size}, {size}]\nmaterial = \"striped\"\n");
+            Scene::parse(&text).unwrap()
+        };
+        let usage = |size: f64, unit: f64| {
+            let scene = scene(size);
+            texts(&scene)[0].usage_in(&scene.bodies[0], Style { unit, digits: 4 })
+        };
+        assert_eq!(usage(1.0, 1.0), "material { Material_striped scale 0.6204 }");
+        assert_eq!(usage(10.0, 1.0), "material { Material_striped scale 6.204 }");
+        assert_eq!(usage(10.0, 10.0), usage(1.0, 1.0));
+    }
+
+    #[test]
+    fn bodies_are_cut_from_different_places() {
+        assert_ne!(of_name("a"), of_name("b"));
+        assert!(of_name("a").abs().max_element() <= 3.0);
+    }
 }

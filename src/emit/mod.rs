@@ -53,7 +53,7 @@ impl Emitter {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let stage = Stage::new(scene, camera, survey);
         let style = Style { unit: stage.unit, digits: scene.povray.digits };
-        let materials = materials::texts(&scene.materials);
+        let materials = materials::texts(scene);
         let common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
         let (in_every_script, shared) = match scene.output.layout {
             Layout::SelfContained => (common, None),

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::camera::{CameraText, Placed};
 use super::framing;
-use crate::scene::{Body, Camera, Color, Light, LightKind, Scene, Sky};
+use crate::scene::{Body, Camera, Color, Environment, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
 /// What surrounds the bodies. Lengths are in POV-Ray's units.
@@ -28,7 +28,13 @@ pub(super) struct Stage {
     tiles_fade: f64,
     /// The distance from the middle over which ground and checkered planes fade into the horizon.
     fade: f64,
+    /// The name of the surroundings.
+    preset: &'static str,
+    /// The ambient light, linear; none: as materials expect it.
+    ambient: Option<[f64; 3]>,
     sky: SkyText,
+    /// Whether there is nothing behind the bodies.
+    transparent: bool,
     fog: bool,
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
@@ -82,7 +88,7 @@ impl Stage {
         let unit =
             scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, &camera), thinnest.map(|(_, half)| half)));
 
-        let ground = scene.environment.ground.as_ref().map(|ground| {
+        let ground = scene.environment.ground.as_ref().filter(|_| !scene.output.transparent).map(|ground| {
             let tile = ground.tile.unwrap_or_else(|| tile(size));
             GroundText {
                 height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
@@ -106,11 +112,24 @@ impl Stage {
             tiles_fade: 4.5 * size / unit,
             // From far away, more of the ground is to be seen.
             fade: 11.0 * size.max(distance / 2.0) / unit,
+            preset: scene.environment.preset.name(),
+            ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
             sky,
+            transparent: scene.output.transparent,
             fog: scene.environment.fog,
             too_small: largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
+    }
+}
+
+/// The ambient light, linear: that of the preset, or what a plain sky sends.
+fn ambient(environment: &Environment) -> [f64; 3] {
+    match environment.sky {
+        Sky::Gradient => environment.preset.ambient(),
+        // A plain sky of a light gray is as bright as the usual one. A little is left below a black one, since no
+        // place is quite without light.
+        Sky::Plain(color) => linear(color).map(|c| (0.03 + 1.6 * c).min(1.0)),
     }
 }
 

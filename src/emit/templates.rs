@@ -20,6 +20,15 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("environment.inc", include_str!("../../templates/environment.inc")),
     ("materials.inc", include_str!("../../templates/materials.inc")),
     ("rounded_box.inc", include_str!("../../templates/rounded_box.inc")),
+    ("library/metals.inc", include_str!("../../templates/library/metals.inc")),
+    ("library/clear.inc", include_str!("../../templates/library/clear.inc")),
+    ("library/smooth.inc", include_str!("../../templates/library/smooth.inc")),
+    ("library/soft.inc", include_str!("../../templates/library/soft.inc")),
+    ("library/earths.inc", include_str!("../../templates/library/earths.inc")),
+    ("library/stones.inc", include_str!("../../templates/library/stones.inc")),
+    ("library/woods.inc", include_str!("../../templates/library/woods.inc")),
+    ("library/toys.inc", include_str!("../../templates/library/toys.inc")),
+    ("library/planets.inc", include_str!("../../templates/library/planets.inc")),
     ("axes.inc", include_str!("../../templates/axes.inc")),
     ("animation.pov", include_str!("../../templates/animation.pov")),
     ("animation.ini", include_str!("../../templates/animation.ini")),
@@ -37,9 +46,10 @@ pub fn write_templates(folder: &Path) -> io::Result<usize> {
     if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
         return Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("`{name}` is there already")));
     }
-    fs::create_dir_all(folder)?;
     for (name, text) in files() {
-        let mut file = fs::File::create_new(folder.join(name))?;
+        let path = folder.join(name);
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        let mut file = fs::File::create_new(path)?;
         io::Write::write_all(&mut file, text.as_bytes())?;
     }
     Ok(TEMPLATES.len())

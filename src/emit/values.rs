@@ -51,6 +51,7 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         padding => "0".repeat(if last == 0 { digits } else { digits - last.to_string().len() }),
         width => scene.output.width,
         height => scene.output.height,
+        transparent => scene.output.transparent,
         frame_rate => scene.simulation.frame_rate,
         end => scene.simulation.time(last),
     }
@@ -214,7 +215,7 @@ mod tests {
         )
         .unwrap();
         let stage = Stage::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
-        let materials = materials::texts(&scene.materials);
+        let materials = materials::texts(&scene);
         let style = Style { unit: 1.0, digits: 9 };
         let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
         let frame = Frames::new(&scene).next().unwrap().unwrap();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Color;
+use super::{Color, LibraryMaterial, Pattern, Preset};
 
 /// What bodies look like.
 #[derive(Clone, Debug)]
@@ -23,6 +23,13 @@ pub enum Look {
         /// How the surface throws light back.
         finish: Finish,
     },
+    /// One of the library.
+    Library {
+        /// Which.
+        material: &'static LibraryMaterial,
+        /// Its color, unless it has colors of its own.
+        color: Option<Color>,
+    },
     /// The checkered look of the ground, for planes without a material.
     Checkered,
     /// A texture that an include file declares.
@@ -34,7 +41,20 @@ pub enum Look {
 impl Look {
     /// Whether a body of this look that is the same from all sides looks the same however it is turned.
     pub fn is_uniform(&self) -> bool {
-        matches!(self, Look::Plain { .. })
+        match self {
+            Look::Plain { .. } => true,
+            Look::Library { material, .. } => material.pattern == Pattern::None,
+            Look::Checkered | Look::Texture(_) | Look::Sdl(_) => false,
+        }
+    }
+
+    /// Whether it shines by itself, so that a lamp in a body of it must shine out.
+    pub fn glows(&self) -> bool {
+        match self {
+            Look::Plain { finish, .. } => *finish == Finish::Luminous,
+            Look::Library { material, .. } => material.glows(),
+            Look::Checkered | Look::Texture(_) | Look::Sdl(_) => false,
+        }
     }
 }
 
@@ -59,6 +79,11 @@ impl Finish {
     /// All of them.
     pub const ALL: [Finish; 6] =
         [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Mirror, Finish::Luminous];
+
+    /// The finish of a name.
+    pub fn named(name: &str) -> Option<Finish> {
+        Finish::ALL.into_iter().find(|finish| finish.name() == name)
+    }
 
     /// Its name in scenes and templates.
     pub fn name(self) -> &'static str {
@@ -173,6 +198,8 @@ pub enum LightKind {
 /// Ground, sky and fog.
 #[derive(Clone, Debug)]
 pub struct Environment {
+    /// What goes together where nothing else is given.
+    pub preset: Preset,
     /// The ground, if there is one.
     pub ground: Option<Ground>,
     /// The sky.
@@ -193,7 +220,7 @@ pub struct Ground {
 /// The sky.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sky {
-    /// Blue, paler towards the horizon.
+    /// That of the preset.
     Gradient,
     /// The same color everywhere.
     Plain(Color),
@@ -248,6 +275,8 @@ pub struct Output {
     pub height: u32,
     /// Where the part stands that all scripts have in common.
     pub layout: Layout,
+    /// Whether nothing stands behind the bodies: no sky, no ground, and alpha in the images.
+    pub transparent: bool,
 }
 
 /// Where the part stands that all scripts have in common.

@@ -6,23 +6,28 @@
 
 mod check;
 mod color;
+mod color_names;
 pub mod grammar;
+mod library;
 mod look;
 mod model;
 mod number;
 mod palette;
+mod preset;
 pub mod source;
 
 use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
     Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material, Output,
     OwnTemplate, PovRay, Projection, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use number::Number;
+pub use preset::Preset;
 pub use source::Override;
 
 use crate::diagnostic::Report;
@@ -40,7 +45,7 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The forces that are not a single body's own, in the order of the file.
     pub forces: Vec<Force>,
-    /// The materials of the file in its order, then those of the palette that bodies without a material have.
+    /// The materials of the file in its order, then those of bodies' own, the library and the palette.
     pub materials: Vec<Material>,
     /// From where the scene is seen.
     pub camera: Camera,

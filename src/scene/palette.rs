@@ -1,6 +1,8 @@
-//! The colors of bodies that have no material.
+//! The materials that a scene does not declare: the colors of bodies without one, and those of the library.
 
-use super::{Color, Finish, Look, Material};
+use std::collections::HashMap;
+
+use super::{Color, Finish, LibraryMaterial, Look, Material};
 use crate::dynamics::Shape;
 
 /// The colors, in the order in which bodies get them: neighbours differ most, also for the color-blind.
@@ -15,7 +17,7 @@ const COLORS: [(&str, Color); 8] = [
     ("slate", Color([0.15, 0.18, 0.24])),
 ];
 
-/// The looks of bodies without a material, each made when it is first needed.
+/// The materials that a scene does not declare, each made when it is first needed.
 #[derive(Default)]
 pub(super) struct Palette {
     /// How many bodies have had their turn.
@@ -23,6 +25,8 @@ pub(super) struct Palette {
     /// The numbers of the materials that have been made.
     colors: [Option<usize>; COLORS.len()],
     checkered: Option<usize>,
+    /// The materials of the library that bodies name, by their names.
+    library: HashMap<&'static str, usize>,
 }
 
 /// What a body without a material looks like.
@@ -42,6 +46,18 @@ impl Palette {
         }
         self.turns += 1;
         Usual::Color((self.turns - 1) % COLORS.len())
+    }
+
+    /// The number of a material of the library.
+    pub(super) fn of_library(
+        &mut self,
+        material: &'static LibraryMaterial,
+        materials: &mut Vec<Material>,
+    ) -> usize {
+        *self.library.entry(material.name).or_insert_with(|| {
+            materials.push(Material { name: material.name.to_owned(), look: material.look(None) });
+            materials.len() - 1
+        })
     }
 
     /// The number of the material for a usual look.

@@ -93,3 +93,12 @@ fn the_scenes_own_sdl_stands_in_the_script() {
     let place = front().sees(DVec3::new(2.0, 1.0, 0.0));
     assert!(is_green(image.at(place)), "{:?}", image.at(place));
 }
+
+/// A body's material is a name, or a table of the same keys as a material with a name.
+#[test]
+fn a_material_can_stand_in_the_body() {
+    let ball = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1, 0]\n";
+    let inside = "material.color = \"Lime\"\nmaterial.finish = \"luminous\"\n";
+    let image = render(&script(&format!("{ball}{inside}{}", front().toml())), SIZE);
+    assert_eq!(image.at(middle_and_crown().0), [0, 255, 0]);
+}

@@ -8,6 +8,7 @@ mod hostile;
 mod image;
 mod layouts;
 mod lens;
+mod library;
 mod lights;
 mod looks;
 mod pinhole;

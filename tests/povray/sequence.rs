@@ -54,3 +54,23 @@ fn named_as_scripts(frames: usize) {
     let scripts = stems(&out, ".pov").into_iter().filter(|name| name.starts_with("frame_"));
     assert_eq!(stems(&out, ".png"), scripts.collect::<Vec<_>>(), "{frames} frames");
 }
+
+/// The corner of the image is nothing, and the ball in its middle is not.
+#[test]
+fn a_transparent_background_is_alpha() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let ball = "simulation.duration = 0\n[body.ball]\nshape.sphere.radius = 1\n";
+    std::fs::write(&path, format!("{ball}[output]\nsize = [32, 24]\ntransparent = true\n")).unwrap();
+    let out = folder.path().join("out");
+    support::compile(&path, &out, &[]);
+    povray::run(&out, &["animation.ini"]).nothing("animation.ini");
+    let file = std::fs::File::open(out.join("frame_0000.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgba);
+    let pixel = info.line_size / 32;
+    let alpha = |x: usize, y: usize| bytes[y * info.line_size + x * pixel + pixel / 4 * 3];
+    assert_eq!((alpha(0, 0), alpha(16, 12)), (0, 255));
+}

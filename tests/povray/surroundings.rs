@@ -99,3 +99,61 @@ fn an_empty_scene_has_surroundings() {
         assert!((80.0..240.0).contains(&image.brightness()), "{text}: {}", image.brightness());
     }
 }
+
+/// A ball of moon in these surroundings, which a scene names before all tables.
+fn in_surroundings(preset: &str) -> String {
+    let moon = "[body.ball]\nshape.sphere.radius = 1\nmaterial = \"moon\"\n";
+    let sun = "[light.sun]\nsun.direction = [-1, 0, 0]\n";
+    script(&format!("environment = \"{preset}\"\n{moon}{sun}{}", front().toml()))
+}
+
+#[test]
+fn every_preset_is_to_be_seen_and_is_a_look_of_its_own() {
+    let presets = jabuka::scene::Preset::ALL.map(jabuka::scene::Preset::name);
+    let images = render_all(presets.map(in_surroundings), SIZE);
+    for (i, one) in images.iter().enumerate() {
+        let lit = one.at(front().sees(DVec3::new(0.5, 0.2, 0.8)));
+        assert!(brightness(lit) > 40.0, "{}: {lit:?}", presets[i]);
+        for (j, other) in images.iter().enumerate().skip(i + 1) {
+            assert!(one.difference(other) > 1.0, "{} looks like {}", presets[i], presets[j]);
+        }
+    }
+}
+
+/// Ambient light follows the sky: at night and below a black sky, what no lamp reaches is dark.
+#[test]
+fn the_far_side_of_the_moon_is_dark_at_night() {
+    let scripts = ["daylight", "night", "space"].map(in_surroundings);
+    let plain = scene_of_moon("sky = false\nground = false");
+    let [day, night, space] = render_all(scripts, SIZE);
+    let none = render(&plain, SIZE);
+    let far_side = |image: &Image| brightness(image.at(front().sees(DVec3::new(-0.7, 0.0, 0.5))));
+    assert!(far_side(&day) > 50.0, "{}", far_side(&day));
+    assert!(far_side(&night) < 40.0, "{}", far_side(&night));
+    for image in [&space, &none] {
+        assert!(far_side(image) < 20.0, "{}", far_side(image));
+    }
+}
+
+/// The same moon, in surroundings of its own.
+fn scene_of_moon(environment: &str) -> String {
+    let moon = "[body.ball]\nshape.sphere.radius = 1\nmaterial = \"moon\"\n";
+    let sun = "[light.sun]\nsun.direction = [-1, 0, 0]\n";
+    script(&format!("{moon}{sun}[environment]\n{environment}\n{}", front().toml()))
+}
+
+/// A lamp in a body that shines by itself shines out.
+#[test]
+fn a_lamp_in_a_luminous_ball_lights_the_scene() {
+    let scene = |material: &str| {
+        let text = format!(
+            "[body.lamp]\nshape.sphere.radius = 0.3\nlocation = [0, 2, 0]\nmaterial = \"{material}\"
+[light.lamp]\npoint.location = [0, 2, 0]\n[environment]\npreset = \"night\"\nground.height = 0\n{}",
+            front().toml()
+        );
+        script(&text)
+    };
+    let [shining, matte] = render_all(["luminous", "matte"].map(scene), SIZE);
+    let under = front().sees(DVec3::new(0.5, 0.0, 0.0));
+    assert!(brightness(shining.at(under)) > brightness(matte.at(under)) + 40.0);
+}

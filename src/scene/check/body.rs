@@ -8,7 +8,7 @@ use super::{Context, look, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, Material};
+use crate::scene::{Body, LibraryMaterial, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -20,7 +20,7 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
     let mut palette = Palette::default();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let shape = shape::read(name, &view.table("shape"), context);
-        let material = material(&view, &shape, materials, &mut palette, context);
+        let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
         let look = look::of_body(name, &view, &shape, context);
         Body { name: name.to_owned(), shape, start, material, look }
@@ -170,6 +170,8 @@ fn euler(angles: DVec3) -> DQuat {
 
 /// The number of a body's material; bodies without one get one of the palette's, and axes have colors of their own.
 fn material(
+    name: &str,
+    root: &View<'_>,
     view: &View<'_>,
     shape: &Shape,
     materials: &mut Vec<Material>,
@@ -184,8 +186,17 @@ fn material(
     }
     // Also a body with a material of its own takes its turn: giving it one changes no other's color.
     let usual = palette.next(shape);
-    let given = view.text("material").and_then(|name| context.names.materials.get(name));
+    if let Some(table) = view.variant("material") {
+        let look = super::material::look(&table, root, context);
+        materials.push(Material { name: name.to_owned(), look });
+        return Some(materials.len() - 1);
+    }
     // An object in POV-Ray's own words brings its own textures along, which another one would cover.
     let has_own = view.table("shape").has("sdl");
-    given.copied().or_else(|| (!has_own).then(|| palette.material(usual, materials)))
+    let Some(name) = view.text("material") else {
+        return (!has_own).then(|| palette.material(usual, materials));
+    };
+    let number = context.names.materials.get(name).copied();
+    let number = number.or_else(|| Some(palette.of_library(LibraryMaterial::named(name)?, materials)));
+    Some(number.unwrap_or_else(|| palette.material(usual, materials)))
 }

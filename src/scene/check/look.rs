@@ -1,4 +1,4 @@
-//! `[material.NAME]`, `[light.NAME]`, `[environment]`, `[output]`.
+//! `look` of a body, `[light.NAME]`, `[environment]`, `[output]`.
 
 use glam::DVec3;
 
@@ -7,37 +7,8 @@ use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
 use crate::scene::{
-    Body, BodyLook, Color, Environment, Finish, Ground, Layout, Light, LightKind, Look, Material, Output, Sky,
+    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Sky,
 };
-
-pub(super) fn materials(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
-    let povray = root.table("povray");
-    let declares = povray.has("include") || povray.has("sdl");
-    let read = |(name, _, view): (&str, _, View<'_>)| {
-        if let (Some(texture), Some(span), false) = (view.text("texture"), view.span("texture"), declares) {
-            let error =
-                Diagnostic::error("undeclared-texture", format!("nothing declares the texture `{texture}`"));
-            let help = "name the include file that does: `[povray]` `include = [\"metals.inc\"]`";
-            context.diagnostics.push(error.at(span, "").help(help));
-        }
-        Material { name: name.to_owned(), look: look(&view) }
-    };
-    root.named("material").into_iter().map(read).collect()
-}
-
-fn look(view: &View<'_>) -> Look {
-    if let Some(texture) = view.text("texture") {
-        return Look::Texture(texture.to_owned());
-    }
-    if let Some(sdl) = view.text("sdl") {
-        return Look::Sdl(sdl.to_owned());
-    }
-    let named = |name: &str| Finish::ALL.into_iter().find(|finish| finish.name() == name);
-    Look::Plain {
-        color: view.color("color").unwrap_or(Color::WHITE),
-        finish: view.text("finish").and_then(named).unwrap_or(Finish::Glossy),
-    }
-}
 
 /// `look` of a body.
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
@@ -85,17 +56,21 @@ fn light_kind(view: &View<'_>) -> Option<LightKind> {
     Some(LightKind::Sun { direction: DVec3::from_array(direction) })
 }
 
-pub(super) fn environment(view: &View<'_>, bodies: &[Body]) -> Environment {
+pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
+    let view = root.table("environment");
+    let name = root.text("environment").or_else(|| view.text("preset"));
+    let preset = name.and_then(Preset::named).unwrap_or_default();
     let has_plane = bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
     let table = view.variant("ground");
     let given = table.map(|t| Ground { height: t.number("height"), tile: t.number("tile") });
-    let wanted = view.boolean("ground").unwrap_or(!has_plane);
+    let wanted = view.boolean("ground").unwrap_or(preset.has_ground() && !has_plane);
     let sky = match (view.boolean("sky"), view.color("sky")) {
         (_, Some(color)) => Sky::Plain(color),
         (Some(false), None) => Sky::Plain(Color([0.0; 3])),
         (_, None) => Sky::Gradient,
     };
     Environment {
+        preset,
         ground: given.or_else(|| wanted.then(Ground::default)),
         fog: view.boolean("fog").unwrap_or(true),
         sky,
@@ -105,7 +80,8 @@ pub(super) fn environment(view: &View<'_>, bodies: &[Body]) -> Environment {
 pub(super) fn output(view: &View<'_>) -> Output {
     let named = |name: &str| Layout::ALL.into_iter().find(|layout| layout.name() == name);
     let layout = view.text("layout").and_then(named).unwrap_or(Layout::SelfContained);
-    let mut output = Output { width: 1280, height: 720, layout };
+    let transparent = view.boolean("transparent").unwrap_or(false);
+    let mut output = Output { width: 1280, height: 720, layout, transparent };
     if let Some([width, height]) = view.list("size") {
         let pixels = |node| super::read::integer(node, 1, 65535).ok().and_then(|n| u32::try_from(n).ok());
         output.width = pixels(width).unwrap_or(output.width);

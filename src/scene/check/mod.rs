@@ -6,6 +6,7 @@ mod consequence;
 mod effect;
 mod force;
 mod look;
+mod material;
 mod povray;
 mod read;
 mod sdl;
@@ -115,7 +116,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
 fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Context<'_>) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
-    let mut materials = look::materials(&root, context);
+    let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &mut materials, context);
     let forces = force::read(&root, &bodies, context);
     effect::check(&root, &bodies, &forces, context);
@@ -133,7 +134,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         camera: camera::read(&root.table("camera"), context),
         views: camera::views(&root, context),
         lights: look::lights(&root),
-        environment: look::environment(&root.table("environment"), &bodies),
+        environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),
         digest: digest(input, options, &povray),
         bodies,

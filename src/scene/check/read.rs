@@ -133,16 +133,39 @@ pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Dia
 pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     match &node.value {
         Value::String(text) => Color::parse(text).ok_or_else(|| {
-            let names = crate::scene::color::NAMES.iter().map(|(name, _)| *name);
+            let names = crate::scene::color_names::NAMES.iter().map(|(name, _)| *name);
             let message = format!("`{text}` is not a color");
             let label = match super::suggest::nearest(text, names) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => "expected \"#rrggbb\" or the name of a color".to_owned(),
+                None => "expected \"#rrggbb\", \"#rgb\" or a name of CSS".to_owned(),
             };
             vec![Diagnostic::error("unknown-color", message).at(node.span, label)]
         }),
-        Value::Array(_) => numbers::<3>(node, Bound::From(0.0, 1.0)).map(Color),
+        Value::Array(items) => {
+            let bytes = bytes(items);
+            numbers::<3>(node, Bound::From(0.0, 1.0)).map(Color).map_err(|errors| match bytes {
+                Some([r, g, b]) => {
+                    let message = "the numbers of a color go from 0 to 1, not to 255";
+                    let help = format!("write \"#{r:02x}{g:02x}{b:02x}\", or divide by 255");
+                    vec![Diagnostic::error("out-of-range", message).at(node.span, "").help(help)]
+                }
+                None => errors,
+            })
+        }
         _ => Err(vec![wrong_type(node, &Kind::Color)]),
+    }
+}
+
+/// The numbers of a color that someone gave from 0 to 255.
+fn bytes(items: &[Node]) -> Option<[u8; 3]> {
+    let byte = |node: &Node| match Number::of(node) {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within 0 and 255")]
+        Some(Number::Literal(number)) if (0.0..=255.0).contains(&number) => Some(number.round() as u8),
+        _ => None,
+    };
+    match items {
+        [r, g, b] => Some([byte(r)?, byte(g)?, byte(b)?]).filter(|bytes| bytes.iter().any(|&byte| byte > 1)),
+        _ => None,
     }
 }
 

@@ -28,12 +28,13 @@ pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'stat
     })
 }
 
-/// What to say of an unknown word, given those that are known; `plural` is the word for all of them.
-pub(super) fn label(word: &str, known: &[&str], noun: &str, plural: &str) -> String {
-    match (nearest(word, known.iter().copied()), known) {
+/// What to say of an unknown word, given those that the scene declares and those that every scene knows; `plural` is
+/// the word for all of them.
+pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {
+    match (nearest(word, known.iter().chain(everywhere).copied()), known) {
         (Some(near), _) => format!("did you mean `{near}`?"),
-        (None, []) => format!("the scene has no {plural}"),
-        (None, [only]) => format!("the only {noun} is `{only}`"),
+        (None, []) => format!("the scene declares no {plural}"),
+        (None, [only]) => format!("the only {noun} of the scene is `{only}`"),
         (None, known) if known.len() <= 12 => format!("there are {}", quoted(known)),
         (None, known) => format!("none of the {} {plural} is called so", known.len()),
     }

@@ -47,17 +47,31 @@ fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<Own
     }
 }
 
-/// The templates in a folder: files with the name of a built-in one, and include files that those may use.
+/// The templates in a folder and the folders in it: files with the name of a built-in one, and include files that
+/// those may use.
 fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
-    let shown = folder.display();
-    let cannot_read = |error: std::io::Error| format!("cannot read the templates in `{shown}`: {error}");
     let mut templates = Vec::new();
+    collect(folder, "", &mut templates)?;
+    // The order of a folder is the file system's, not ours.
+    templates.sort_by(|a, b| a.name.cmp(&b.name));
+    if templates.is_empty() {
+        return Err(format!("there are no templates in `{}`", folder.display()));
+    }
+    Ok(templates)
+}
+
+/// Adds the templates of a folder, whose names begin with that of the folder they are in: `library/metals.inc`.
+fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Result<(), String> {
+    let cannot_read = |error| format!("cannot read the templates in `{}`: {error}", folder.display());
     for entry in fs::read_dir(folder).map_err(cannot_read)? {
         let path = entry.map_err(cannot_read)?.path();
-        let Some(name) = path.file_name().and_then(|name| name.to_str()).map(str::to_owned) else { continue };
-        let wanted = TEMPLATE_ENDINGS.iter().any(|ending| name.ends_with(ending));
+        let Some(name) = path.file_name().and_then(|name| name.to_str()) else { continue };
+        let name = format!("{prefix}{name}");
         let metadata = fs::metadata(&path).map_err(cannot_read)?;
-        if !wanted || !metadata.is_file() {
+        if metadata.is_dir() && prefix.is_empty() {
+            collect(&path, &format!("{name}/"), templates)?;
+        }
+        if !metadata.is_file() || !TEMPLATE_ENDINGS.iter().any(|ending| name.ends_with(ending)) {
             continue;
         }
         if metadata.len() > MAX_BYTES {
@@ -67,12 +81,7 @@ fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
             .map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
         templates.push(OwnTemplate { name, path: path.display().to_string(), text });
     }
-    // The order of a folder is the file system's, not ours.
-    templates.sort_by(|a, b| a.name.cmp(&b.name));
-    if templates.is_empty() {
-        return Err(format!("there are no templates in `{shown}`"));
-    }
-    Ok(templates)
+    Ok(())
 }
 
 /// What templates are called.

@@ -3,6 +3,7 @@
 
 use super::{Context, read, sdl, suggest};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::MATERIALS;
 use crate::scene::grammar::{Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 
@@ -250,20 +251,29 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
         return;
     };
     let names = context.names.get(collection);
-    if names.contains_key(word) {
+    let library: Vec<&str> = match collection {
+        Collection::Body => Vec::new(),
+        Collection::Material => MATERIALS.iter().map(|material| material.name).collect(),
+    };
+    if names.contains_key(word) || library.contains(&word) {
         return;
     }
     let noun = collection.key();
-    let label = if names.len() > context.comparisons {
+    let label = if names.len() + library.len() > context.comparisons {
         String::new()
     } else {
         let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
         known.sort_unstable_by_key(|name| names[*name]);
-        context.comparisons -= known.len();
-        suggest::label(word, &known, noun, collection.plural())
+        context.comparisons -= known.len() + library.len();
+        suggest::label(word, &known, &library, noun, collection.plural())
     };
-    let message = format!("there is no {noun} `{word}`");
-    context.diagnostics.push(Diagnostic::error("unknown-name", message).at(node.span, label));
+    let error = Diagnostic::error("unknown-name", format!("there is no {noun} `{word}`"));
+    let is_near = label.starts_with("did you mean");
+    let error = error.at(node.span, label);
+    context.diagnostics.push(match library.is_empty() || is_near {
+        true => error,
+        false => error.help(format!("names of the library need no table: {}", quoted(&library))),
+    });
 }
 
 /// Whether a value is of the TOML type that a kind is written in.

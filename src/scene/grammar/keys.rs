@@ -10,7 +10,7 @@ use super::forces::FORCE;
 use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
-use crate::scene::{Finish, Layout};
+use crate::scene::{Finish, Layout, MATERIALS, Preset};
 
 pub(super) const ANY: Kind = Number(Bound::Any);
 pub(super) const POSITIVE: Kind = Number(Bound::Positive);
@@ -24,6 +24,14 @@ fn integrators() -> Vec<&'static str> {
 
 fn finishes() -> Vec<&'static str> {
     Finish::ALL.iter().map(|finish| finish.name()).collect()
+}
+
+fn presets() -> Vec<&'static str> {
+    Preset::ALL.iter().map(|preset| preset.name()).collect()
+}
+
+fn library() -> Vec<&'static str> {
+    MATERIALS.iter().map(|material| material.name).collect()
 }
 
 /// A whole scene.
@@ -51,7 +59,13 @@ pub static SCENE: TableSpec = TableSpec {
         .also(&["views", "cameras"]),
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
-        Key::new("environment", Table(&ENVIRONMENT), "Ground, sky and fog").also(&["world"]),
+        Key::new(
+            "environment",
+            Either(&[Choice(presets), Table(&ENVIRONMENT)]),
+            "Ground, sky, fog and the usual lights: a name is short for `environment.preset`",
+        )
+        .default("\"daylight\"")
+        .also(&["world"]),
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
     ],
@@ -138,9 +152,13 @@ static BODY: TableSpec = TableSpec {
         Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
             .default("false")
             .also(&["static", "anchored", "kinematic"]),
-        Key::new("material", Reference(Collection::Material), "What it looks like: a `[material.NAME]`")
-            .default("a color of the palette, after its place in the file")
-            .also(&["color", "colour", "texture"]),
+        Key::new(
+            "material",
+            Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
+            "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md); or its keys, here",
+        )
+        .default("a color of the palette, after its place in the file")
+        .also(&["texture"]),
         Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
     ],
 };
@@ -196,11 +214,18 @@ pub(super) static ORIENTATION: TableSpec = TableSpec {
 
 static MATERIAL: TableSpec = TableSpec {
     noun: "a material",
-    rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "texture", "sdl"]]),
+    rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]),
     keys: &[
-        Key::new("color", Color, "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", or a name")
-            .default("white")
-            .also(&["colour", "rgb", "pigment", "diffuse"]),
+        Key::new(
+            "color",
+            Color,
+            "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a name of CSS",
+        )
+        .default("white, or that of what it is `like`")
+        .also(&["colour", "rgb", "pigment", "diffuse"]),
+        Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
+            .default("from `color` and `finish`")
+            .also(&["base", "kind", "extends"]),
         Key::new("finish", Choice(finishes), "How its surface throws light back").default("glossy"),
         Key::new("texture", Identifier, "A texture that an include file declares, by its name")
             .default("from `color` and `finish`"),
@@ -311,12 +336,22 @@ static ENVIRONMENT: TableSpec = TableSpec {
     noun: "the environment",
     rule: Rule::Any,
     keys: &[
+        Key::new(
+            "preset",
+            Choice(presets),
+            "Sky, ground, usual lights and ambient light that go together; each can be replaced",
+        )
+        .default("\"daylight\""),
         Key::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
-            .default("true, and false where a body is a plane")
+            .default("true, and false in space and where a body is a plane")
             .also(&["floor"]),
-        Key::new("sky", Either(&[Boolean, Color]), "The sky: the usual one, a plain color, or none (black)")
-            .default("true")
-            .also(&["background"]),
+        Key::new(
+            "sky",
+            Either(&[Boolean, Color]),
+            "The sky: that of the preset, a plain color, or none (black)",
+        )
+        .default("true")
+        .also(&["background"]),
         Key::new("fog", Boolean, "Haze in which the ground fades towards the horizon")
             .default("true")
             .also(&["haze"]),
@@ -377,5 +412,12 @@ static OUTPUT: TableSpec = TableSpec {
             "Whether every script is complete, or what all share stands in `common.inc`",
         )
         .default("self-contained"),
+        Key::new(
+            "transparent",
+            Boolean,
+            "Whether the images have no background: no sky and no ground, but transparency (alpha)",
+        )
+        .default("false")
+        .also(&["alpha"]),
     ],
 };

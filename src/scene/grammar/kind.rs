@@ -17,7 +17,7 @@ pub enum Kind {
     Numbers(usize, Bound),
     /// Three or four numbers that are not all zero: their direction counts, not their length.
     Direction(usize),
-    /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, or a name.
+    /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
     Color,
     /// POV-Ray's own language, as it is.
     Sdl,
@@ -134,7 +134,9 @@ impl Kind {
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
-            Kind::Color => "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name)".to_owned(),
+            Kind::Color => {
+                "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name of CSS)".to_owned()
+            }
             Kind::Sdl => "a string of POV-Ray's scene description language".to_owned(),
             Kind::Identifier => {
                 "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()

@@ -1,0 +1,48 @@
+//! `[material.NAME]`, and what a body says of its material.
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::Diagnostic;
+use crate::scene::{Color, Finish, LibraryMaterial, Look, Material};
+
+/// The materials of the file.
+pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
+    let tables = root.named("material").into_iter();
+    tables
+        .map(|(name, _, view)| Material { name: name.to_owned(), look: look(&view, root, context) })
+        .collect()
+}
+
+/// The look that a table describes.
+pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) -> Look {
+    if let Some(texture) = view.text("texture") {
+        is_declared(texture, view, root, context);
+        return Look::Texture(texture.to_owned());
+    }
+    if let Some(sdl) = view.text("sdl") {
+        return Look::Sdl(sdl.to_owned());
+    }
+    if let Some(material) = view.text("like").and_then(LibraryMaterial::named) {
+        if let (Some(span), None) = (view.key_span("color"), material.color) {
+            let message = format!("the color of what is like `{}` has no effect", material.name);
+            let warning = Diagnostic::warning("no-effect", message);
+            context.diagnostics.push(warning.at(span, "it has colors of its own"));
+        }
+        return material.look(view.color("color"));
+    }
+    Look::Plain {
+        color: view.color("color").unwrap_or(Color::WHITE),
+        finish: view.text("finish").and_then(Finish::named).unwrap_or(Finish::Glossy),
+    }
+}
+
+/// Says so if nothing in the scene can declare a texture.
+fn is_declared(texture: &str, view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) {
+    let povray = root.table("povray");
+    if povray.has("include") || povray.has("sdl") {
+        return;
+    }
+    let error = Diagnostic::error("undeclared-texture", format!("nothing declares the texture `{texture}`"));
+    let help = "name the include file that does: `[povray]` `include = [\"metals.inc\"]`";
+    context.diagnostics.extend(view.span("texture").map(|span| error.at(span, "").help(help)));
+}

@@ -1,0 +1,191 @@
+//! The materials that every scene knows by name, without declaring them.
+//!
+//! What POV-Ray is told of each stands in `templates/library/`, in the file of its family.
+
+use super::{Color, Finish, Look};
+
+/// A material that every scene knows by its name.
+#[derive(Debug, PartialEq)]
+pub struct LibraryMaterial {
+    /// Its name, as scenes write it.
+    pub name: &'static str,
+    /// What it looks like, in one line without a full stop.
+    pub meaning: &'static str,
+    /// Its color where a scene gives no other, as `0xrrggbb`; none: it has colors of its own, and takes no other.
+    pub color: Option<u32>,
+    /// The template that makes it, below `templates/library/` and without its ending.
+    pub family: &'static str,
+    /// What its pattern does on a body.
+    pub pattern: Pattern,
+    /// How strongly it refracts light; none: it is opaque.
+    pub ior: Option<f64>,
+}
+
+/// What the pattern of a material does on a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// There is none: it looks the same from all sides, however it is turned.
+    None,
+    /// It has a middle and an axis, y, which are the body's.
+    Centred,
+    /// The body is cut from a block of it: every body from a place of its own.
+    Cut,
+}
+
+const fn opaque(
+    name: &'static str,
+    family: &'static str,
+    pattern: Pattern,
+    color: u32,
+    meaning: &'static str,
+) -> LibraryMaterial {
+    LibraryMaterial { name, meaning, color: Some(color), family, pattern, ior: None }
+}
+
+const fn clear(
+    name: &'static str,
+    pattern: Pattern,
+    ior: f64,
+    color: u32,
+    meaning: &'static str,
+) -> LibraryMaterial {
+    LibraryMaterial { name, meaning, color: Some(color), family: "clear", pattern, ior: Some(ior) }
+}
+
+const fn painted(name: &'static str, family: &'static str, meaning: &'static str) -> LibraryMaterial {
+    LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None }
+}
+
+/// The family of the materials that are a finish and nothing else.
+const FINISH: &str = "finish";
+
+/// All of them, family by family.
+pub const MATERIALS: &[LibraryMaterial] = &[
+    opaque("matte", FINISH, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
+    opaque("satin", FINISH, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),
+    opaque(
+        "glossy",
+        FINISH,
+        Pattern::None,
+        0xff_ff_ff,
+        "Like enamel: a sharp highlight and a faint reflection",
+    ),
+    opaque("metal", FINISH, Pattern::None, 0xff_ff_ff, "Polished metal of any color"),
+    opaque("mirror", FINISH, Pattern::None, 0xff_ff_ff, "A mirror: all of what is around it"),
+    opaque(
+        "luminous",
+        FINISH,
+        Pattern::None,
+        0xff_ff_ff,
+        "Shines by itself, evenly; lets lamps inside shine out",
+    ),
+    opaque("brass", "metals", Pattern::None, 0xd8_ae_55, "Yellow, polished"),
+    opaque("bronze", "metals", Pattern::None, 0x9c_66_36, "Brown, dully polished"),
+    opaque("copper", "metals", Pattern::None, 0xda_82_5c, "Red, polished"),
+    opaque("gold", "metals", Pattern::None, 0xff_c8_4a, "Deep yellow, bright"),
+    opaque("silver", "metals", Pattern::None, 0xf1_ed_e4, "White and warm, bright"),
+    opaque("chrome", "metals", Pattern::None, 0xe6_ec_f2, "White and cool, almost a mirror"),
+    opaque("steel", "metals", Pattern::Centred, 0xb4_ba_c0, "Gray, brushed around its axis"),
+    opaque("iron", "metals", Pattern::Cut, 0x4a_4a_4d, "Dark, cast: rough and hardly shining"),
+    clear("glass", Pattern::None, 1.5, 0xf6_ff_fb, "Clear window glass"),
+    clear("tinted_glass", Pattern::None, 1.5, 0x2f_9c_78, "Glass of a color: bottle green"),
+    clear("water", Pattern::Cut, 1.33, 0xb4_e4_ee, "Clear, with a hint of blue and a moving surface"),
+    clear("ice", Pattern::Cut, 1.31, 0xd8_f0_fa, "Half clear, with clouds and an uneven surface"),
+    clear("bubble", Pattern::None, 1.0, 0xff_ff_ff, "A film of soap: hollow, with the colors of the rainbow"),
+    opaque("plastic", "smooth", Pattern::None, 0x1f_6f_d2, "Evenly colored, with a broad white highlight"),
+    opaque("rubber", "smooth", Pattern::None, 0x2c_2c_2f, "Almost black, with a dull sheen"),
+    opaque("porcelain", "smooth", Pattern::None, 0xf4_f1_e8, "Glazed: a clear reflection over a milky white"),
+    opaque("car_paint", "smooth", Pattern::None, 0xa8_0f_1e, "Metallic paint below a clear coat"),
+    opaque(
+        "neon",
+        "smooth",
+        Pattern::None,
+        0xff_2f_7a,
+        "A lit tube: white where it is thick, colored at the rim",
+    ),
+    opaque("velvet", "soft", Pattern::None, 0x86_10_3a, "Deep, and brighter at the rim"),
+    opaque("felt", "soft", Pattern::Cut, 0x2c_82_4a, "Fibers, like the cloth of a billiard table"),
+    opaque("paper", "soft", Pattern::Cut, 0xf5_f1_e6, "Off-white, with a fine grain"),
+    opaque("chalk", "soft", Pattern::Cut, 0xee_ec_e6, "White, dry and dusty"),
+    opaque("cork", "soft", Pattern::Cut, 0xc8_97_62, "Light brown grains with dark gaps"),
+    opaque("clay", "earths", Pattern::Cut, 0xb0_8c_70, "Gray brown, shaped by hand"),
+    opaque("terracotta", "earths", Pattern::Cut, 0xc0_66_3c, "Baked clay, orange, with paler clouds"),
+    opaque("concrete", "earths", Pattern::Cut, 0xa6_a4_9e, "Gray, with pores"),
+    opaque("sandstone", "earths", Pattern::Cut, 0xd9_b3_80, "Layers of sand"),
+    opaque("marble", "stones", Pattern::Cut, 0xf2_f0_ec, "White and polished, with gray veins"),
+    opaque("granite", "stones", Pattern::Cut, 0xb8_a4_9c, "Polished grains, from black to nearly white"),
+    opaque("jade", "stones", Pattern::Cut, 0x3f_8f_66, "Green and polished, with clouds"),
+    opaque("wood", "woods", Pattern::Cut, 0xc0_8a_52, "Oak: rings and fibers along x, oiled"),
+    opaque("dark_wood", "woods", Pattern::Cut, 0x74_44_28, "Walnut, polished"),
+    opaque(
+        "checkered",
+        "toys",
+        Pattern::Centred,
+        0xd0_2c_2c,
+        "White and colored cubes: shows how a body turns",
+    ),
+    opaque("striped", "toys", Pattern::Centred, 0x1f_6f_b8, "White and colored bands around the axis"),
+    painted("beach_ball", "toys", "Six colors between two white poles"),
+    opaque("moon", "planets", Pattern::Cut, 0xb9_b5_ad, "Gray, with dark seas and craters"),
+    painted("earth", "planets", "Oceans, land, ice at the poles, clouds"),
+    opaque(
+        "gas_giant",
+        "planets",
+        Pattern::Centred,
+        0xdc_b4_86,
+        "Bands of cloud around the axis, as on Jupiter",
+    ),
+    opaque("sun", "planets", Pattern::Cut, 0xff_b4_2e, "Shines by itself, grained, darker at the rim"),
+];
+
+impl LibraryMaterial {
+    /// The material of a name.
+    pub fn named(name: &str) -> Option<&'static LibraryMaterial> {
+        MATERIALS.iter().find(|material| material.name == name)
+    }
+
+    /// The look of it, in a color if it takes one.
+    pub(super) fn look(&'static self, color: Option<Color>) -> Look {
+        let own = self.color.map(Color::from_code);
+        match self.finish() {
+            Some(finish) => Look::Plain { color: color.or(own).unwrap_or(Color::WHITE), finish },
+            None => Look::Library { material: self, color: own.map(|own| color.unwrap_or(own)) },
+        }
+    }
+
+    /// The finish that the material is, if it is nothing else.
+    pub(super) fn finish(&self) -> Option<Finish> {
+        Finish::named(self.name).filter(|_| self.family == FINISH)
+    }
+
+    /// Whether it shines by itself.
+    pub fn glows(&self) -> bool {
+        matches!(self.name, "luminous" | "neon" | "sun")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_material_is_described_once() {
+        for (i, material) in MATERIALS.iter().enumerate() {
+            let name = material.name;
+            assert_eq!(
+                MATERIALS.iter().position(|other| other.name == name),
+                Some(i),
+                "{name} is there twice"
+            );
+            assert!(name.bytes().all(|b| b.is_ascii_lowercase() || b == b'_'), "{name}");
+            assert!(!material.meaning.is_empty() && !material.meaning.ends_with('.'), "{name}");
+        }
+        assert!(MATERIALS.len() >= 24);
+    }
+
+    #[test]
+    fn every_finish_is_a_material_that_is_nothing_else() {
+        let finishes: Vec<_> = MATERIALS.iter().filter_map(LibraryMaterial::finish).collect();
+        assert_eq!(finishes, Finish::ALL);
+    }
+}

@@ -1,0 +1,70 @@
+//! Surroundings that have a name.
+
+/// Sky, ground, usual lights and ambient light that go together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// A blue sky over light tiles: the usual one.
+    #[default]
+    Daylight,
+    /// A photographer's room: white and seamless, with soft lights.
+    Studio,
+    /// Stars, a dim glow at the horizon, and the light of the moon.
+    Night,
+    /// Dark and even, for bright bodies.
+    Blackboard,
+    /// White and even, for print.
+    Paper,
+    /// Stars all around, one hard sun, no ground.
+    Space,
+}
+
+impl Preset {
+    /// All of them.
+    pub const ALL: [Preset; 6] =
+        [Preset::Daylight, Preset::Studio, Preset::Night, Preset::Blackboard, Preset::Paper, Preset::Space];
+
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<Preset> {
+        Preset::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
+    /// Its name in scenes and templates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Preset::Daylight => "daylight",
+            Preset::Studio => "studio",
+            Preset::Night => "night",
+            Preset::Blackboard => "blackboard",
+            Preset::Paper => "paper",
+            Preset::Space => "space",
+        }
+    }
+
+    /// What it looks like, in a line.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Preset::Daylight => "A blue sky over light tiles: the usual one",
+            Preset::Studio => "A photographer's room: white and seamless, with soft lights",
+            Preset::Night => "Stars, a dim glow at the horizon, and the light of the moon",
+            Preset::Blackboard => "Dark and even, for bright bodies",
+            Preset::Paper => "White and even, for print",
+            Preset::Space => "Stars all around, one hard sun, no ground",
+        }
+    }
+
+    /// Whether it has a ground.
+    pub fn has_ground(self) -> bool {
+        self != Preset::Space
+    }
+
+    /// The ambient light below its sky, linear; daylight's is 1, which materials are made for.
+    pub fn ambient(self) -> [f64; 3] {
+        match self {
+            Preset::Daylight | Preset::Studio => [1.0; 3],
+            Preset::Paper => [1.15; 3],
+            Preset::Blackboard => [0.7; 3],
+            Preset::Night => [0.09, 0.12, 0.2],
+            Preset::Space => [0.015; 3],
+        }
+    }
+}
