@@ -20,6 +20,7 @@ look_at = [0, 0, 0.4]
 angle = 7.5
 
 [environment]
+preset = "studio"
 ground = { height = 0, tile = 1.15 }
 
 [light.lamp]

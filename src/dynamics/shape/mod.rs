@@ -130,6 +130,10 @@ impl Shape {
     /// support function, the largest `p · direction` over its points `p`. `None` for a plane.
     #[must_use]
     pub fn support(&self, world_from_body: DQuat, direction: DVec3) -> Option<f64> {
+        if let Shape::Sphere { radius } = *self {
+            // The same in all directions, and by far the most frequent: no need to turn anything.
+            return Some(radius);
+        }
         let direction = world_from_body.conjugate() * direction;
         // The part of the direction across the axis of symmetry.
         let across = (direction.x * direction.x + direction.z * direction.z).sqrt();
