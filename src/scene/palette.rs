@@ -26,7 +26,7 @@ pub(super) struct Palette {
     colors: [Option<usize>; COLORS.len()],
     checkered: Option<usize>,
     /// The materials of the library that bodies name, by their names.
-    library: HashMap<&'static str, usize>,
+    by_name: HashMap<&'static str, usize>,
 }
 
 /// What a body without a material looks like.
@@ -54,7 +54,7 @@ impl Palette {
         material: &'static LibraryMaterial,
         materials: &mut Vec<Material>,
     ) -> usize {
-        *self.library.entry(material.name).or_insert_with(|| {
+        *self.by_name.entry(material.name).or_insert_with(|| {
             materials.push(Material { name: material.name.to_owned(), look: material.look(None) });
             materials.len() - 1
         })
