@@ -1,6 +1,7 @@
 //! Tree → [`Scene`], or all that is wrong with it.
 
 mod body;
+mod braces;
 mod camera;
 mod consequence;
 mod effect;

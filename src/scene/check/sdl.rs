@@ -23,7 +23,7 @@ pub(super) fn read(node: &Node, trust: bool) -> Result<&str, Diagnostic> {
     }
     match first_file_access(text) {
         Some(what) if !trust => Err(untrusted(&what, node.span)),
-        _ => Ok(text),
+        _ => super::braces::unbalanced(text, node.span).map_or(Ok(text), Err),
     }
 }
 
@@ -39,6 +39,10 @@ pub(super) fn untrusted(what: &str, span: Span) -> Diagnostic {
 pub(super) fn first_file_access(text: &str) -> Option<String> {
     let directive = text.match_indices('#').find_map(|(at, _)| {
         let rest = after_blanks(&text[at + 1..]);
+        if rest.is_empty() {
+            // The word of this directive would be the first one of whatever text comes next.
+            return Some((at, "#".to_owned()));
+        }
         DIRECTIVES.into_iter().find(|word| word_at(rest) == *word).map(|word| (at, format!("#{word}")))
     });
     let macro_call =
@@ -105,6 +109,10 @@ mod tests {
             "Parse_String(\"x\")",
             "HF_Square(f, 0, 0, 1, 1, \"x\", 0, 1)",
             "/* #include */",
+            "#",
+            "sphere { } # ",
+            "# // x",
+            "# /* x",
         ] {
             assert!(first_file_access(text).is_some(), "{text:?}");
         }
@@ -112,15 +120,7 @@ mod tests {
 
     #[test]
     fn other_words_pass() {
-        for text in [
-            "",
-            "#",
-            "#declare A = 1;",
-            "texture { T_Chrome_4C }",
-            "#included",
-            "read write include",
-            "# /* x",
-        ] {
+        for text in ["", "#declare A = 1;", "texture { T_Chrome_4C }", "#included", "read write include"] {
             assert_eq!(first_file_access(text), None, "{text:?}");
         }
     }
