@@ -10,7 +10,7 @@
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //!
-//! [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
+//! [`Run`] takes a scene through them. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
 //! what there is to choose from, and [`starter`] a scene to start from.
 //!
 //! # A snapshot test of a scene
