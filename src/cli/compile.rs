@@ -5,11 +5,12 @@ use std::time::Instant;
 
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
-use jabuka::scene::{Options, Override, View};
+use jabuka::scene::View;
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;
+use super::scene_arguments::{self, SceneArguments};
 use super::{Failure, say, summary};
 
 /// Compile a scene into POV-Ray scripts, one per frame
@@ -20,9 +21,6 @@ pub(super) struct Arguments {
     /// The folder for the scripts [default: out/<name of the scene file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Replace a value of the scene: a TOML value, or else a string; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_set)]
-    set: Vec<Override>,
     /// Write only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
     frames: Option<Selection>,
@@ -32,32 +30,15 @@ pub(super) struct Arguments {
     /// Write nothing: compare the scripts with those in the folder, and fail where they differ
     #[arg(long)]
     check: bool,
-    /// Use the templates in this folder in place of those built in: see `jabuka templates`
-    #[arg(long, value_name = "DIR")]
-    templates: Option<PathBuf>,
-    /// Let the scene's SDL open, write and include files, and its paths leave its folder
-    #[arg(long)]
-    trust: bool,
-}
-
-fn parse_set(argument: &str) -> Result<Override, String> {
-    match argument.split_once('=') {
-        Some((key, _)) if !key.trim().is_empty() => Ok(Override::new(argument)),
-        _ => Err("write it as KEY=VALUE, as in simulation.step=0.001".to_owned()),
-    }
+    #[command(flatten)]
+    reading: SceneArguments,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let options = Options {
-        overrides: arguments.set.clone(),
-        templates: arguments.templates.clone(),
-        trust: arguments.trust,
-    };
-    let scene = Scene::from_path_with(&arguments.scene, &options).map_err(|report| errors(&report))?;
-    say::report(&scene.warnings);
+    let scene = arguments.reading.read(&arguments.scene)?;
     let frames = scene.simulation.frames();
-    let selection = selection(arguments, frames)?;
+    let selection = scene_arguments::selection(arguments.frames.as_ref(), frames)?;
     let cameras = cameras(arguments, &scene)?;
 
     let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
@@ -126,18 +107,6 @@ fn write(
     Ok(())
 }
 
-fn selection(arguments: &Arguments, frames: usize) -> Result<Selection, Failure> {
-    let Some(selection) = &arguments.frames else { return Ok(Selection::first(frames)) };
-    match selection.last() {
-        Some(last) if last >= frames => {
-            let message =
-                format!("there is no frame {last}: the frames of this scene are 0 to {}", frames - 1);
-            Err(Failure::Usage(message))
-        }
-        _ => Ok(selection.clone()),
-    }
-}
-
 fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progress) -> Result<(), Failure> {
     /// So many frames are shown in full.
     const SHOWN: usize = 3;
@@ -157,14 +126,6 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     }
     say::result(&format!("{}: {} of {compared} scripts differ\n", folder.display(), differences.len()));
     Err(Failure::Errors)
-}
-
-/// Says the errors of a scene.
-fn errors(report: &Report) -> Failure {
-    say::report(report);
-    let (errors, s) = (report.errors(), if report.errors() == 1 { "" } else { "s" });
-    say::error(&format!("nothing was written: {errors} error{s}\n"));
-    Failure::Errors
 }
 
 /// Says why a run failed.
