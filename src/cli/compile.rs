@@ -63,29 +63,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// The cameras that are asked for, each with the folder for its scripts; `None` is the main one.
 fn cameras<'a>(arguments: &Arguments, scene: &'a Scene) -> Result<Vec<(Option<&'a View>, PathBuf)>, Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
-    let beside = |view: &str| {
-        let mut path = folder.clone().into_os_string();
-        path.push(format!("-{view}"));
-        PathBuf::from(path)
-    };
     if arguments.view.is_empty() {
         return Ok(vec![(None, folder)]);
     }
     if arguments.view.iter().any(|name| name == "all") {
-        let others = scene.views.iter().map(|view| (Some(view), beside(&view.name)));
+        let others =
+            scene.views.iter().map(|view| (Some(view), scene_arguments::beside(&folder, &view.name)));
         return Ok(std::iter::once((None, folder.clone())).chain(others).collect());
     }
-    let find = |name: &String| match scene.views.iter().find(|view| view.name == *name) {
+    let find = |name: &String| {
+        let view = scene_arguments::view(scene, name)?;
         // The folder that is given is that of the only view that is asked for.
-        Some(view) if arguments.view.len() == 1 && arguments.output.is_some() => {
-            Ok((Some(view), folder.clone()))
-        }
-        Some(view) => Ok((Some(view), beside(name))),
-        None => {
-            let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
-            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            Err(Failure::Usage(format!("there is no view `{name}`: the views of this scene are {known}")))
-        }
+        let is_its = arguments.view.len() == 1 && arguments.output.is_some();
+        Ok((Some(view), if is_its { folder.clone() } else { scene_arguments::beside(&folder, name) }))
     };
     arguments.view.iter().map(find).collect()
 }

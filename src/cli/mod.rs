@@ -4,10 +4,12 @@ mod check;
 mod compile;
 mod completions;
 mod explain;
+mod interrupt;
 mod list;
 mod man;
 mod new;
 mod progress;
+mod render;
 mod say;
 mod scene_arguments;
 mod schema;
@@ -30,6 +32,7 @@ struct Arguments {
 enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
+    Render(render::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
@@ -43,6 +46,8 @@ enum Command {
 enum Failure {
     /// The scene or the run has errors, and they have been said.
     Errors,
+    /// Somebody has stopped the command, and that has been said.
+    Interrupted,
     /// The command was used wrongly, in this way.
     Usage(String),
 }
@@ -55,6 +60,7 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
@@ -67,6 +73,8 @@ pub(crate) fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Errors) => ExitCode::from(1),
+        // As shells tell that a signal of the keyboard has ended a command.
+        Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
             say::error(&format!("error: {message}\n\nFor more information, try '--help'.\n"));
             ExitCode::from(2)

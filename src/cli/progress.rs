@@ -1,5 +1,6 @@
 //! A progress bar for what takes long.
 
+use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -16,8 +17,17 @@ pub(super) struct Progress {
 impl Progress {
     /// A bar of so many steps, not yet shown.
     pub(super) fn new(steps: usize) -> Progress {
+        Progress::with(steps, "{msg:12} {wide_bar} {percent:>3} %  {eta} left")
+    }
+
+    /// A bar of so many frames that are rendered.
+    pub(super) fn of_frames(frames: usize) -> Progress {
+        Progress::with(frames, "rendering    {wide_bar} {pos} of {len}  {per_sec}  {eta} left  {msg}")
+    }
+
+    fn with(steps: usize, template: &str) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         // Without a terminal it counts as shown, and never is.
@@ -25,8 +35,13 @@ impl Progress {
     }
 
     /// Says what is being done now.
-    pub(super) fn phase(&self, what: &'static str) {
+    pub(super) fn phase(&self, what: impl Into<Cow<'static, str>>) {
         self.bar.set_message(what);
+    }
+
+    /// Says something above the bar.
+    pub(super) fn above(&self, say: impl FnOnce()) {
+        self.bar.suspend(say);
     }
 
     /// One step is done.

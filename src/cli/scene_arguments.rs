@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
 use jabuka::diagnostic::Report;
-use jabuka::scene::{Options, Override};
+use jabuka::scene::{Options, Override, View};
 use jabuka::simulate::Selection;
 
 use super::{Failure, say};
@@ -65,6 +65,22 @@ pub(super) fn selection(asked: Option<&Selection>, frames: usize) -> Result<Sele
         }
         _ => Ok(selection.clone()),
     }
+}
+
+/// A view of a scene.
+pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure> {
+    scene.views.iter().find(|view| view.name == *name).ok_or_else(|| {
+        let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        Failure::Usage(format!("there is no view `{name}`: the views of this scene are {known}"))
+    })
+}
+
+/// The folder for the scripts of a view, beside that of the main camera's.
+pub(super) fn beside(folder: &Path, view: &str) -> PathBuf {
+    let mut path = folder.as_os_str().to_owned();
+    path.push(format!("-{view}"));
+    PathBuf::from(path)
 }
 
 /// Says the errors of a scene.

@@ -108,7 +108,7 @@ impl Folder {
 }
 
 /// The numbers and names of the scripts in a folder, in their order.
-pub(super) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
+pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
     let io_error = |error| OutputError::Io(path.to_owned(), error);
     let mut scripts = Vec::new();
     for entry in fs::read_dir(path).map_err(io_error)? {

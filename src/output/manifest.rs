@@ -123,3 +123,41 @@ pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io:
     }
     writeln!(out, "\n  ]\n}}")
 }
+
+/// What a folder's manifest says, for those who render what is in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manifest {
+    /// Whether all files are there.
+    pub complete: bool,
+    /// The number of the scene's frames.
+    pub frames: usize,
+    /// Frames per second.
+    pub frame_rate: f64,
+    /// The width of the images, pixels.
+    pub width: Option<u32>,
+    /// The height of the images, pixels.
+    pub height: Option<u32>,
+    /// Whether the images have an alpha channel.
+    pub transparent: Option<bool>,
+    /// The number of moments of each frame, if frames are blurred.
+    pub samples: Option<u32>,
+    /// The files.
+    pub files: Vec<Entry>,
+}
+
+impl Manifest {
+    /// TEMPORARY
+    pub fn read(folder: &Path) -> Option<Manifest> {
+        let head = read(&folder.join(MANIFEST))?;
+        Some(Manifest {
+            complete: head.state == State::Complete,
+            frames: head.frames,
+            frame_rate: head.frame_rate,
+            width: None,
+            height: None,
+            transparent: None,
+            samples: None,
+            files: vec![],
+        })
+    }
+}

@@ -12,5 +12,6 @@ mod write;
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
-pub use manifest::{Entry, MANIFEST};
+pub(crate) use folder::scripts;
+pub use manifest::{Entry, MANIFEST, Manifest};
 pub use write::{Written, write};

@@ -1,0 +1,235 @@
+//! `jabuka render`: scene → scripts → images → film.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use clap::ValueEnum;
+use jabuka::Run;
+use jabuka::diagnostic::Report;
+use jabuka::output::{self, Folder, OutputError};
+use jabuka::render::{self, Event, Images, Job, Outcome, PovRay, Quality, RenderError, Sequence};
+use jabuka::scene::Override;
+use jabuka::simulate::Selection;
+
+use super::progress::Progress;
+use super::scene_arguments::{self, SceneArguments};
+use super::{Failure, interrupt, say};
+
+/// Render a scene, or a folder of scripts, into images and a film
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file, or a folder that `jabuka compile` has written
+    #[arg(value_name = "SCENE|DIR")]
+    source: PathBuf,
+    /// The folder for the images [default: the folder `images` beside the scripts]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// The size of the images in pixels, as in 1280x720 [default: that of the scene]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// How good the images are
+    #[arg(long, value_enum, default_value_t)]
+    quality: QualityName,
+    /// The number of POV-Rays at once [default: as many as keep the processors busy]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Render only these frames, as in 0,50,90-100
+    #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
+    frames: Option<Selection>,
+    /// Render only every N-th frame
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    every: Option<u32>,
+    /// Render what this view sees instead of the main camera
+    #[arg(long, value_name = "NAME")]
+    view: Option<String>,
+    /// The program POV-Ray [default: povray]
+    #[arg(long, value_name = "PATH")]
+    povray: Option<PathBuf>,
+    /// How often a frame is tried again after POV-Ray was killed or hung
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    retry: u32,
+    /// How long a frame may take, in seconds [default: far longer than others have taken]
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: Option<u64>,
+    /// Go on even where the first frames all fail
+    #[arg(long)]
+    keep_going: bool,
+    #[command(flatten)]
+    reading: SceneArguments,
+    /// Further options for POV-Ray, as in -- +Q4 +AM2
+    #[arg(last = true, value_name = "POVRAY OPTIONS")]
+    options: Vec<String>,
+}
+
+#[derive(Clone, Copy, Default, ValueEnum)]
+pub(super) enum QualityName {
+    /// For a look at the motion: no anti-aliasing
+    Draft,
+    /// As `povray animation.ini` renders it
+    #[default]
+    Good,
+    /// For the film that is kept: finer anti-aliasing
+    Final,
+}
+
+impl From<QualityName> for Quality {
+    fn from(name: QualityName) -> Quality {
+        match name {
+            QualityName::Draft => Quality::Draft,
+            QualityName::Good => Quality::Good,
+            QualityName::Final => Quality::Final,
+        }
+    }
+}
+
+pub(super) fn parse_size(argument: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=65535).contains(n));
+    let size = argument.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([number(w)?, number(h)?]));
+    size.ok_or_else(|| "write it as WIDTHxHEIGHT, as in 1280x720".to_owned())
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let start = Instant::now();
+    let stop = interrupt::watched();
+    // The folder stays locked until the images are there, so that nobody changes scripts while they are rendered.
+    let (folder, _lock) = scripts(arguments)?;
+    let selection = match (&arguments.frames, arguments.every) {
+        (None, None) => None,
+        (frames, every) => {
+            let frames = frames.clone().unwrap_or_else(|| Selection::first(usize::MAX));
+            Some(frames.every(every.unwrap_or(1) as usize))
+        }
+    };
+    let sequence = Sequence::open(&folder, selection.as_ref()).map_err(|error| failed(&error))?;
+    let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
+    let images = Images::open(&images).map_err(|error| failed(&error))?;
+    let povray =
+        PovRay::find(arguments.povray.as_deref(), &images.povray_memory()).map_err(|error| failed(&error))?;
+
+    let size = arguments.size.unwrap_or(sequence.size);
+    let mut options = render::options(size, sequence.transparent, arguments.quality.into());
+    options.extend(arguments.options.iter().cloned());
+    let job = Job {
+        sequence: &sequence,
+        images: &images,
+        povray: &povray,
+        options,
+        jobs: arguments.jobs.map(usize::from),
+        retries: arguments.retry,
+        keep_going: arguments.keep_going,
+        time_limit: arguments.time_limit.map(Duration::from_secs),
+    };
+    let outcome = render(&job, stop)?;
+    say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
+    if outcome.failed.is_empty() { Ok(()) } else { Err(Failure::Errors) }
+}
+
+/// The folder with the scripts: of a scene, after it has been compiled.
+fn scripts(arguments: &Arguments) -> Result<(PathBuf, Option<Folder>), Failure> {
+    if arguments.source.is_dir() {
+        if !arguments.reading.are_absent() || arguments.view.is_some() {
+            let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts in a folder are rendered as they are";
+            return Err(Failure::Usage(message.to_owned()));
+        }
+        // Scripts that are somebody else's, or cannot be written to, are not locked.
+        let lock = Folder::open(&arguments.source).ok();
+        return Ok((arguments.source.clone(), lock));
+    }
+    let size =
+        arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
+    let scene = arguments.reading.read_with(&arguments.source, size.as_slice())?;
+    let frames = scene.simulation.frames();
+    let selection = scene_arguments::selection(arguments.frames.as_ref(), frames)?;
+    let selection = selection.every(arguments.every.unwrap_or(1) as usize);
+    let progress = Progress::new(frames + selection.count_within(frames));
+    let failed = |error: OutputError| {
+        progress.finish();
+        say::report(&error.report());
+        Failure::Errors
+    };
+    progress.phase("simulating");
+    let main = Run::new_seeing(&scene, |_| progress.step()).map_err(|error| failed(error.into()))?;
+    let mut folder = Path::new("out").join(&scene.name);
+    let run = match &arguments.view {
+        None => main,
+        Some(name) => {
+            let view = scene_arguments::view(&scene, name)?;
+            folder = scene_arguments::beside(&folder, name);
+            main.seen_by(view).map_err(|error| failed(error.into()))?
+        }
+    };
+    progress.phase("writing");
+    let folder = Folder::open(&folder).map_err(failed)?;
+    output::write(&run, &folder, &selection, &|| progress.step()).map_err(failed)?;
+    progress.finish();
+    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    Ok((folder.path().to_owned(), Some(folder)))
+}
+
+/// Renders, and says how it goes.
+fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
+    /// So many failures are shown in full.
+    const SHOWN: usize = 3;
+    let mut progress = None;
+    let mut failures = 0;
+    let result = job.run(
+        &mut |event| match event {
+            Event::Planned { to_make, .. } => progress = Some(Progress::of_frames(to_make)),
+            Event::Made { .. } => progress.iter().for_each(Progress::step),
+            Event::Failed(fault) => {
+                failures += 1;
+                if failures <= SHOWN {
+                    progress.iter().for_each(|progress| progress.above(|| say::report(&fault.report())));
+                }
+                progress.iter().for_each(Progress::step);
+            }
+        },
+        stop,
+    );
+    progress.iter().for_each(Progress::finish);
+    let outcome = result.map_err(|error| failed(&error))?;
+    for warning in &outcome.warnings {
+        say::error(&format!("POV-Ray: {warning}\n"));
+    }
+    if outcome.failed.len() > SHOWN {
+        let others: Vec<String> =
+            outcome.failed[SHOWN..].iter().map(|fault| fault.frame.to_string()).collect();
+        say::error(&format!("and of the frames {}\n", others.join(", ")));
+    }
+    Ok(outcome)
+}
+
+/// Says why nothing more is rendered.
+fn failed(error: &RenderError) -> Failure {
+    say::report(&error.report());
+    match error {
+        RenderError::Cancelled => Failure::Interrupted,
+        _ => Failure::Errors,
+    }
+}
+
+/// What was made, in a few lines.
+fn summary(images: &Images, sequence: &Sequence, outcome: &Outcome, took: Duration) -> String {
+    let frames = sequence.scripts().len();
+    let there = frames - outcome.failed.len();
+    let mut text = format!("{}: {there} of {frames} frames\n", images.folder().display());
+    let mut line = |name: &str, what: String| text.push_str(&format!("{name:10}{what}\n"));
+    if outcome.up_to_date > 0 {
+        line("as before", format!("{}, up to date", outcome.up_to_date));
+    }
+    if outcome.copied > 0 {
+        line("copied", format!("{}, equal to others", outcome.copied));
+    }
+    if outcome.removed > 0 {
+        line("removed", format!("{} of frames that are no more", outcome.removed));
+    }
+    if !outcome.failed.is_empty() {
+        line("failed", format!("{}", outcome.failed.len()));
+    }
+    if let Some((frame, seconds)) = outcome.slowest {
+        line("slowest", format!("frame {frame} in {seconds:.2} s"));
+    }
+    line("rendered", format!("{} in {:.2} s", outcome.rendered, took.as_secs_f64()));
+    text
+}
