@@ -122,7 +122,7 @@ pub(super) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> 
 }
 
 /// The number in the name of a script; `None` for every other name.
-fn script_number(name: &str) -> Option<usize> {
+pub(super) fn script_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("frame_")?.strip_suffix(".pov")?;
     let plain = digits.len() >= 4 && digits.bytes().all(|b| b.is_ascii_digit());
     plain.then(|| digits.parse().ok())?

@@ -12,5 +12,5 @@ mod write;
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
-pub use manifest::{Entry, MANIFEST};
+pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
 pub use write::{Written, write};
