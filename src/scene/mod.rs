@@ -14,6 +14,7 @@ mod model;
 mod number;
 mod palette;
 mod preset;
+pub mod sdl;
 pub mod source;
 
 use std::path::{Path, PathBuf};
