@@ -153,6 +153,8 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
             Ok(Include::Standard(_)) => {}
             Err(error) => context.diagnostics.push(error),
         },
+        Kind::Asset if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
+        Kind::Asset => keep(super::asset::asset(node, context.folder, context.trust), context),
         Kind::Choice(words) => choice(node, kind, &words(), entry, context),
         Kind::Reference(collection) => reference(node, kind, *collection, context),
         Kind::List { of, .. } => match read::list(node, kind) {
@@ -286,7 +288,13 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
 /// Whether a value is of the TOML type that a kind is written in.
 fn fits(node: &Node, kind: &Kind) -> bool {
     match kind {
-        Kind::Text | Kind::Sdl | Kind::Identifier | Kind::Include | Kind::Choice(_) | Kind::Reference(_) => {
+        Kind::Text
+        | Kind::Sdl
+        | Kind::Identifier
+        | Kind::Include
+        | Kind::Asset
+        | Kind::Choice(_)
+        | Kind::Reference(_) => {
             matches!(node.value, Value::String(_))
         }
         Kind::Boolean => matches!(node.value, Value::Boolean(_)),
