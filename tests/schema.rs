@@ -15,7 +15,7 @@ use toml::de::{DeTable, DeValue};
 const BEYOND: [&str; 1] = ["axis_without_angle"];
 
 /// The codes of mistakes that a key or a value alone makes.
-const STRUCTURAL: [&str; 14] = [
+const STRUCTURAL: [&str; 15] = [
     "unknown-key",
     "missing-key",
     "exclusive-keys",
@@ -27,6 +27,7 @@ const STRUCTURAL: [&str; 14] = [
     "unknown-color",
     "bad-identifier",
     "bad-include",
+    "bad-asset",
     "number-too-large",
     "unnamed-table",
     "formula-not-yet",

@@ -8,6 +8,9 @@ pub const INI: &str = "animation.ini";
 /// What all scripts have in common, where it is a file of its own.
 pub const COMMON: &str = "common.inc";
 
+/// The folder with the files that scripts read, where there are any.
+pub const ASSETS: &str = "assets";
+
 /// The number of digits in the names of the scripts of so many frames: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
     const LEAST: usize = 4;

@@ -59,7 +59,8 @@ impl Folder {
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
         let path = self.path.join(name);
-        let temporary = self.path.join(format!(".jabuka-{name}.tmp"));
+        // Also the file of a folder in the folder is made here, where the next run looks for what a kill has left.
+        let temporary = self.path.join(format!(".jabuka-{}.tmp", name.replace('/', "-")));
         let fill_and_rename = || {
             // `create_new` follows no link.
             let mut file = BufWriter::new(OpenOptions::new().write(true).create_new(true).open(&temporary)?);
@@ -122,7 +123,7 @@ pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> 
 }
 
 /// The number in the name of a script; `None` for every other name.
-fn script_number(name: &str) -> Option<usize> {
+pub(super) fn script_number(name: &str) -> Option<usize> {
     let digits = name.strip_prefix("frame_")?.strip_suffix(".pov")?;
     let plain = digits.len() >= 4 && digits.bytes().all(|b| b.is_ascii_digit());
     plain.then(|| digits.parse().ok())?

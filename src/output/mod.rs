@@ -3,15 +3,18 @@
 //! An output folder survives whatever happens: files appear whole, under their names, or not at all; a run that was
 //! killed is made good by running it again; and nothing that jabuka did not write is ever touched.
 
+mod assets;
 mod compare;
 mod error;
 mod folder;
 mod manifest;
+mod tallied;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
 pub(crate) use folder::scripts;
-pub use manifest::{Entry, MANIFEST, Manifest};
+pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
+use tallied::Tallied;
 pub use write::{Written, write};

@@ -5,7 +5,7 @@ use std::fs;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::manifest::{self, Entry, Head, MANIFEST, State};
-use super::{Folder, OutputError};
+use super::{Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::frame_name;
 use crate::simulate::Selection;
@@ -54,6 +54,7 @@ pub fn write(
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
     }
+    entries.extend(assets::copy(folder, &run.scene().povray.assets)?);
     removed.retain(|frame| !selection.contains(*frame));
     let bytes = entries.iter().map(|entry| entry.bytes).sum();
     let kept = kept(folder, selection)?;

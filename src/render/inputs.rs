@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use super::includes::{Include, includes};
 use super::record::{Files, Record};
 use super::{RenderError, Script, Sequence};
+use crate::scene::sdl::{Include, includes};
 
 /// The record that the image of each script would get now, but for the length of the image.
 ///

@@ -4,7 +4,6 @@ mod cpu;
 mod error;
 mod fault;
 mod images;
-mod includes;
 mod inputs;
 mod job;
 mod options;

@@ -50,12 +50,12 @@ impl Sequence {
         })?;
         let absolute = folder.canonicalize().map_err(RenderError::io(folder))?;
         let manifest = Manifest::read(folder);
-        if manifest.as_ref().is_some_and(|manifest| !manifest.complete) {
+        if manifest.as_ref().is_some_and(|manifest| !manifest.is_complete()) {
             return Err(RenderError::Incomplete(folder.to_owned()));
         }
         let Some((last, _)) = found.last() else { return Err(RenderError::NoScripts(folder.to_owned())) };
-        let last = manifest.as_ref().map_or(*last, |manifest| manifest.frames.saturating_sub(1));
-        let moments = manifest.as_ref().and_then(|manifest| manifest.samples);
+        let last = manifest.as_ref().map_or(*last, |manifest| manifest.head.frames.saturating_sub(1));
+        let moments: Option<u32> = None;
         let all: Vec<String> =
             found.iter().map(|(_, file)| file.trim_end_matches(".pov").to_owned()).collect();
         let script = |(frame, file): &(usize, String)| {
@@ -75,14 +75,14 @@ impl Sequence {
         }
         let assets = manifest.iter().flat_map(|manifest| &manifest.files);
         let assets = assets.filter(|file| file.name.starts_with("assets/"));
-        let size = manifest.as_ref().and_then(|manifest| Some([manifest.width?, manifest.height?]));
+        let size = manifest.as_ref().and_then(|manifest| Some([manifest.head.width?, manifest.head.height?]));
         Ok(Sequence {
             scripts,
             all,
             last,
-            frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.frame_rate),
+            frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.head.frame_rate),
             size: size.unwrap_or([1280, 720]),
-            transparent: manifest.as_ref().and_then(|manifest| manifest.transparent).unwrap_or(false),
+            transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
             moments,
             assets: assets.map(|file| absolute.join(&file.name)).collect(),
             folder: absolute,

@@ -1,5 +1,7 @@
 //! The part of a checked scene that is look.
 
+use std::path::PathBuf;
+
 use glam::DVec3;
 
 use super::{Color, LibraryMaterial, Pattern, Preset};
@@ -231,6 +233,8 @@ pub enum Sky {
 pub struct PovRay {
     /// Include files.
     pub include: Vec<Include>,
+    /// Files that POV-Ray's own words read.
+    pub assets: Vec<Asset>,
     /// POV-Ray's own words, before the bodies.
     pub sdl: Option<String>,
     /// The length of one unit of POV-Ray's, m; none: it follows from the size of the scene.
@@ -239,6 +243,15 @@ pub struct PovRay {
     pub digits: usize,
     /// Templates that take the place of those built in.
     pub templates: Vec<OwnTemplate>,
+}
+
+/// A file that scripts read, of which a copy stands beside them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Asset {
+    /// What scripts call it: the path of its copy below the folder of all copies, with `/`.
+    pub name: String,
+    /// The path of its file.
+    pub path: PathBuf,
 }
 
 /// A template of the user's own.

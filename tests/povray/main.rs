@@ -3,6 +3,7 @@
 //! A process of POV-Ray's sleeps most of its 0.6 s, so tests that render several scripts start all of them at once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
 
+mod assets;
 mod every_script;
 mod hostile;
 mod image;

@@ -1,5 +1,6 @@
 //! Tree → [`Scene`], or all that is wrong with it.
 
+mod asset;
 mod body;
 mod braces;
 mod camera;
@@ -166,5 +167,7 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
             Include::Text { text, .. } => add(text),
         }
     }
+    // What is in them is in no script.
+    povray.assets.iter().for_each(|asset| add(&asset.name));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

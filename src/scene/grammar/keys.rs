@@ -3,8 +3,8 @@
 //! To add one: describe it here, read it in `scene/check`, and add a scene that uses it.
 
 use super::Kind::{
-    Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
-    Reference, Sdl, Table, Text,
+    Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
+    Numbers, Reference, Sdl, Table, Text,
 };
 use super::forces::FORCE;
 use super::shapes::SHAPE;
@@ -383,6 +383,14 @@ static POVRAY: TableSpec = TableSpec {
         )
         .default("[]")
         .also(&["includes"]),
+        Key::new(
+            "assets",
+            List { of: &Asset, min: 0, max: usize::MAX },
+            "Files beside the scene that POV-Ray's own words read, as images, height fields and fonts; copies of \
+             them stand in the folder `assets` beside the scripts, and the words call them as this list does",
+        )
+        .default("[]")
+        .also(&["files", "images", "textures", "maps"]),
         Key::new("sdl", Sdl, "POV-Ray's own words, to stand in every script before the bodies")
             .default("none"),
         Key::new(

@@ -1,0 +1,50 @@
+//! Copies of the files that scripts read: images, height fields, fonts.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::manifest::Entry;
+use super::{Folder, OutputError, Tallied};
+use crate::emit::ASSETS;
+use crate::scene::Asset;
+
+/// Copies the assets of a scene to where its scripts find them. Copies of others that are there stay: nothing tells
+/// them from files of somebody else's.
+///
+/// # Errors
+/// Where an asset cannot be read or its copy not be written, or a folder on the way is a link.
+pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
+    let copy = |asset: &Asset| {
+        let name = format!("{ASSETS}/{}", asset.name);
+        make_folders(folder.path(), Path::new(&name))?;
+        let original = |error| OutputError::Io(asset.path.clone(), error);
+        let mut file = File::open(&asset.path).map_err(original)?;
+        let mut entry = None;
+        folder.write_with(&name, |copy| {
+            let mut tally = Tallied::new(copy);
+            io::copy(&mut file, &mut tally)?;
+            tally.flush()?;
+            entry = Some(tally.entry(None, name.clone()));
+            Ok(())
+        })?;
+        Ok(entry)
+    };
+    let entries: Result<Vec<_>, OutputError> = assets.iter().map(copy).collect();
+    Ok(entries?.into_iter().flatten().collect())
+}
+
+/// Makes the folders that a file stands in, below a folder that is there. No link is followed.
+fn make_folders(folder: &Path, file: &Path) -> Result<(), OutputError> {
+    let mut path: PathBuf = folder.to_owned();
+    for part in file.parent().into_iter().flat_map(Path::components) {
+        path.push(part);
+        match fs::symlink_metadata(&path) {
+            Ok(metadata) if metadata.is_symlink() => return Err(OutputError::Link(path)),
+            Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path)),
+            Ok(_) => {}
+            Err(_) => fs::create_dir(&path).map_err(|error| OutputError::Io(path.clone(), error))?,
+        }
+    }
+    Ok(())
+}
