@@ -92,6 +92,8 @@ pub(super) fn parse_size(argument: &str) -> Result<[u32; 2], String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let stop = interrupt::watched();
+    // What is not there is said before anything is done.
+    PovRay::locate(arguments.povray.as_deref()).map_err(|error| failed(&error))?;
     // The folder stays locked until the images are there, so that nobody changes scripts while they are rendered.
     let (folder, _lock) = scripts(arguments)?;
     let selection = match (&arguments.frames, arguments.every) {
@@ -132,9 +134,15 @@ fn scripts(arguments: &Arguments) -> Result<(PathBuf, Option<Folder>), Failure> 
             let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts in a folder are rendered as they are";
             return Err(Failure::Usage(message.to_owned()));
         }
-        // Scripts that are somebody else's, or cannot be written to, are not locked.
-        let lock = Folder::open(&arguments.source).ok();
-        return Ok((arguments.source.clone(), lock));
+        return match Folder::open(&arguments.source) {
+            Ok(lock) => Ok((arguments.source.clone(), Some(lock))),
+            Err(error @ OutputError::Locked(_)) => {
+                say::report(&error.report());
+                Err(Failure::Errors)
+            }
+            // Scripts that are somebody else's, or that nobody can change, need no lock.
+            Err(_) => Ok((arguments.source.clone(), None)),
+        };
     }
     let size =
         arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
@@ -173,10 +181,18 @@ fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
     const SHOWN: usize = 3;
     let mut progress = None;
     let mut failures = 0;
+    let mut slowest = 0.0;
     let result = job.run(
         &mut |event| match event {
             Event::Planned { to_make, .. } => progress = Some(Progress::of_frames(to_make)),
-            Event::Made { .. } => progress.iter().for_each(Progress::step),
+            Event::Made { frame, seconds } => {
+                let seconds = seconds.filter(|seconds| *seconds > slowest);
+                if let (Some(seconds), Some(progress)) = (seconds, &progress) {
+                    slowest = seconds;
+                    progress.phase(format!("slowest: {frame}, {seconds:.1} s"));
+                }
+                progress.iter().for_each(Progress::step);
+            }
             Event::Failed(fault) => {
                 failures += 1;
                 if failures <= SHOWN {

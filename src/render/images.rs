@@ -88,7 +88,7 @@ impl Images {
         let folder = self.hidden().join("failed");
         fs::create_dir_all(&folder).map_err(RenderError::io(&folder))?;
         let path = folder.join(format!("{name}.txt"));
-        fs::write(&path, why).map_err(RenderError::io(&path))
+        fs::write(&path, format!("{why}\n")).map_err(RenderError::io(&path))
     }
 
     fn forget_failure(&self, name: &str) -> Result<(), RenderError> {

@@ -44,6 +44,8 @@ pub enum Event<'a> {
     Made {
         /// The number of the frame.
         frame: usize,
+        /// What it has cost, s; none: it is a copy.
+        seconds: Option<f64>,
     },
     /// A frame cannot be rendered.
     Failed(&'a Fault),
@@ -143,7 +145,7 @@ impl Job<'_> {
         let scripts = sequence.scripts();
         let setup = Setup {
             povray: self.povray.path(),
-            scripts: sequence.folder(),
+            scripts: sequence.absolute(),
             options: &self.options,
             end: (sequence.last, sequence.time(sequence.last)),
             threads: 1,
@@ -168,11 +170,11 @@ impl Job<'_> {
                     if outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
                         outcome.slowest = Some((unit.frame, seconds));
                     }
-                    watch(Event::Made { frame: first.frame });
+                    watch(Event::Made { frame: first.frame, seconds: Some(seconds) });
                     for &other in &group.members[1..] {
                         self.images.copy(&first.name, &scripts[other].name, &group.record)?;
                         outcome.copied += 1;
-                        watch(Event::Made { frame: scripts[other].frame });
+                        watch(Event::Made { frame: scripts[other].frame, seconds: None });
                     }
                     return Ok(());
                 }

@@ -25,9 +25,7 @@ impl PovRay {
     /// # Errors
     /// Where there is none, or none of a version that is known.
     pub fn find(given: Option<&Path>, memory: &Path) -> Result<PovRay, RenderError> {
-        let wanted = given.unwrap_or(Path::new("povray"));
-        let path = which::which(wanted).map_err(|_| RenderError::NoPovray(wanted.to_owned()))?;
-        let path = path.canonicalize().map_err(RenderError::io(&path))?;
+        let path = PovRay::locate(given)?;
         let mark = mark(&path).map_err(RenderError::io(&path))?;
         let remembered = fs::read_to_string(memory).ok();
         let remembered = remembered.as_deref().and_then(|text| text.split_once('\n'));
@@ -42,6 +40,16 @@ impl PovRay {
         // Where this cannot be kept, it is asked again the next time.
         let _ = fs::write(memory, format!("{mark}\n{version}\n"));
         Ok(PovRay { path, version: version.to_owned() })
+    }
+
+    /// Where POV-Ray is, which is quickly told.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn locate(given: Option<&Path>) -> Result<PathBuf, RenderError> {
+        let wanted = given.unwrap_or(Path::new("povray"));
+        let path = which::which(wanted).map_err(|_| RenderError::NoPovray(wanted.to_owned()))?;
+        path.canonicalize().map_err(RenderError::io(&path))
     }
 
     /// Where it is.

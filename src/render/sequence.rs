@@ -3,16 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use super::RenderError;
+use crate::emit::frame_name;
 use crate::output::{Manifest, scripts};
 use crate::simulate::Selection;
 
 /// Some or all scripts of a film.
 #[derive(Clone, Debug)]
 pub struct Sequence {
+    /// The folder as it was given, for people.
     folder: PathBuf,
+    /// The same folder, wherever one stands.
+    absolute: PathBuf,
     scripts: Vec<Script>,
-    /// The names of all frames of the film, whether they are asked for or not.
-    all: Vec<String>,
     /// The number of the film's last frame.
     pub last: usize,
     /// Frames per second.
@@ -56,8 +58,6 @@ impl Sequence {
         let Some((last, _)) = found.last() else { return Err(RenderError::NoScripts(folder.to_owned())) };
         let last = manifest.as_ref().map_or(*last, |manifest| manifest.head.frames.saturating_sub(1));
         let moments: Option<u32> = None;
-        let all: Vec<String> =
-            found.iter().map(|(_, file)| file.trim_end_matches(".pov").to_owned()).collect();
         let script = |(frame, file): &(usize, String)| {
             let name = file.trim_end_matches(".pov").to_owned();
             let file = match moments {
@@ -78,20 +78,25 @@ impl Sequence {
         let size = manifest.as_ref().and_then(|manifest| Some([manifest.head.width?, manifest.head.height?]));
         Ok(Sequence {
             scripts,
-            all,
             last,
             frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.head.frame_rate),
             size: size.unwrap_or([1280, 720]),
             transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
             moments,
             assets: assets.map(|file| absolute.join(&file.name)).collect(),
-            folder: absolute,
+            folder: folder.to_owned(),
+            absolute,
         })
     }
 
     /// The folder of the scripts.
     pub fn folder(&self) -> &Path {
         &self.folder
+    }
+
+    /// The folder of the scripts, wherever one stands.
+    pub(super) fn absolute(&self) -> &Path {
+        &self.absolute
     }
 
     /// The scripts that are asked for, in the order of their frames.
@@ -105,8 +110,10 @@ impl Sequence {
         frame as f64 / self.frame_rate
     }
 
-    /// Whether an image of this name is that of a frame of the film.
+    /// Whether an image of this name is that of a frame of the film, asked for or not.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.all.binary_search_by(|probe| (probe.len(), probe.as_str()).cmp(&(name.len(), name))).is_ok()
+        let number = name.strip_prefix("frame_").and_then(|digits| digits.parse().ok());
+        let is = |number: usize| frame_name(number, self.last + 1) == format!("{name}.pov");
+        number.is_some_and(|number| number <= self.last && is(number))
     }
 }
