@@ -123,6 +123,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         time_limit: arguments.time_limit.map(Duration::from_secs),
     };
     let outcome = render(&job, stop)?;
+    if outcome.stopped {
+        let (there, frames) =
+            (outcome.rendered + outcome.copied + outcome.up_to_date, sequence.scripts().len());
+        say::error(&format!(
+            "stopped: {there} of {frames} frames are there; the same command goes on with the others\n"
+        ));
+        return Err(Failure::Interrupted);
+    }
     say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
     if outcome.failed.is_empty() { Ok(()) } else { Err(Failure::Errors) }
 }
@@ -219,10 +227,7 @@ fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
 /// Says why nothing more is rendered.
 fn failed(error: &RenderError) -> Failure {
     say::report(&error.report());
-    match error {
-        RenderError::Cancelled => Failure::Interrupted,
-        _ => Failure::Errors,
-    }
+    Failure::Errors
 }
 
 /// What was made, in a few lines.

@@ -31,8 +31,6 @@ pub enum RenderError {
     Io(PathBuf, io::Error),
     /// So many frames failed, and none succeeded.
     AllFail(usize),
-    /// Somebody has asked to stop.
-    Cancelled,
 }
 
 impl RenderError {
@@ -49,7 +47,6 @@ impl RenderError {
             RenderError::DiskFull(_) => "disk-full",
             RenderError::Io(..) => "cannot-write",
             RenderError::AllFail(_) => "all-frames-fail",
-            RenderError::Cancelled => "stopped",
         }
     }
 
@@ -86,9 +83,6 @@ impl RenderError {
                 Some("make room and run the same command again: it goes on where this one has stopped")
             }
             RenderError::AllFail(_) => Some("with `--keep-going`, the other frames are tried as well"),
-            RenderError::Cancelled => {
-                Some("run the same command again: it goes on where this one has stopped")
-            }
             RenderError::Io(..) | RenderError::NoSuchFrames(..) => None,
         }
     }
@@ -131,7 +125,6 @@ impl fmt::Display for RenderError {
             RenderError::AllFail(frames) => {
                 write!(f, "stopped, since all of the first {frames} frames failed")
             }
-            RenderError::Cancelled => f.write_str("stopped"),
         }
     }
 }

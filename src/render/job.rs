@@ -70,6 +70,8 @@ pub struct Outcome {
     pub processes: usize,
     /// What POV-Ray has warned of.
     pub warnings: Vec<String>,
+    /// Whether somebody has asked to stop before all was done.
+    pub stopped: bool,
 }
 
 /// Frames of equal scripts: the first is rendered.
@@ -83,7 +85,7 @@ impl Job<'_> {
     /// Renders what is not there yet. `watch` is told how it goes; `stop` ends it.
     ///
     /// # Errors
-    /// Where the disk is full, a folder is gone, nothing can be rendered, or somebody has asked to stop. Frames that
+    /// Where the disk is full, a folder is gone, or nothing can be rendered. Frames that
     /// fail by themselves are no error here: they are in the outcome.
     pub fn run(&self, watch: &mut dyn FnMut(Event<'_>), stop: &AtomicBool) -> Result<Outcome, RenderError> {
         let mut outcome = Outcome::default();
@@ -193,9 +195,10 @@ impl Job<'_> {
             }
             Ok(())
         };
-        let result = pool.run(units, &mut done);
+        let finished = pool.run(units, &mut done)?;
+        outcome.stopped = !finished;
         outcome.processes = pool.started();
         outcome.warnings = pool.warnings();
-        result
+        Ok(())
     }
 }

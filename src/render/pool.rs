@@ -76,20 +76,21 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Renders all units. `done` is told of each, and says whether to go on.
+    /// Renders all units, and says whether it has come to the end: somebody may have asked to stop. `done` is told of
+    /// each unit.
     ///
     /// # Errors
-    /// Where the disk is full, a folder is gone, or somebody has asked to stop; or the error of `done`.
+    /// Where the disk is full or a folder is gone; or the error of `done`.
     pub(super) fn run(
         &mut self,
         units: impl IntoIterator<Item = Unit>,
         done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
-    ) -> Result<(), RenderError> {
+    ) -> Result<bool, RenderError> {
         self.queue = units.into_iter().collect();
         let mut looked = Instant::now();
         while !(self.queue.is_empty() && self.running.is_empty()) {
             if self.stop.load(Ordering::Relaxed) {
-                return Err(RenderError::Cancelled);
+                return Ok(false);
             }
             while !self.queue.is_empty() && self.running.len() < self.wanted() {
                 self.start()?;
@@ -105,7 +106,7 @@ impl<'a> Pool<'a> {
             }
             thread::sleep(TICK);
         }
-        Ok(())
+        Ok(true)
     }
 
     /// The number of processes that have been started.

@@ -19,7 +19,11 @@ fn one_broken_script_is_one_missing_image() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(place.images().len(), 25);
     assert!(!place.images().contains(&"frame_0007.png".to_owned()));
-    assert!(stdout(&output).starts_with("out/scene/images: 25 of 26 frames\nfailed    1\n"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).starts_with("out/scene/images: 25 of 26 frames\nfailed    1\n"),
+        "{}",
+        stdout(&output)
+    );
     let said = stderr(&output);
     assert!(said.starts_with("error[bad-frame]: frame 7, body `ball`: "), "{said}");
     assert!(said.contains(&format!("out/scene/frame_0007.pov:{line}:1")) && said.contains("NOPE"), "{said}");
@@ -40,12 +44,23 @@ fn where_every_frame_fails_it_stops() {
     let output = place.run(&["render", "scene.toml"]);
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
-    assert!(said.contains("error[all-frames-fail]: stopped, since all of the first 8 frames failed"), "{said}");
+    assert!(
+        said.contains("error[all-frames-fail]: stopped, since all of the first 8 frames failed"),
+        "{said}"
+    );
     assert_tidy(&place.path("out/scene/images"));
     let output = place.run(&["render", "scene.toml", "--keep-going", "--frames", "0-11"]);
-    assert!(stdout(&output).starts_with("out/scene/images: 0 of 12 frames\nfailed    12\n"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).starts_with("out/scene/images: 0 of 12 frames\nfailed    12\n"),
+        "{}",
+        stdout(&output)
+    );
     assert_eq!(stderr(&output).matches("error[bad-frame]").count(), 3);
-    assert!(stderr(&output).ends_with("and of the frames 3, 4, 5, 6, 7, 8, 9, 10, 11\n"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).ends_with("and of the frames 3, 4, 5, 6, 7, 8, 9, 10, 11\n"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -97,5 +112,9 @@ fn a_povray_that_does_nothing_at_all_is_found_out_without_a_time_limit() {
     let output = place.run(&["render", "scene.toml", "--povray", &povray, "--frames", "0-1", "--retry", "0"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(start.elapsed() < Duration::from_secs(100));
-    assert!(stderr(&output).contains("POV-Ray gave no image: it hung: it did nothing for 20 s"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("POV-Ray gave no image: it hung: it did nothing for 20 s"),
+        "{}",
+        stderr(&output)
+    );
 }

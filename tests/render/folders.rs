@@ -61,8 +61,16 @@ fn what_is_missing_is_said() {
         assert_eq!(output.status.code(), Some(code), "{said}");
         assert!(words.iter().all(|word| said.contains(word)), "{arguments:?}: {said}");
     };
-    fails(&["render", "scene.toml", "--povray", "nowhere"], 1, &["error[no-povray]", "`nowhere`", "apt install povray"]);
-    fails(&["render", "scene.toml", "--povray", "/bin/true", "--frames", "0"], 1, &["error[wrong-povray]", "3.7"]);
+    fails(
+        &["render", "scene.toml", "--povray", "nowhere"],
+        1,
+        &["error[no-povray]", "`nowhere`", "apt install povray"],
+    );
+    fails(
+        &["render", "scene.toml", "--povray", "/bin/true", "--frames", "0"],
+        1,
+        &["error[wrong-povray]", "3.7"],
+    );
     fails(&["render", "nothing.toml"], 1, &["nothing.toml"]);
     fails(&["render", "scene.toml", "--frames", "99"], 2, &["0 to 25"]);
     fails(&["render", "scene.toml", "--size", "640"], 2, &["1280x720"]);
@@ -73,7 +81,8 @@ fn what_is_missing_is_said() {
     fails(&["render", "out/scene", "--frames", "3-5"], 1, &["error[no-scripts]", "3-5"]);
     fails(&["render", "out/scene", "--trust"], 2, &["`--trust`"]);
     let manifest = fs::read_to_string(place.path("out/scene/manifest.json")).unwrap();
-    fs::write(place.path("out/scene/manifest.json"), manifest.replace("\"complete\"", "\"writing\"")).unwrap();
+    fs::write(place.path("out/scene/manifest.json"), manifest.replace("\"complete\"", "\"writing\""))
+        .unwrap();
     fails(&["render", "out/scene"], 1, &["error[incomplete-scripts]"]);
 }
 
@@ -87,5 +96,8 @@ fn scripts_without_a_manifest_are_rendered_too() {
         fs::copy(place.path("out/scene").join(&name), place.path("mine").join(&name)).unwrap();
     }
     place.succeed(&["render", "mine", "--size", "32x18", "-o", "pictures"]);
-    assert_eq!(names(&place.path("pictures")), [".jabuka", "frame_0002.png", "frame_0003.png", "frame_0004.png"]);
+    assert_eq!(
+        names(&place.path("pictures")),
+        [".jabuka", "frame_0002.png", "frame_0003.png", "frame_0004.png"]
+    );
 }

@@ -56,7 +56,8 @@ fn sdl_that_asks_for_the_clock_gets_the_right_one() {
         .stderr(Stdio::null())
         .status();
     assert!(status.unwrap().success());
-    let images: Vec<_> = place.images().iter().map(|name| pixels(&place.path("out/scene/images").join(name))).collect();
+    let images: Vec<_> =
+        place.images().iter().map(|name| pixels(&place.path("out/scene/images").join(name))).collect();
     assert_eq!(images.len(), 5);
     for (image, name) in images.iter().zip(place.images()) {
         assert!(*image == pixels(&place.path("out/scene").join(&name)), "{name} is another picture");
