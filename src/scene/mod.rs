@@ -24,7 +24,7 @@ pub(crate) use color::names as color_names;
 pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
     Asset, Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material,
-    Output, OwnTemplate, PovRay, Projection, Sky, View,
+    Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use number::Number;

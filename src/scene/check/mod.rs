@@ -132,9 +132,9 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
+        camera: camera::read(&root, &simulation, context),
+        views: camera::views(&root, &simulation, context),
         simulation,
-        camera: camera::read(&root.table("camera"), context),
-        views: camera::views(&root, context),
         lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),

@@ -278,6 +278,22 @@ static CAMERA: TableSpec = TableSpec {
             "With `aperture`, the number of rays for a pixel: more is smoother",
         )
         .default("60"),
+        Key::new(
+            "shutter",
+            NON_NEGATIVE,
+            "How long the shutter is open from the time of a frame on, at most until the next frame: what moves \
+             meanwhile is blurred; half the time between frames is usual in films",
+        )
+        .unit("s")
+        .default("0: everything is sharp")
+        .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
+        Key::new(
+            "samples",
+            Integer(2, 256),
+            "With `shutter`, the number of moments that an image is the mean of: more is smoother and takes longer",
+        )
+        .default("16")
+        .also(&["shutter_samples", "motion_blur_samples"]),
     ],
 };
 
