@@ -9,6 +9,7 @@ mod man;
 mod new;
 mod progress;
 mod say;
+mod scene_arguments;
 mod schema;
 mod summary;
 mod templates;
