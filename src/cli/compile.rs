@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use jabuka::Run;
 use jabuka::diagnostic::Report;
-use jabuka::output::{self, Folder, OutputError};
-use jabuka::scene::View;
+use jabuka::output::{self, Folder};
 use jabuka::simulate::Selection;
-use jabuka::{Run, Scene};
 
 use super::progress::Progress;
-use super::scene_arguments::{self, SceneArguments};
+use super::scene_arguments::{SceneArguments, seen, survey};
 use super::{Failure, say, summary};
 
 /// Compile a scene into POV-Ray scripts, one per frame
@@ -21,35 +20,27 @@ pub(super) struct Arguments {
     /// The folder for the scripts [default: out/<name of the scene file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Write only these frames, as in 0,50,90-100
-    #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
-    frames: Option<Selection>,
-    /// Write the scripts of this view instead of the main camera's, or of `all` cameras; may be repeated
-    #[arg(long, value_name = "NAME")]
-    view: Vec<String>,
+    #[command(flatten)]
+    of_scene: SceneArguments,
     /// Write nothing: compare the scripts with those in the folder, and fail where they differ
     #[arg(long)]
     check: bool,
-    #[command(flatten)]
-    reading: SceneArguments,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
-    let scene = arguments.reading.read(&arguments.scene)?;
+    let scene = arguments.of_scene.read(&arguments.scene)?;
     let frames = scene.simulation.frames();
-    let selection = scene_arguments::selection(arguments.frames.as_ref(), frames)?;
-    let cameras = cameras(arguments, &scene)?;
+    let selection = arguments.of_scene.selection(frames)?;
+    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
     let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
-    progress.phase("simulating");
-    let run =
-        Run::new_seeing(&scene, |_| progress.step()).map_err(|error| failed(&progress, &error.into()))?;
+    let run = survey(&scene, &progress)?;
     progress.phase(if arguments.check { "comparing" } else { "writing" });
     let mut result = Ok(());
     for (view, folder) in &cameras {
-        let seen = view.map(|view| run.seen_by(view)).transpose();
-        let seen = seen.map_err(|error| failed(&progress, &error.into()))?;
+        let seen = seen(&run, *view, &progress)?;
         let run = seen.as_ref().unwrap_or(&run);
         if arguments.check {
             result = check(run, folder, &selection, &progress).and(result);
@@ -60,26 +51,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     result
 }
 
-/// The cameras that are asked for, each with the folder for its scripts; `None` is the main one.
-fn cameras<'a>(arguments: &Arguments, scene: &'a Scene) -> Result<Vec<(Option<&'a View>, PathBuf)>, Failure> {
-    let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
-    if arguments.view.is_empty() {
-        return Ok(vec![(None, folder)]);
-    }
-    if arguments.view.iter().any(|name| name == "all") {
-        let others =
-            scene.views.iter().map(|view| (Some(view), scene_arguments::beside(&folder, &view.name)));
-        return Ok(std::iter::once((None, folder.clone())).chain(others).collect());
-    }
-    let find = |name: &String| {
-        let view = scene_arguments::view(scene, name)?;
-        // The folder that is given is that of the only view that is asked for.
-        let is_its = arguments.view.len() == 1 && arguments.output.is_some();
-        Ok((Some(view), if is_its { folder.clone() } else { scene_arguments::beside(&folder, name) }))
-    };
-    arguments.view.iter().map(find).collect()
-}
-
 /// Writes the scripts of one camera, and says what they come to.
 fn write(
     run: &Run<'_>,
@@ -88,9 +59,9 @@ fn write(
     progress: &Progress,
     start: Instant,
 ) -> Result<(), Failure> {
-    let folder = Folder::open(folder).map_err(|error| failed(progress, &error))?;
+    let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     let written = output::write(run, &folder, selection, &|| progress.step());
-    let written = written.map_err(|error| failed(progress, &error))?;
+    let written = written.map_err(|error| progress.failed(&error))?;
     progress.finish();
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     say::result(&summary::summary(run, folder.path(), &written, start.elapsed()));
@@ -101,7 +72,7 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     /// So many frames are shown in full.
     const SHOWN: usize = 3;
     let differences = output::compare(run, folder, selection, &|| progress.step());
-    let differences = differences.map_err(|error| failed(progress, &error))?;
+    let differences = differences.map_err(|error| progress.failed(&error))?;
     progress.finish();
     let compared = selection.count_within(run.scene().simulation.frames());
     if differences.is_empty() {
@@ -116,11 +87,4 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     }
     say::result(&format!("{}: {} of {compared} scripts differ\n", folder.display(), differences.len()));
     Err(Failure::Errors)
-}
-
-/// Says why a run failed.
-fn failed(progress: &Progress, error: &OutputError) -> Failure {
-    progress.finish();
-    say::report(&error.report());
-    Failure::Errors
 }

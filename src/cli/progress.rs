@@ -6,6 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jabuka::output::OutputError;
+
+use super::{Failure, say};
 
 /// A bar on standard error, for what takes over a second; without a terminal there is none.
 pub(super) struct Progress {
@@ -56,5 +59,12 @@ impl Progress {
     /// All is done: the bar goes.
     pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+
+    /// It failed: the bar goes, and the reason is said.
+    pub(super) fn failed(&self, error: &OutputError) -> Failure {
+        self.finish();
+        say::report(&error.report());
+        Failure::Errors
     }
 }

@@ -5,7 +5,6 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
-use jabuka::Run;
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
 use jabuka::render::{self, Event, Images, Job, Outcome, PovRay, Quality, RenderError, Sequence};
@@ -34,15 +33,9 @@ pub(super) struct Arguments {
     /// The number of POV-Rays at once [default: as many as keep the processors busy]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Render only these frames, as in 0,50,90-100
-    #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
-    frames: Option<Selection>,
     /// Render only every N-th frame
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     every: Option<u32>,
-    /// Render what this view sees instead of the main camera
-    #[arg(long, value_name = "NAME")]
-    view: Option<String>,
     /// The program POV-Ray [default: povray]
     #[arg(long, value_name = "PATH")]
     povray: Option<PathBuf>,
@@ -56,10 +49,16 @@ pub(super) struct Arguments {
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
-    reading: SceneArguments,
+    scene: SceneArguments,
     /// Further options for POV-Ray, as in -- +Q4 +AM2
     #[arg(last = true, value_name = "POVRAY OPTIONS")]
     options: Vec<String>,
+}
+
+impl Arguments {
+    fn every(&self) -> usize {
+        self.every.unwrap_or(1) as usize
+    }
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]
@@ -90,25 +89,81 @@ pub(super) fn parse_size(argument: &str) -> Result<[u32; 2], String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let start = Instant::now();
     let stop = interrupt::watched();
     // What is not there is said before anything is done.
     PovRay::locate(arguments.povray.as_deref()).map_err(|error| failed(&error))?;
-    // The folder stays locked until the images are there, so that nobody changes scripts while they are rendered.
-    let (folder, _lock) = scripts(arguments)?;
-    let selection = match (&arguments.frames, arguments.every) {
-        (None, None) => None,
-        (frames, every) => {
-            let frames = frames.clone().unwrap_or_else(|| Selection::first(usize::MAX));
-            Some(frames.every(every.unwrap_or(1) as usize))
+    if arguments.source.is_dir() {
+        return render_folder(arguments, stop);
+    }
+    let size =
+        arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
+    let scene = arguments.scene.read_with(&arguments.source, size.as_slice())?;
+    let frames = scene.simulation.frames();
+    let selection = arguments.scene.selection(frames)?.every(arguments.every());
+    let out = Path::new("out").join(&scene.name);
+    let cameras = arguments.scene.cameras(&out, false, &scene)?;
+    if cameras.len() > 1 && arguments.output.is_some() {
+        let message = "several views cannot share one folder of images: leave `-o` away, or name one view";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let run = scene_arguments::survey(&scene, &progress)?;
+    let mut folders = Vec::new();
+    for (view, folder) in &cameras {
+        let seen = scene_arguments::seen(&run, *view, &progress)?;
+        let run = seen.as_ref().unwrap_or(&run);
+        progress.phase("writing");
+        let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
+        output::write(run, &folder, &selection, &|| progress.step())
+            .map_err(|error| progress.failed(&error))?;
+        folders.push(folder);
+    }
+    progress.finish();
+    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
+    let results =
+        folders.iter().map(|folder| render_scripts(arguments, folder.path(), Some(&selection), stop));
+    results.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// Renders the scripts in a folder, as they are.
+fn render_folder(arguments: &Arguments, stop: &AtomicBool) -> Result<(), Failure> {
+    if !arguments.scene.suit_scripts() {
+        let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts of a folder are \
+                       rendered as they are";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let _lock = match Folder::open(&arguments.source) {
+        Ok(lock) => Some(lock),
+        Err(error @ OutputError::Locked(_)) => {
+            say::report(&error.report());
+            return Err(Failure::Errors);
         }
+        // Scripts that are somebody else's, or that nobody can change, need no lock.
+        Err(_) => None,
     };
-    let sequence = Sequence::open(&folder, selection.as_ref()).map_err(|error| failed(&error))?;
+    let selection = match (&arguments.scene.frames, arguments.every) {
+        (None, None) => None,
+        (Some(frames), _) => Some(frames.clone()),
+        (None, Some(_)) => Some(Selection::first(usize::MAX)),
+    };
+    let selection = selection.map(|selection| selection.every(arguments.every()));
+    render_scripts(arguments, &arguments.source, selection.as_ref(), stop)
+}
+
+/// Renders the selected scripts of a folder.
+fn render_scripts(
+    arguments: &Arguments,
+    folder: &Path,
+    selection: Option<&Selection>,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let start = Instant::now();
+    let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
     let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
     let images = Images::open(&images).map_err(|error| failed(&error))?;
-    let povray =
-        PovRay::find(arguments.povray.as_deref(), &images.povray_memory()).map_err(|error| failed(&error))?;
-
+    let povray = PovRay::find(arguments.povray.as_deref(), &images.povray_memory());
+    let povray = povray.map_err(|error| failed(&error))?;
     let size = arguments.size.unwrap_or(sequence.size);
     let mut options = render::options(size, sequence.transparent, arguments.quality.into());
     options.extend(arguments.options.iter().cloned());
@@ -124,63 +179,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let outcome = render(&job, stop)?;
     if outcome.stopped {
-        let (there, frames) =
-            (outcome.rendered + outcome.copied + outcome.up_to_date, sequence.scripts().len());
-        say::error(&format!(
-            "stopped: {there} of {frames} frames are there; the same command goes on with the others\n"
-        ));
+        let there = outcome.rendered + outcome.copied + outcome.up_to_date;
+        let frames = sequence.scripts().len();
+        let goes_on = "the same command goes on with the others";
+        say::error(&format!("stopped: {there} of {frames} frames are there; {goes_on}\n"));
         return Err(Failure::Interrupted);
     }
     say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
     if outcome.failed.is_empty() { Ok(()) } else { Err(Failure::Errors) }
-}
-
-/// The folder with the scripts: of a scene, after it has been compiled.
-fn scripts(arguments: &Arguments) -> Result<(PathBuf, Option<Folder>), Failure> {
-    if arguments.source.is_dir() {
-        if !arguments.reading.are_absent() || arguments.view.is_some() {
-            let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts in a folder are rendered as they are";
-            return Err(Failure::Usage(message.to_owned()));
-        }
-        return match Folder::open(&arguments.source) {
-            Ok(lock) => Ok((arguments.source.clone(), Some(lock))),
-            Err(error @ OutputError::Locked(_)) => {
-                say::report(&error.report());
-                Err(Failure::Errors)
-            }
-            // Scripts that are somebody else's, or that nobody can change, need no lock.
-            Err(_) => Ok((arguments.source.clone(), None)),
-        };
-    }
-    let size =
-        arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
-    let scene = arguments.reading.read_with(&arguments.source, size.as_slice())?;
-    let frames = scene.simulation.frames();
-    let selection = scene_arguments::selection(arguments.frames.as_ref(), frames)?;
-    let selection = selection.every(arguments.every.unwrap_or(1) as usize);
-    let progress = Progress::new(frames + selection.count_within(frames));
-    let failed = |error: OutputError| {
-        progress.finish();
-        say::report(&error.report());
-        Failure::Errors
-    };
-    progress.phase("simulating");
-    let main = Run::new_seeing(&scene, |_| progress.step()).map_err(|error| failed(error.into()))?;
-    let mut folder = Path::new("out").join(&scene.name);
-    let run = match &arguments.view {
-        None => main,
-        Some(name) => {
-            let view = scene_arguments::view(&scene, name)?;
-            folder = scene_arguments::beside(&folder, name);
-            main.seen_by(view).map_err(|error| failed(error.into()))?
-        }
-    };
-    progress.phase("writing");
-    let folder = Folder::open(&folder).map_err(failed)?;
-    output::write(&run, &folder, &selection, &|| progress.step()).map_err(failed)?;
-    progress.finish();
-    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-    Ok((folder.path().to_owned(), Some(folder)))
 }
 
 /// Renders, and says how it goes.
