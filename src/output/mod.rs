@@ -8,12 +8,12 @@ mod compare;
 mod error;
 mod folder;
 mod manifest;
-mod tallied;
+mod tally;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
-use tallied::Tallied;
+use tally::Tally;
 pub use write::{Written, write};
