@@ -43,6 +43,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod explain;
 pub mod output;
+pub mod render;
 mod run;
 pub mod scene;
 pub mod simulate;

@@ -1,0 +1,3 @@
+//! Scripts → images.
+
+pub mod linear_light;
