@@ -74,7 +74,8 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     let differences = output::compare(run, folder, selection, &|| progress.step());
     let differences = differences.map_err(|error| progress.failed(&error))?;
     progress.finish();
-    let compared = selection.count_within(run.scene().simulation.frames());
+    let scripts_a_frame = if run.shutter().is_some() { 2 } else { 1 };
+    let compared = scripts_a_frame * selection.count_within(run.scene().simulation.frames());
     if differences.is_empty() {
         say::result(&format!("{}: {compared} scripts are as the scene gives them\n", folder.display()));
         return Ok(());

@@ -22,6 +22,11 @@ pub fn frame_name(index: usize, frames: usize) -> String {
     format!("frame_{index:0width$}.pov", width = width(frames))
 }
 
+/// The name of the script of an image with motion blur, in a sequence of so many: `shutter_0050.pov`.
+pub fn shutter_name(index: usize, frames: usize) -> String {
+    format!("shutter_{index:0width$}.pov", width = width(frames))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -31,5 +36,6 @@ mod tests {
         assert_eq!(frame_name(50, 501), "frame_0050.pov");
         assert_eq!(frame_name(9_999, 10_000), "frame_9999.pov");
         assert_eq!(frame_name(9_999, 10_001), "frame_09999.pov");
+        assert_eq!(shutter_name(50, 501), "shutter_0050.pov");
     }
 }

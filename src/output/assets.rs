@@ -1,11 +1,11 @@
 //! Copies of the files that scripts read: images, height fields, fonts.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::manifest::Entry;
-use super::{Folder, OutputError, Tallied};
+use super::{Folder, OutputError, Tally};
 use crate::emit::ASSETS;
 use crate::scene::Asset;
 
@@ -20,18 +20,24 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
         make_folders(folder.path(), Path::new(&name))?;
         let original = |error| OutputError::Io(asset.path.clone(), error);
         let mut file = File::open(&asset.path).map_err(original)?;
-        let mut entry = None;
-        folder.write_with(&name, |copy| {
-            let mut tally = Tallied::new(copy);
-            io::copy(&mut file, &mut tally)?;
-            tally.flush()?;
-            entry = Some(tally.entry(None, name.clone()));
-            Ok(())
+        let mut tally = Tally::default();
+        folder.try_write_with(&name, |copy| {
+            let mut buffer = [0; 1 << 16];
+            loop {
+                match file.read(&mut buffer).map_err(original)? {
+                    0 => return Ok(()),
+                    length => {
+                        let piece = &buffer[..length];
+                        tally.add(piece);
+                        copy.write_all(piece)
+                            .map_err(|error| OutputError::Io(folder.path().join(&name), error))?;
+                    }
+                }
+            }
         })?;
-        Ok(entry)
+        Ok(tally.entry(None, name))
     };
-    let entries: Result<Vec<_>, OutputError> = assets.iter().map(copy).collect();
-    Ok(entries?.into_iter().flatten().collect())
+    assets.iter().map(copy).collect()
 }
 
 /// Makes the folders that a file stands in, below a folder that is there. No link is followed.

@@ -158,6 +158,12 @@ pub struct Head {
     /// Whether the images have alpha.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transparent: Option<bool>,
+    /// Where images are blurred by motion, and there are `shutter_` scripts: how long the shutter is open, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shutter: Option<f64>,
+    /// And the number of moments in each of those scripts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u32>,
     /// While writing: the frames that are being written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<String>,
@@ -179,6 +185,8 @@ impl Head {
             width: Some(scene.output.width),
             height: Some(scene.output.height),
             transparent: Some(scene.output.transparent),
+            shutter: run.shutter().map(|shutter| shutter.open),
+            samples: run.shutter().map(|shutter| shutter.samples),
             planned: None,
         }
     }

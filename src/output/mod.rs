@@ -8,7 +8,7 @@ mod compare;
 mod error;
 mod folder;
 mod manifest;
-mod tallied;
+mod tally;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
@@ -16,5 +16,5 @@ pub use error::OutputError;
 pub use folder::Folder;
 pub(crate) use folder::scripts;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
-use tallied::Tallied;
+use tally::Tally;
 pub use write::{Written, write};

@@ -8,6 +8,7 @@ pub mod film;
 mod images;
 mod inputs;
 mod job;
+pub mod linear_light;
 mod options;
 mod order;
 mod picture;

@@ -50,6 +50,7 @@ impl Sequence {
             crate::output::OutputError::Io(path, error) => RenderError::io(path)(error),
             _ => RenderError::NoScripts(folder.to_owned()),
         })?;
+        let found: Vec<_> = found.into_iter().filter(|(_, file)| file.starts_with("frame_")).collect();
         let absolute = folder.canonicalize().map_err(RenderError::io(folder))?;
         let manifest = Manifest::read(folder);
         if manifest.as_ref().is_some_and(|manifest| !manifest.is_complete()) {
@@ -57,7 +58,7 @@ impl Sequence {
         }
         let Some((last, _)) = found.last() else { return Err(RenderError::NoScripts(folder.to_owned())) };
         let last = manifest.as_ref().map_or(*last, |manifest| manifest.head.frames.saturating_sub(1));
-        let moments: Option<u32> = None;
+        let moments = manifest.as_ref().and_then(|manifest| manifest.head.samples);
         let script = |(frame, file): &(usize, String)| {
             let name = file.trim_end_matches(".pov").to_owned();
             let file = match moments {

@@ -11,5 +11,6 @@ mod frames;
 mod kill;
 mod memory;
 mod sameness;
+mod shutter;
 mod templates;
 mod views;
