@@ -1,5 +1,6 @@
 //! The command line: arguments → library → exit code.
 
+mod batch;
 mod check;
 mod compile;
 mod completions;
@@ -11,6 +12,7 @@ mod progress;
 mod say;
 mod scene_arguments;
 mod schema;
+mod status;
 mod summary;
 mod templates;
 
@@ -30,6 +32,8 @@ struct Arguments {
 enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
+    Batch(batch::Arguments),
+    Status(status::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
@@ -55,6 +59,8 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
+        Command::Status(arguments) => status::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

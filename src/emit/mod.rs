@@ -26,6 +26,7 @@ use crate::scene::{Camera, Layout, Scene};
 use crate::simulate::{Frame, Survey};
 
 pub use error::EmitError;
+pub(crate) use names::width;
 pub use names::{COMMON, INI, MASTER, frame_name};
 pub use templates::{TEMPLATES, write_templates};
 pub(crate) use text::comment;

@@ -38,7 +38,7 @@ impl Entry {
 /// How far a folder is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum State {
+pub(crate) enum State {
     /// Files of another scene may be there.
     Clearing,
     /// All files are of this scene; some may be missing.
@@ -49,20 +49,20 @@ pub(super) enum State {
 
 /// The head of a manifest: all but its list of files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Head {
+pub(crate) struct Head {
     pub(super) generator: String,
     pub(super) version: String,
-    pub(super) state: State,
+    pub(crate) state: State,
     /// The name of the scene.
-    pub(super) scene: String,
+    pub(crate) scene: String,
     /// The view that sees the scene; absent for the main camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) view: Option<String>,
     /// The digest of the texts that the scene was read from.
     pub(super) digest: String,
     /// The number of the scene's frames.
-    pub(super) frames: usize,
-    pub(super) frame_rate: f64,
+    pub(crate) frames: usize,
+    pub(crate) frame_rate: f64,
     /// While writing: the frames that are being written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) planned: Option<String>,
@@ -92,7 +92,7 @@ impl Head {
 }
 
 /// Reads the head of a manifest; `None` if there is none, if it is not ours, or if it is a link.
-pub(super) fn read(path: &Path) -> Option<Head> {
+pub(crate) fn read(path: &Path) -> Option<Head> {
     /// More than a million frames need.
     const MAX_BYTES: u64 = 512 << 20;
     let metadata = fs::symlink_metadata(path).ok()?;

@@ -12,5 +12,7 @@ mod write;
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
+pub(crate) use folder::scripts;
 pub use manifest::{Entry, MANIFEST};
+pub(crate) use manifest::{State, read as read_manifest};
 pub use write::{Written, write};

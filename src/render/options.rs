@@ -1,7 +1,5 @@
 //! The options of POV-Ray that decide on pixels.
 
-use crate::scene::Output;
-
 /// How good the images are, against how long they take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
@@ -25,10 +23,9 @@ impl Quality {
     }
 }
 
-/// The options that decide on pixels, in the order in which a [record](super::record::Record) has them; the size is that of
-/// the scene if none is given.
-pub fn options(output: &Output, size: Option<[u32; 2]>, quality: Quality) -> String {
-    let [width, height] = size.unwrap_or([output.width, output.height]);
-    let alpha = if output.transparent { " +UA" } else { "" };
+/// The options that decide on pixels, in the order in which a [record](super::Record) has them. The size is in pixels;
+/// `transparent` says whether images have alpha.
+pub fn options([width, height]: [u32; 2], transparent: bool, quality: Quality) -> String {
+    let alpha = if transparent { " +UA" } else { "" };
     format!("+W{width} +H{height} {}{alpha}", quality.options())
 }
