@@ -2,7 +2,11 @@
 //!
 //! Prints, for 24 frames of some scenes, the wall time and its ratio to what POV-Ray's CPU time for them takes on all
 //! processors. Needs POV-Ray. `cargo bench --bench rendering`
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and stops at the first surprise")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a benchmark prints, and stops at the first surprise"
+)]
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -45,7 +49,10 @@ fn main() {
         let scripts = folder.path().join("out").join(name);
         let size = [format!("+W{width}"), format!("+H{height}")];
         let mut own = Command::new("povray");
-        own.current_dir(&scripts).arg("animation.ini").args(&size).args(["+SF0", &format!("+EF{}", FRAMES - 1)]);
+        own.current_dir(&scripts)
+            .arg("animation.ini")
+            .args(&size)
+            .args(["+SF0", &format!("+EF{}", FRAMES - 1)]);
         let (own, _) = measured(&mut own);
         let mut one_by_one = 0.0;
         for frame in 0..FRAMES {

@@ -1,5 +1,7 @@
 //! The command line: arguments → library → exit code.
 
+mod average;
+mod batch;
 mod check;
 mod compile;
 mod completions;
@@ -8,11 +10,13 @@ mod interrupt;
 mod list;
 mod man;
 mod new;
+mod products;
 mod progress;
 mod render;
 mod say;
 mod scene_arguments;
 mod schema;
+mod status;
 mod summary;
 mod templates;
 
@@ -33,6 +37,9 @@ enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
     Render(render::Arguments),
+    Batch(batch::Arguments),
+    Average(average::Arguments),
+    Status(status::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
@@ -61,6 +68,9 @@ pub(crate) fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Average(arguments) => average::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
+        Command::Status(arguments) => status::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

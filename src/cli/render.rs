@@ -11,6 +11,7 @@ use jabuka::render::{self, Event, Images, Job, Outcome, PovRay, Quality, RenderE
 use jabuka::scene::Override;
 use jabuka::simulate::Selection;
 
+use super::products::Products;
 use super::progress::Progress;
 use super::scene_arguments::{self, SceneArguments};
 use super::{Failure, interrupt, say};
@@ -36,6 +37,12 @@ pub(super) struct Arguments {
     /// Render only every N-th frame
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     every: Option<u32>,
+    /// Make a film of the images: FILE.mp4, FILE.webm or FILE.gif
+    #[arg(long, value_name = "FILE")]
+    pub(super) video: Option<PathBuf>,
+    /// Make one picture of evenly spaced frames with their times
+    #[arg(long, value_name = "FILE.png")]
+    pub(super) contact_sheet: Option<PathBuf>,
     /// The program POV-Ray [default: povray]
     #[arg(long, value_name = "PATH")]
     povray: Option<PathBuf>,
@@ -92,8 +99,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
     // What is not there is said before anything is done.
     PovRay::locate(arguments.povray.as_deref()).map_err(|error| failed(&error))?;
+    let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
-        return render_folder(arguments, stop);
+        return render_folder(arguments, &products, stop);
     }
     let size =
         arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
@@ -102,8 +110,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let selection = arguments.scene.selection(frames)?.every(arguments.every());
     let out = Path::new("out").join(&scene.name);
     let cameras = arguments.scene.cameras(&out, false, &scene)?;
-    if cameras.len() > 1 && arguments.output.is_some() {
-        let message = "several views cannot share one folder of images: leave `-o` away, or name one view";
+    let shared =
+        [&arguments.output, &arguments.video, &arguments.contact_sheet].into_iter().any(Option::is_some);
+    if cameras.len() > 1 && shared {
+        let message = "several views cannot share one folder of images, film or contact sheet: name one view";
         return Err(Failure::Usage(message.to_owned()));
     }
     let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
@@ -121,13 +131,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     progress.finish();
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
-    let results =
-        folders.iter().map(|folder| render_scripts(arguments, folder.path(), Some(&selection), stop));
-    results.collect::<Vec<_>>().into_iter().collect()
+    let mut result = Ok(());
+    for folder in &folders {
+        match render_scripts(arguments, &products, folder.path(), Some(&selection), stop) {
+            Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+            other => result = result.and(other),
+        }
+    }
+    result
 }
 
 /// Renders the scripts in a folder, as they are.
-fn render_folder(arguments: &Arguments, stop: &AtomicBool) -> Result<(), Failure> {
+fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
     if !arguments.scene.suit_scripts() {
         let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts of a folder are \
                        rendered as they are";
@@ -148,12 +163,13 @@ fn render_folder(arguments: &Arguments, stop: &AtomicBool) -> Result<(), Failure
         (None, Some(_)) => Some(Selection::first(usize::MAX)),
     };
     let selection = selection.map(|selection| selection.every(arguments.every()));
-    render_scripts(arguments, &arguments.source, selection.as_ref(), stop)
+    render_scripts(arguments, products, &arguments.source, selection.as_ref(), stop)
 }
 
 /// Renders the selected scripts of a folder.
 fn render_scripts(
     arguments: &Arguments,
+    products: &Products,
     folder: &Path,
     selection: Option<&Selection>,
     stop: &AtomicBool,
@@ -186,7 +202,13 @@ fn render_scripts(
         return Err(Failure::Interrupted);
     }
     say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
-    if outcome.failed.is_empty() { Ok(()) } else { Err(Failure::Errors) }
+    if !outcome.failed.is_empty() {
+        if products.are_wanted() {
+            say::error("no film and no contact sheet were made, since frames are missing\n");
+        }
+        return Err(Failure::Errors);
+    }
+    products.make(&sequence, &images, arguments.every(), stop)
 }
 
 /// Renders, and says how it goes.

@@ -106,6 +106,16 @@ impl SceneArguments {
         };
         self.view.iter().map(find).collect()
     }
+
+    /// Whether something is said that only a scene has, not a folder of scripts.
+    pub(super) fn change_the_scene(&self) -> bool {
+        !self.set.is_empty() || !self.view.is_empty() || self.templates.is_some() || self.trust
+    }
+
+    /// The frames that are asked for, if they are.
+    pub(super) fn frames(&self) -> Option<&Selection> {
+        self.frames.as_ref()
+    }
 }
 
 /// Simulates a scene once, with a step of the progress for every frame.

@@ -27,6 +27,7 @@ use crate::scene::{Camera, Layout, Scene, Shutter};
 use crate::simulate::{Diverged, Frame, Survey};
 
 pub use error::EmitError;
+pub(crate) use names::width;
 pub use names::{ASSETS, COMMON, INI, MASTER, frame_name, shutter_name};
 pub use templates::{TEMPLATES, write_templates};
 pub(crate) use text::comment;

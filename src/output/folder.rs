@@ -25,13 +25,18 @@ impl Folder {
     /// # Errors
     /// Where the folder is somebody else's, is being written to, or cannot be used.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
+        Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
+    }
+
+    /// Like [`Folder::open`], for a folder that something else than a manifest marks as ours.
+    pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
         let io_error = |error| OutputError::Io(path.to_owned(), error);
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path.to_owned())),
             Ok(_) => {}
             Err(_) => fs::create_dir_all(path).map_err(io_error)?,
         }
-        if !is_ours(path).map_err(io_error)? {
+        if !is_ours(path, marked).map_err(io_error)? {
             return Err(OutputError::NotOurs(path.to_owned()));
         }
         let folder = Folder { path: path.to_owned(), _lock: lock(path)? };
@@ -147,12 +152,12 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }
 
-/// Whether a folder is empty but for what a killed run may leave, or holds a manifest of ours.
-fn is_ours(path: &Path) -> io::Result<bool> {
+/// Whether a folder is empty but for what a killed run may leave, or is marked as ours.
+fn is_ours(path: &Path, marked: &dyn Fn(&Path) -> bool) -> io::Result<bool> {
     for entry in fs::read_dir(path)? {
         let name = entry?.file_name();
         if name.to_str().is_none_or(|name| name != LOCK && !is_temporary(name)) {
-            return Ok(manifest::read(&path.join(MANIFEST)).is_some());
+            return Ok(marked(path));
         }
     }
     Ok(true)

@@ -203,7 +203,7 @@ impl Head {
 }
 
 /// Reads the head of a manifest; `None` if there is none, if it is not ours, or if it is a link.
-pub(super) fn read(path: &Path) -> Option<Head> {
+pub(crate) fn read(path: &Path) -> Option<Head> {
     let head: Head = serde_json::from_reader(open(path)?).ok()?;
     head.is_ours().then_some(head)
 }

@@ -15,6 +15,7 @@ pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
 pub(crate) use folder::scripts;
+pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
 use tally::Tally;
 pub use write::{Written, write};

@@ -65,6 +65,13 @@ impl Images {
         Ok(path)
     }
 
+    /// A new folder for the moments of a frame.
+    pub(super) fn exposure_folder(&self, index: usize) -> Result<PathBuf, RenderError> {
+        let path = self.hidden().join(format!("work-{}-frame-{index}", std::process::id()));
+        fs::create_dir(&path).map_err(RenderError::io(&path))?;
+        Ok(path)
+    }
+
     /// Takes a finished image in under its name: first the image, then the record, so that whatever breaks off
     /// between them leaves an image that is rendered again.
     pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {

@@ -1,10 +1,11 @@
 //! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
+use super::exposure::Exposure;
 use super::order::coarse_to_fine;
 use super::pool::{Fate, Pool};
 use super::process::{Setup, Unit};
@@ -161,12 +162,37 @@ impl Job<'_> {
             let asks_clock = groups[index].record.frame.is_some();
             Unit { index, frame: script.frame, script: script.file.clone(), moment: None, asks_clock }
         };
-        let units: Vec<Unit> = coarse_to_fine(groups.len()).map(unit).collect();
+        let moments = |unit: Unit| -> Vec<Unit> {
+            let moments = sequence.moments.map(|moments| {
+                (0..moments).map(|m| Unit { moment: Some(m), asks_clock: false, ..unit.clone() }).collect()
+            });
+            moments.unwrap_or_else(|| vec![unit])
+        };
+        let units: Vec<Unit> = coarse_to_fine(groups.len()).map(unit).flat_map(moments).collect();
+        // The folder of a process goes with it; images of moments wait here for the others of their frame.
+        let mut exposures: HashMap<usize, Exposure> = HashMap::new();
+        let mut failed = HashSet::new();
         let mut done = |unit: Unit, fate: Fate| -> Result<(), RenderError> {
             let group = &groups[unit.index];
             let first = &scripts[group.members[0]];
             let said = match fate {
                 Fate::Image(path, seconds) => {
+                    let mut exposed = None;
+                    if let Some(moment) = unit.moment {
+                        let of = sequence.moments.unwrap_or(1);
+                        if !exposures.contains_key(&unit.index) {
+                            exposures.insert(unit.index, Exposure::new(self.images, unit.index)?);
+                        }
+                        let Some(exposure) = exposures.get_mut(&unit.index) else { return Ok(()) };
+                        if !exposure.add(&path, moment, seconds, of)? {
+                            return Ok(());
+                        }
+                        exposed = exposures.remove(&unit.index);
+                    }
+                    let (path, seconds) = match &exposed {
+                        None => (path, seconds),
+                        Some(exposure) => (exposure.develop()?, exposure.seconds),
+                    };
                     self.images.adopt(&path, &first.name, &group.record)?;
                     outcome.rendered += 1;
                     if outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
@@ -182,6 +208,11 @@ impl Job<'_> {
                 }
                 Fate::Broken(said) | Fate::Died(said) => said,
             };
+            // Other moments of the frame may already be on their way.
+            exposures.remove(&unit.index);
+            if !failed.insert(unit.index) {
+                return Ok(());
+            }
             for &member in &group.members {
                 let script = &scripts[member];
                 let path: PathBuf = sequence.folder().join(&script.file);

@@ -105,7 +105,7 @@ impl Process {
         let mut command = launcher(setup.povray, humble);
         command
             .current_dir(&folder)
-            .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt", "+FN8"])
+            .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
             .args(["+Lscripts", "+Lscripts/assets"])
             .args(setup.options)
             .arg(if units.iter().any(|unit| unit.moment.is_some()) { "+FN16" } else { "+FN8" })

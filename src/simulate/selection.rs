@@ -42,6 +42,22 @@ impl Selection {
     }
 }
 
+impl FromIterator<usize> for Selection {
+    /// The frames of these numbers; those that follow each other are one range.
+    fn from_iter<I: IntoIterator<Item = usize>>(numbers: I) -> Selection {
+        let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
+        for number in numbers {
+            match ranges.last_mut() {
+                Some(range) if number.checked_sub(1) == Some(*range.end()) => {
+                    *range = *range.start()..=number
+                }
+                _ => ranges.push(number..=number),
+            }
+        }
+        Selection { ranges, every: 1 }
+    }
+}
+
 impl FromStr for Selection {
     type Err = String;
 
@@ -103,6 +119,7 @@ mod tests {
         assert!([1, 49, 89, 101].into_iter().all(|frame| !selection.contains(frame)));
         assert_eq!((selection.last(), selection.count_within(96)), (Some(100), 8));
         assert_eq!(selection.to_string(), "0,50,90-100");
+        assert_eq!([0, 2, 3, 4, 9].into_iter().collect::<Selection>().to_string(), "0,2-4,9");
     }
 
     #[test]

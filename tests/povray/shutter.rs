@@ -41,7 +41,9 @@ fn wheel(samples: usize) -> String {
     let spokes = (0..8).map(|i| {
         let (angle, turn) = (TAU / 8.0 * f64::from(i), 45 * i);
         let [x, y] = [1.0 * angle.cos(), 1.0 * angle.sin()];
-        format!("{{ box.size = [1.5, {width}, 0.2], location = [{x}, {y}, 0], orientation = [0, 0, {turn}] }}")
+        format!(
+            "{{ box.size = [1.5, {width}, 0.2], location = [{x}, {y}, 0], orientation = [0, 0, {turn}] }}"
+        )
     });
     let spokes: Vec<String> = spokes.collect();
     format!(
@@ -204,7 +206,8 @@ fn a_moment_is_rendered_as_if_it_were_alone_in_both_layouts() {
                 assert!(images[2] == *alone, "{layout}");
                 assert!(images[0] != images[2]);
                 // By its number, and not by an animation.
-                let one = ["+Ishutter_0001.pov", "+Oone.png", "+FN8", "+W80", "+H60", "Declare=Shutter_Sample=2"];
+                let one =
+                    ["+Ishutter_0001.pov", "+Oone.png", "+FN8", "+W80", "+H60", "Declare=Shutter_Sample=2"];
                 povray::run(&out, &one).nothing("one moment");
                 assert!(Image::read(&out.join("one.png")) == *alone);
                 let said = povray::run(&out, &[&one[..5], &["Declare=Shutter_Sample=3"]].concat());
