@@ -138,7 +138,7 @@ mod tests {
         let (line, body, _) = fault("File: scripts/frame_0060.pov  Line: 2\nParse Error: x\n");
         assert_eq!((line, body), (Some(2), None));
         let (line, _, message) = fault("File: scripts/common.inc  Line: 9\nParse Error: x\n");
-        assert_eq!((line, message.as_str()), (None, "in common.inc, line 9: Parse Error: x"));
+        assert_eq!((line, message.as_str()), (None, "in common.inc, line 9: x"));
         assert_eq!(fault("Something else.\n"), (None, None, "Something else.".to_owned()));
     }
 }

@@ -8,24 +8,6 @@ use super::support::{compile, jabuka, stderr, stdout};
 const SLURM: [&str; 2] = ["--engine", "slurm"];
 
 #[test]
-fn a_scene_that_is_changed_keeps_the_images_that_are_up_to_date() {
-    let job = Job::new(&scene(3), &SLURM);
-    assert!(job.chunk(&["0", "2"]).status.success());
-    // Longer, and the same up to there.
-    let output = job.batch(&scene(5), &SLURM);
-    assert!(stdout(&output).contains("\nimages    3 of 5 are there\n"), "{}", stdout(&output));
-    assert_eq!(job.missing(), "3-4");
-    // Another size is another image.
-    let output = job.batch(&scene(5), &[&SLURM[..], &["--size", "32x18"]].concat());
-    assert!(stdout(&output).contains("\nimages    0 of 5 are there\n"), "{}", stdout(&output));
-    assert_eq!(job.missing(), "0-4");
-    let output = job.batch(&scene(5), &[&SLURM[..], &["--quality", "draft", "--frames", "1-3"]].concat());
-    assert!(output.status.success());
-    assert_eq!(job.missing(), "1-3");
-    assert!(job.read("job.conf").contains("OPTIONS='+W65 +H37 -A +Q9'"));
-}
-
-#[test]
 fn the_lines_of_a_user_stay() {
     let job = Job::new(&scene(2), &[&SLURM[..], &["--partition", "long", "--cpus", "4"]].concat());
     let lines = job.read("render.sbatch");

@@ -128,48 +128,6 @@ fn a_frame_that_takes_too_long_is_given_up() {
     assert_eq!(job.missing(), "1");
 }
 
-#[test]
-fn what_is_stopped_in_the_middle_leaves_nothing_half() {
-    let job = Job::new(&scene(40), &SLURM);
-    // Some frames never end.
-    for frame in [5, 6] {
-        let endless = format!("// frame {frame}\n#version 3.7;\n#while (1) #declare X = {frame}; #end\n");
-        fs::write(job.join(format!("scripts/frame_{frame:04}.pov")), endless).unwrap();
-    }
-    for signal in ["TERM", "INT", "KILL"] {
-        let mut chunk = job.command("render-chunk").args(["0", "39"]).env("PROCESSES", "3").spawn().unwrap();
-        let running = || names(&job.join("images/.jabuka/running"));
-        let at_work =
-            || job.join("images/.jabuka/running").is_dir() && running().contains(&"frame_0006".to_owned());
-        wait_until("the frames that never end are being rendered", LONG, at_work);
-        let status = job.status().0;
-        assert!(status.contains("running ") && status.contains("5-6"), "{status}");
-        let kill = Command::new("kill").args([&format!("-{signal}"), &chunk.id().to_string()]).status();
-        assert!(kill.unwrap().success());
-        let code = chunk.wait().unwrap().code();
-        if signal == "KILL" {
-            // It could not tidy up. What it has left in the way of processes is ended by hand.
-            end_endless_frames(&job);
-        } else {
-            assert_eq!(code, Some(143));
-            assert_eq!(job.leftovers(), [""; 0], "after {signal}");
-        }
-        for image in job.images() {
-            let bytes = fs::read(job.join("images").join(&image)).unwrap();
-            assert!(bytes.ends_with(b"IEND\xae\x42\x60\x82"), "{image} is half");
-        }
-    }
-    // A marker that nobody touches is not taken for work for ever.
-    wait_until("workers end", LONG, || {
-        let markers = names(&job.join("images/.jabuka/running"));
-        let old = |marker: &String| {
-            let path = job.join("images/.jabuka/running").join(marker);
-            Command::new("touch").args(["-d", "4 minutes ago"]).arg(path).status().unwrap().success()
-        };
-        markers.iter().all(old) && job.status().0.contains("begun and not heard of for three minutes")
-    });
-}
-
 /// Ends the workers of a chunk that was killed, and their POV-Rays: all processes that work in the folder of the job.
 fn end_endless_frames(job: &Job) {
     let folder = fs::canonicalize(job.path()).unwrap();
