@@ -130,7 +130,10 @@ impl Images {
     fn sweep(&self) -> io::Result<()> {
         for entry in fs::read_dir(self.hidden())? {
             let entry = entry?;
-            if !entry.file_name().to_str().is_some_and(|name| name.starts_with("work-")) {
+            // Also records that were being written.
+            let is_left =
+                |name: &str| name.starts_with("work-") || (name.starts_with('.') && name.ends_with(".tmp"));
+            if !entry.file_name().to_str().is_some_and(is_left) {
                 continue;
             }
             // A POV-Ray that has outlived its jabuka may still be writing there: then once more.
