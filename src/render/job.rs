@@ -1,5 +1,6 @@
 //! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
@@ -89,8 +90,8 @@ impl Job<'_> {
     /// Where the disk is full, a folder is gone, or nothing can be rendered. Frames that
     /// fail by themselves are no error here: they are in the outcome.
     pub fn run(&self, watch: &mut dyn FnMut(Event<'_>), stop: &AtomicBool) -> Result<Outcome, RenderError> {
-        let mut outcome = Outcome::default();
-        outcome.removed = self.images.remove_others(|name| self.sequence.has(name))?;
+        let removed = self.images.remove_others(|name| self.sequence.has(name))?;
+        let mut outcome = Outcome { removed, ..Outcome::default() };
         let records = inputs::records(self.sequence, &self.options.join(" "), self.povray.version())?;
         let groups = self.groups(&records, &mut outcome)?;
         let to_make = groups.iter().map(|group| group.members.len()).sum();
@@ -180,10 +181,10 @@ impl Job<'_> {
                     let mut exposed = None;
                     if let Some(moment) = unit.moment {
                         let of = sequence.moments.unwrap_or(1);
-                        if !exposures.contains_key(&unit.index) {
-                            exposures.insert(unit.index, Exposure::new(self.images, unit.index)?);
-                        }
-                        let Some(exposure) = exposures.get_mut(&unit.index) else { return Ok(()) };
+                        let exposure = match exposures.entry(unit.index) {
+                            Entry::Occupied(begun) => begun.into_mut(),
+                            Entry::Vacant(new) => new.insert(Exposure::new(self.images, unit.index)?),
+                        };
                         if !exposure.add(&path, moment, seconds, of)? {
                             return Ok(());
                         }

@@ -216,7 +216,7 @@ impl<'a> Pool<'a> {
                 let died = left.next();
                 left.rev().for_each(|unit| self.queue.push_front(unit));
                 if let Some(unit) = died {
-                    self.again(unit, why, done)?;
+                    self.again(unit, &why, done)?;
                 }
             }
         }
@@ -236,7 +236,7 @@ impl<'a> Pool<'a> {
     fn again(
         &mut self,
         unit: Unit,
-        why: String,
+        why: &str,
         done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let deaths = self.deaths.entry(unit.clone()).or_insert(0);

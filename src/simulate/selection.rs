@@ -49,7 +49,7 @@ impl FromIterator<usize> for Selection {
         for number in numbers {
             match ranges.last_mut() {
                 Some(range) if number.checked_sub(1) == Some(*range.end()) => {
-                    *range = *range.start()..=number
+                    *range = *range.start()..=number;
                 }
                 _ => ranges.push(number..=number),
             }

@@ -7,11 +7,10 @@ use std::time::Duration;
 
 use jabuka::render::{Files, Record};
 
-use super::job::{Job, names, scene, wait_until};
+use super::job::{Job, scene};
 use super::support::{stderr, stdout};
 
 const SLURM: [&str; 2] = ["--engine", "slurm"];
-const LONG: Duration = Duration::from_secs(300);
 
 #[test]
 fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
@@ -126,19 +125,6 @@ fn a_frame_that_takes_too_long_is_given_up() {
     assert_eq!(output.status.code(), Some(124), "{}", stdout(&output));
     assert!(job.status().0.contains("  frame 1: it took longer than 2 s\n"), "{}", job.status().0);
     assert_eq!(job.missing(), "1");
-}
-
-/// Ends the workers of a chunk that was killed, and their POV-Rays: all processes that work in the folder of the job.
-fn end_endless_frames(job: &Job) {
-    let folder = fs::canonicalize(job.path()).unwrap();
-    for _ in 0..2 {
-        for entry in fs::read_dir("/proc").unwrap().flatten() {
-            let inside = fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd.starts_with(&folder));
-            if let Some(process) = entry.file_name().to_str().filter(|_| inside) {
-                let _ = Command::new("kill").args(["-KILL", process]).status();
-            }
-        }
-    }
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn moments(folder: &Path, script: &str, samples: usize, arguments: &[&str]) -> V
 fn light(image: &Image) -> f64 {
     let linear = |byte: u8| {
         let number = f64::from(byte) / 255.0;
-        if number <= 0.04045 { number / 12.92 } else { ((number + 0.055) / 1.055).powf(2.4) }
+        if number <= 0.04045 { number / 12.92 } else { libm::pow((number + 0.055) / 1.055, 2.4) }
     };
     let pixels: Vec<f64> = image.pixels().map(|rgb| rgb.map(linear).iter().sum::<f64>() / 3.0).collect();
     pixels.iter().sum::<f64>() / pixels.len() as f64
@@ -37,10 +37,10 @@ fn light(image: &Image) -> f64 {
 /// the shutter is open, and its spokes are 7° wide where they are looked at: neither so thin that they would not overlap
 /// from one of 16 moments to the next, nor so thick that those of 4 moments would.
 fn wheel(samples: usize) -> String {
-    let width = 2.0 * RADIUS * 3.5_f64.to_radians().sin();
+    let width = 2.0 * RADIUS * libm::sin(3.5_f64.to_radians());
     let spokes = (0..8).map(|i| {
         let (angle, turn) = (TAU / 8.0 * f64::from(i), 45 * i);
-        let [x, y] = [1.0 * angle.cos(), 1.0 * angle.sin()];
+        let [x, y] = [libm::cos(angle), libm::sin(angle)];
         format!(
             "{{ box.size = [1.5, {width}, 0.2], location = [{x}, {y}, 0], orientation = [0, 0, {turn}] }}"
         )
@@ -83,7 +83,7 @@ const RADIUS: f64 = 1.5;
 fn turns(image: &Image) -> usize {
     const NOTICEABLE: f64 = 25.5;
     let at = |step: i32| {
-        let (sin, cos) = (TAU * f64::from(step) / 1440.0).sin_cos();
+        let (sin, cos) = libm::sincos(TAU * f64::from(step) / 1440.0);
         brightness(image.at(DVec2::splat(150.0) + DVec2::new(cos, sin) * RADIUS * 300.0 / 4.5))
     };
     let (mut turns, mut rising, mut extreme) = (0, None, at(0));
