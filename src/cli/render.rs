@@ -4,16 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use clap::ValueEnum;
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
-use jabuka::render::{self, Event, Images, Job, Outcome, PovRay, Quality, RenderError, Sequence};
-use jabuka::scene::Override;
+use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
 use jabuka::simulate::Selection;
 
+use super::picture_arguments::PictureArguments;
+use super::povray_arguments::PovRayArguments;
 use super::products::Products;
 use super::progress::Progress;
-use super::scene_arguments::{self, SceneArguments};
+use super::run_arguments::{self, RunArguments};
 use super::{Failure, interrupt, say};
 
 /// Render a scene, or a folder of scripts, into images and a film
@@ -25,12 +25,8 @@ pub(super) struct Arguments {
     /// The folder for the images [default: the folder `images` beside the scripts]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The size of the images in pixels, as in 1280x720 [default: that of the scene]
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
-    /// How good the images are
-    #[arg(long, value_enum, default_value_t)]
-    quality: QualityName,
+    #[command(flatten)]
+    picture: PictureArguments,
     /// The number of POV-Rays at once [default: as many as keep the processors busy]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -43,23 +39,13 @@ pub(super) struct Arguments {
     /// Make one picture of evenly spaced frames with their times
     #[arg(long, value_name = "FILE.png")]
     pub(super) contact_sheet: Option<PathBuf>,
-    /// The program POV-Ray [default: povray]
-    #[arg(long, value_name = "PATH")]
-    povray: Option<PathBuf>,
-    /// How often a frame is tried again after POV-Ray was killed or hung
-    #[arg(long, value_name = "N", default_value_t = 2)]
-    retry: u32,
-    /// How long a frame may take, in seconds [default: far longer than others have taken]
-    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
-    time_limit: Option<u64>,
     /// Go on even where the first frames all fail
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
-    scene: SceneArguments,
-    /// Further options for POV-Ray, as in -- +Q4 +AM2
-    #[arg(last = true, value_name = "POVRAY OPTIONS")]
-    options: Vec<String>,
+    scene: RunArguments,
+    #[command(flatten)]
+    povray: PovRayArguments,
 }
 
 impl Arguments {
@@ -68,44 +54,15 @@ impl Arguments {
     }
 }
 
-#[derive(Clone, Copy, Default, ValueEnum)]
-pub(super) enum QualityName {
-    /// For a look at the motion: no anti-aliasing
-    Draft,
-    /// As `povray animation.ini` renders it
-    #[default]
-    Good,
-    /// For the film that is kept: finer anti-aliasing
-    Final,
-}
-
-impl From<QualityName> for Quality {
-    fn from(name: QualityName) -> Quality {
-        match name {
-            QualityName::Draft => Quality::Draft,
-            QualityName::Good => Quality::Good,
-            QualityName::Final => Quality::Final,
-        }
-    }
-}
-
-pub(super) fn parse_size(argument: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=65535).contains(n));
-    let size = argument.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([number(w)?, number(h)?]));
-    size.ok_or_else(|| "write it as WIDTHxHEIGHT, as in 1280x720".to_owned())
-}
-
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
     // What is not there is said before anything is done.
-    PovRay::locate(arguments.povray.as_deref()).map_err(|error| failed(&error))?;
+    arguments.povray.look().map_err(|error| failed(&error))?;
     let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
         return render_folder(arguments, &products, stop);
     }
-    let size =
-        arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
-    let scene = arguments.scene.read_with(&arguments.source, size.as_slice())?;
+    let scene = arguments.scene.read_with(&arguments.source, &arguments.picture.overrides())?;
     let frames = scene.simulation.frames();
     let selection = arguments.scene.selection(frames)?.every(arguments.every());
     let out = Path::new("out").join(&scene.name);
@@ -117,10 +74,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
-    let run = scene_arguments::survey(&scene, &progress)?;
+    let run = run_arguments::survey(&scene, &progress)?;
     let mut folders = Vec::new();
     for (view, folder) in &cameras {
-        let seen = scene_arguments::seen(&run, *view, &progress)?;
+        let seen = run_arguments::seen(&run, *view, &progress)?;
         let run = seen.as_ref().unwrap_or(&run);
         progress.phase("writing");
         let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
@@ -143,7 +100,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Renders the scripts in a folder, as they are.
 fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
-    if !arguments.scene.suit_scripts() {
+    if arguments.scene.change_the_scene() {
         let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts of a folder are \
                        rendered as they are";
         return Err(Failure::Usage(message.to_owned()));
@@ -178,20 +135,11 @@ fn render_scripts(
     let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
     let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
     let images = Images::open(&images).map_err(|error| failed(&error))?;
-    let povray = PovRay::find(arguments.povray.as_deref(), &images.povray_memory());
-    let povray = povray.map_err(|error| failed(&error))?;
-    let size = arguments.size.unwrap_or(sequence.size);
-    let mut options = render::options(size, sequence.transparent, arguments.quality.into());
-    options.extend(arguments.options.iter().cloned());
+    let povray = arguments.povray.find(&images).map_err(|error| failed(&error))?;
     let job = Job {
-        sequence: &sequence,
-        images: &images,
-        povray: &povray,
-        options,
         jobs: arguments.jobs.map(usize::from),
-        retries: arguments.retry,
         keep_going: arguments.keep_going,
-        time_limit: arguments.time_limit.map(Duration::from_secs),
+        ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
     };
     let outcome = render(&job, stop)?;
     if outcome.stopped {
@@ -212,7 +160,7 @@ fn render_scripts(
 }
 
 /// Renders, and says how it goes.
-fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
+pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
     /// So many failures are shown in full.
     const SHOWN: usize = 3;
     let mut progress = None;
@@ -253,7 +201,7 @@ fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
 }
 
 /// Says why nothing more is rendered.
-fn failed(error: &RenderError) -> Failure {
+pub(super) fn failed(error: &RenderError) -> Failure {
     say::report(&error.report());
     Failure::Errors
 }

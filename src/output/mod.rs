@@ -8,6 +8,7 @@ mod compare;
 mod error;
 mod folder;
 mod manifest;
+mod moment;
 mod tally;
 mod write;
 
@@ -17,5 +18,6 @@ pub use folder::Folder;
 pub(crate) use folder::scripts;
 pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
+pub use moment::write_moment;
 use tally::Tally;
 pub use write::{Written, write};

@@ -25,6 +25,8 @@ pub struct Job<'a> {
     pub options: Vec<String>,
     /// The number of processes; none: as many as keep the processors busy.
     pub jobs: Option<usize>,
+    /// The threads that each process renders with.
+    pub threads: usize,
     /// How often a frame is tried again after POV-Ray has died of it.
     pub retries: u32,
     /// Whether to go on where all frames fail.
@@ -151,8 +153,12 @@ impl Job<'_> {
             povray: self.povray.path(),
             scripts: sequence.absolute(),
             options: &self.options,
-            end: (sequence.last, sequence.time(sequence.last)),
-            threads: 1,
+            last: sequence.last,
+            clock: match sequence.moment {
+                Some(time) => [time; 2],
+                None => [0.0, sequence.time(sequence.last)],
+            },
+            threads: self.threads,
         };
         let mut pool = Pool::new(setup, self.images, stop);
         pool.jobs = self.jobs;
