@@ -14,7 +14,7 @@ use super::povray_arguments::PovRayArguments;
 use super::products::Products;
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments};
-use super::{Failure, interrupt, say};
+use super::{Failure, interrupt, say, summary};
 
 /// Render a scene, or a folder of scripts, into images and a film
 #[derive(clap::Args)]
@@ -90,7 +90,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
     let mut result = Ok(());
     for folder in &folders {
-        match render_scripts(arguments, &products, folder.path(), Some(&selection), stop) {
+        match render_scripts(
+            arguments,
+            &products,
+            folder.path(),
+            Some(&selection),
+            &summary::drift(&run),
+            stop,
+        ) {
             Err(Failure::Interrupted) => return Err(Failure::Interrupted),
             other => result = result.and(other),
         }
@@ -120,15 +127,16 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         (None, Some(_)) => Some(Selection::first(usize::MAX)),
     };
     let selection = selection.map(|selection| selection.every(arguments.every()));
-    render_scripts(arguments, products, &arguments.source, selection.as_ref(), stop)
+    render_scripts(arguments, products, &arguments.source, selection.as_ref(), "", stop)
 }
 
-/// Renders the selected scripts of a folder.
+/// Renders the selected scripts of a folder. What is known of them beside goes into the summary.
 fn render_scripts(
     arguments: &Arguments,
     products: &Products,
     folder: &Path,
     selection: Option<&Selection>,
+    known: &str,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let start = Instant::now();
@@ -149,7 +157,7 @@ fn render_scripts(
         say::error(&format!("stopped: {there} of {frames} frames are there; {goes_on}\n"));
         return Err(Failure::Interrupted);
     }
-    say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
+    say::result(&summed_up(&images, &sequence, known, &outcome, start.elapsed()));
     if !outcome.failed.is_empty() {
         if products.are_wanted() {
             say::error("no film and no contact sheet were made, since frames are missing\n");
@@ -207,10 +215,10 @@ pub(super) fn failed(error: &RenderError) -> Failure {
 }
 
 /// What was made, in a few lines.
-fn summary(images: &Images, sequence: &Sequence, outcome: &Outcome, took: Duration) -> String {
+fn summed_up(images: &Images, sequence: &Sequence, known: &str, outcome: &Outcome, took: Duration) -> String {
     let frames = sequence.scripts().len();
     let there = frames - outcome.failed.len();
-    let mut text = format!("{}: {there} of {frames} frames\n", images.folder().display());
+    let mut text = format!("{}: {there} of {frames} frames\n{known}", images.folder().display());
     let mut line = |name: &str, what: String| text.push_str(&format!("{name:10}{what}\n"));
     if outcome.up_to_date > 0 {
         line("as before", format!("{}, up to date", outcome.up_to_date));
