@@ -2,15 +2,16 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::process::Command;
+use std::process::{Child, Command};
 use std::time::Duration;
 
 use jabuka::render::{Files, Record};
 
-use super::job::{Job, scene};
+use super::job::{Job, names, scene, wait_until};
 use super::support::{stderr, stdout};
 
 const SLURM: [&str; 2] = ["--engine", "slurm"];
+const LONG: Duration = Duration::from_secs(300);
 
 #[test]
 fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
@@ -125,6 +126,82 @@ fn a_frame_that_takes_too_long_is_given_up() {
     assert_eq!(output.status.code(), Some(124), "{}", stdout(&output));
     assert!(job.status().0.contains("  frame 1: it took longer than 2 s\n"), "{}", job.status().0);
     assert_eq!(job.missing(), "1");
+}
+
+#[test]
+fn what_is_stopped_in_the_middle_leaves_nothing_half() {
+    let job = Job::new(&scene(40), &SLURM);
+    // Some frames never end.
+    for frame in [5, 6] {
+        let endless = format!("// frame {frame}\n#version 3.7;\n#while (1) #declare X = {frame}; #end\n");
+        fs::write(job.join(format!("scripts/frame_{frame:04}.pov")), endless).unwrap();
+    }
+    for signal in ["TERM", "INT", "KILL"] {
+        let mut command = job.command("/usr/bin/env");
+        // What runs the tests in the background may have them ignore it, and bash cannot trap what it was told to ignore.
+        command.arg("--default-signal=INT").arg(job.join("render-chunk"));
+        let mut chunk = Running(command.args(["0", "39"]).env("PROCESSES", "3").spawn().unwrap());
+        // A third worker renders the others meanwhile.
+        wait_until("the frames that never end are being rendered", LONG, || {
+            let running = job.running();
+            running.contains(&5) && running.contains(&6)
+        });
+        let kill = Command::new("kill").args([&format!("-{signal}"), &chunk.0.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        let code = chunk.0.wait().unwrap().code();
+        if signal == "KILL" {
+            // It could not tidy up. What it has left in the way of processes is ended by hand.
+            end_endless_frames(&job);
+        } else {
+            assert_eq!(code, Some(143));
+            assert_eq!(job.leftovers(), [""; 0], "after {signal}");
+        }
+        for image in job.images() {
+            let bytes = fs::read(job.join("images").join(&image)).unwrap();
+            assert!(bytes.ends_with(b"IEND\xae\x42\x60\x82"), "{image} is half");
+        }
+    }
+    // A marker that nobody touches is not taken for work for ever.
+    wait_until("workers end", LONG, || {
+        let markers = names(&job.join("images/.jabuka/running"));
+        let old = |marker: &String| {
+            let path = job.join("images/.jabuka/running").join(marker);
+            Command::new("touch").args(["-d", "4 minutes ago"]).arg(path).status().unwrap().success()
+        };
+        markers.iter().all(old) && job.status().0.contains("begun and not heard of for three minutes")
+    });
+}
+
+/// A chunk that is being rendered. Frames that never end would outlive a test that fails.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if matches!(self.0.try_wait(), Ok(None)) {
+            let _ = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status();
+            let _ = self.0.wait();
+        }
+    }
+}
+
+/// Ends the workers of a chunk that was killed, and their POV-Rays: all processes that work in the folder of the job.
+fn end_endless_frames(job: &Job) {
+    let folder = fs::canonicalize(job.path()).unwrap();
+    let send = |signal: &str| {
+        let mut found = false;
+        for entry in fs::read_dir("/proc").unwrap().flatten() {
+            let inside = fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd.starts_with(&folder));
+            if let Some(process) = entry.file_name().to_str().filter(|_| inside) {
+                found = true;
+                let _ = Command::new("kill").args([signal, process]).status();
+            }
+        }
+        found
+    };
+    // First all are stopped: a worker that sees its POV-Ray end would note a failure, and begin the next frame.
+    send("-STOP");
+    send("-STOP");
+    wait_until("all have ended", LONG, || !send("-KILL"));
 }
 
 #[test]
