@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use jabuka::render::{Files, Record};
 
-use super::job::{Job, names, scene, wait_until};
-use super::support::{stderr, stdout};
+use super::job::{Job, film, names, scene, wait_until};
+use super::support::{jabuka, stderr, stdout};
 
 const SLURM: [&str; 2] = ["--engine", "slurm"];
 const LONG: Duration = Duration::from_secs(300);
@@ -288,6 +288,27 @@ fn a_blurred_frame_is_the_average_of_its_moments() {
     assert_eq!(job.missing(), "");
 }
 
+#[test]
+fn a_scene_with_motion_blur_is_a_job_of_as_many_images_as_frames() {
+    let text = scene(3) + "[camera]\nshutter = 0.02\nsamples = 2\n";
+    let job = Job::new(&text, &[&SLURM[..], &["--chunk", "2"]].concat());
+    assert_eq!((job.missing().as_str(), stdout(&job.chunk(&["--chunks"]))), ("0-2", "2\n".to_owned()));
+    let output = job.command("submit").env("PATH", path_without_jabuka()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("the nodes need it for motion blur"), "{}", stderr(&output));
+
+    fs::write(job.join("local.conf"), format!("JABUKA={:?}\n", env!("CARGO_BIN_EXE_jabuka"))).unwrap();
+    let output = job.chunk(&["0-2"]);
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    assert!(job.command("render-video").status().unwrap().success());
+    assert_eq!(film(&job.join("film.mp4")).0, 3);
+    assert_eq!(job.status(), ("done     3 of 3\nfilm     made\n".to_owned(), true));
+    // As a folder of scripts and images, without the settings of a job.
+    let scripts = job.join("scripts");
+    let output = jabuka().arg("status").arg(scripts).output().unwrap();
+    assert!(stdout(&output).starts_with("done     0 of 3\n"), "{}", stdout(&output));
+}
+
 fn path_without_jabuka() -> String {
     let path = std::env::var("PATH").unwrap();
     path.split(':')
@@ -303,6 +324,13 @@ fn wrong_usage_is_said() {
         let output = job.chunk(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains("./render-chunk 7 31"), "{}", stderr(&output));
+    }
+    for name in ["render-chunk", "render-video", "submit"] {
+        let output = job.command(name).arg("--help").output().unwrap();
+        assert!(output.status.success() && stderr(&output).is_empty(), "{name}: {}", stderr(&output));
+        assert!(stdout(&output).contains(&format!("\n   ./{name} ")), "{}", stdout(&output));
+        let output = job.command(name).arg("--hlep").output().unwrap();
+        assert!(!output.status.success() && stderr(&output).contains("`--hlep`"), "{}", stderr(&output));
     }
     let output = job.chunk(&["7", "31"]);
     assert!(

@@ -86,7 +86,7 @@ fn a_node_dies_on_the_way_and_the_film_is_made() {
     let mut slurm = Slurm::up();
     assert!(first_line(&slurm.submit(&job)).starts_with("sent 240 frames in 20 chunks: job "));
     let said = slurm.submit(&job);
-    assert!(said.ends_with("frames are in the queue already\nnothing was sent\n"), "{said}");
+    assert!(said.ends_with(" in the queue already\nnothing was sent\n"), "{said}");
 
     wait_until("some images are there", LONG, || job.images().len() >= 24);
     slurm.order("kill n1");
@@ -122,23 +122,21 @@ fn a_broken_frame_is_named_and_after_its_repair_only_it_is_sent() {
     assert!(said.contains(&format!("frame_0013.pov:{line}: ")) && said.contains("(body `ball`)"), "{said}");
     assert!(!job.join("film.mp4").exists(), "a film waits for all frames");
 
-    // Without a controller nothing is known, so nothing is sent.
+    // Without a controller nothing is known, so nothing is sent. It saves what it knows within five seconds.
+    std::thread::sleep(Duration::from_secs(7));
     slurm.order("down");
     let output = slurm.command(job.command("submit").env("SLURM_CLIENT_TIMEOUT", "1"));
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("nothing was sent"), "{}", stderr(&output));
     slurm.order("up");
-    // It was killed, and knows what it has saved some seconds before: jobs that have ended since are sent again by Slurm itself,
-    // which does no harm. Until they have ended too, the frame is in the queue.
+    // Should it have died before it saved what happened last, it sends the jobs that have ended since again by itself, which
+    // does no harm but takes minutes. Until they have ended too, the frame is in the queue.
     wait_until("the controller is back and the queue is empty", LONG, || slurm.queue().is_empty());
     assert_eq!(job.missing(), "13", "it is not mended yet");
 
     std::fs::write(job.join("scripts/frame_0013.pov"), mended).unwrap();
     let said = slurm.submit(&job);
-    assert!(
-        said.starts_with("sent 1 frames in 1 chunk: job ") || said.starts_with("sent 1 frame in"),
-        "{said}"
-    );
+    assert!(said.starts_with("sent 1 frame in 1 chunk: job "), "{said}");
     wait_until("the film is made", LONG, || job.status().0.contains("film     made"));
     assert_eq!(film(&job.join("film.mp4")).0, 20);
 
