@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
+use jabuka::Scene;
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
 use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
+use jabuka::scene::View;
 use jabuka::simulate::Selection;
 
 use super::picture_arguments::PictureArguments;
@@ -73,36 +75,54 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let message = "several views cannot share one folder of images, film or contact sheet: name one view";
         return Err(Failure::Usage(message.to_owned()));
     }
-    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
-    let run = run_arguments::survey(&scene, &progress)?;
-    let mut folders = Vec::new();
-    for (view, folder) in &cameras {
-        let seen = run_arguments::seen(&run, *view, &progress)?;
-        let run = seen.as_ref().unwrap_or(&run);
-        progress.phase("writing");
-        let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
-        output::write(run, &folder, &selection, &|| progress.step())
-            .map_err(|error| progress.failed(&error))?;
-        folders.push(folder);
-    }
-    progress.finish();
-    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    let folders = write_scripts(&scene, &selection, &cameras)?;
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
     let mut result = Ok(());
-    for folder in &folders {
-        match render_scripts(
-            arguments,
-            &products,
-            folder.path(),
-            Some(&selection),
-            &summary::drift(&run),
-            stop,
-        ) {
+    for (folder, drift) in &folders {
+        match render_scripts(arguments, &products, folder.path(), Some(&selection), drift, stop) {
             Err(Failure::Interrupted) => return Err(Failure::Interrupted),
             other => result = result.and(other),
         }
     }
     result
+}
+
+/// Writes the scripts of some cameras, if they are not there, and says what was noticed of the run. Returns the folders,
+/// and how right the run is.
+fn write_scripts(
+    scene: &Scene,
+    selection: &Selection,
+    cameras: &[(Option<&View>, PathBuf)],
+) -> Result<Vec<(Folder, String)>, Failure> {
+    let frames = scene.simulation.frames();
+    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let mut folders = Vec::new();
+    let mut run = None;
+    for (view, path) in cameras {
+        let folder = Folder::open(path).map_err(|error| progress.failed(&error))?;
+        let (warnings, drift);
+        if let Some(manifest) = output::up_to_date(scene, *view, selection, path) {
+            (warnings, drift) = (manifest.warnings(), manifest.head.drift);
+        } else {
+            let first = match run.take() {
+                Some(run) => run,
+                None => run_arguments::survey(scene, &progress)?,
+            };
+            let first = run.insert(first);
+            let seen = run_arguments::seen(first, *view, &progress)?;
+            let run = seen.as_ref().unwrap_or(first);
+            progress.phase("writing");
+            let step = || progress.step();
+            output::write(run, &folder, selection, &step).map_err(|error| progress.failed(&error))?;
+            (warnings, drift) = (run.warnings(), Some(run.survey().drift));
+        }
+        if folders.is_empty() {
+            say::report(&Report { diagnostics: warnings, ..Report::default() });
+        }
+        folders.push((folder, drift.map(summary::drift).unwrap_or_default()));
+    }
+    progress.finish();
+    Ok(folders)
 }
 
 /// Renders the scripts in a folder, as they are.

@@ -41,15 +41,15 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         step = short(survey.timestep),
         steps = survey.steps_per_frame,
         method = scene.simulation.method.name,
-        drift = drift(run),
+        drift = drift(survey.drift),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
 }
 
 /// How right a run is.
-pub(super) fn drift(run: &Run<'_>) -> String {
-    format!("drift     {} of the largest kinetic energy\n", percent(run.survey().drift))
+pub(super) fn drift(drift: f64) -> String {
+    format!("drift     {} of the largest kinetic energy\n", percent(drift))
 }
 
 /// A number to four digits, without trailing zeros.

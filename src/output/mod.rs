@@ -10,6 +10,7 @@ mod folder;
 mod manifest;
 mod moment;
 mod tally;
+mod up_to_date;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
@@ -20,4 +21,5 @@ pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
 pub use moment::write_moment;
 use tally::Tally;
+pub use up_to_date::up_to_date;
 pub use write::{Written, write};
