@@ -7,6 +7,7 @@
 mod check;
 mod color;
 mod color_names;
+pub mod expression;
 pub mod grammar;
 mod library;
 mod look;
