@@ -43,6 +43,13 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
 }
 
+/// Whether a name may have been meant as a unit, which no number of a scene has with it.
+pub(super) fn is_unit(name: &str) -> bool {
+    const UNITS: [&str; 16] =
+        ["m", "cm", "mm", "km", "kg", "g", "s", "ms", "N", "J", "Hz", "deg", "degrees", "rad", "fps", "px"];
+    UNITS.contains(&name)
+}
+
 /// What a function of another program is called here.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     const FUNCTIONS: [(&str, &str); 22] = [

@@ -250,8 +250,9 @@ impl<'a> Parser<'a> {
         let both = self.before.start..self.range.end;
         if !is_name && matches!(self.token, Token::Name | Token::Open) {
             // `2x`, `2(x + 1)` and `(a)(b)` mean a product to everyone.
+            let units = if habits::is_unit(second) { "; units are not written" } else { "" };
             return syntax(both, "an operator is missing")
-                .label(format!("write `{first}*{second}` to multiply"));
+                .label(format!("write `{first}*{second}` to multiply{units}"));
         }
         syntax(both, "an operator is missing")
             .label(format!("nothing stands between `{first}` and `{second}`"))

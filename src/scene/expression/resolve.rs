@@ -215,12 +215,18 @@ fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
         return error("formula-syntax", range, message).label(format!("write `{}`", function.usage()));
     }
     let error = error("unknown-name", range, format!("there is no variable `{name}`"));
-    match (name, scope.nearest(name)) {
-        ("t", _) => error.label("this number is set once, before the time begins"),
-        ("inf" | "nan", _) => error.label("the numbers of a scene are finite"),
-        (_, Some(near)) => error.label(format!("did you mean `{near}`?")),
-        (_, None) => {
-            error.help("where a number stands, a string is a formula; its names are those of `[variables]`")
+    match name {
+        "t" => error.label("this number is set once, before the time begins"),
+        "inf" | "nan" => error.label("the numbers of a scene are finite"),
+        _ => {
+            let label = scope.suggest(name);
+            let is_near = label.starts_with("did you mean");
+            let error = error.label(label);
+            match is_near {
+                true => error,
+                false => error
+                    .help("where a number stands, a string is a formula, with the names of `[variables]`"),
+            }
         }
     }
 }

@@ -94,13 +94,27 @@ impl Scope {
         self.is_random
     }
 
-    /// The name that was meant by an unknown one, as long as not too much has been compared.
-    pub(super) fn nearest(&self, name: &str) -> Option<&str> {
-        let left = self.comparisons.get().checked_sub(self.names.len())?;
+    /// What to say of an unknown name: what was meant by it, or what there is.
+    pub(super) fn suggest(&self, name: &str) -> String {
+        if self.names.is_empty() {
+            return "the scene declares no variables".to_owned();
+        }
+        let Some(left) = self.comparisons.get().checked_sub(self.names.len()) else { return String::new() };
         self.comparisons.set(left);
         let mut names: Vec<&str> = self.names.keys().map(String::as_str).collect();
-        // Of two that are as near, always the same one.
+        // Always in the same order.
         names.sort_unstable();
-        nearest(name, names.into_iter().chain(CONSTANTS.iter().map(|(name, ..)| *name)))
+        let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
+        // Of one letter, any other would be near.
+        let near = if name.len() == 1 {
+            all().find(|other| other.eq_ignore_ascii_case(name))
+        } else {
+            nearest(name, all())
+        };
+        match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.len() <= 12 => format!("there are `{}`", names.join("`, `")),
+            None => format!("none of the {} variables is called so", names.len()),
+        }
     }
 }

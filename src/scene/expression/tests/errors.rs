@@ -49,7 +49,16 @@ fn a_mistake_is_shown_at_its_place() {
             "«< x <» formula-syntax: comparisons do not follow each other | write `a < x and x < b` for «x is between a \
              and b»",
         ),
-        ("2 * radus", "«radus» unknown-name: there is no variable `radus` | "),
+        (
+            "2 * radus",
+            "«radus» unknown-name: there is no variable `radus` | there are `r`, `x`, `y`, `z`, `zero`",
+        ),
+        ("2 * zeros", "«zeros» unknown-name: there is no variable `zeros` | did you mean `zero`?"),
+        ("2 * w", "«w» unknown-name: there is no variable `w` | there are `r`, `x`, `y`, `z`, `zero`"),
+        (
+            "2 kg",
+            "«2 kg» formula-syntax: an operator is missing | write `2*kg` to multiply; units are not written",
+        ),
         ("2 * R", "«R» unknown-name: there is no variable `R` | did you mean `r`?"),
         ("t", "«t» unknown-name: there is no variable `t` | this number is set once, before the time begins"),
         ("sine(x)", "«sine» unknown-name: there is no function `sine` | did you mean `sin`?"),
