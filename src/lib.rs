@@ -9,6 +9,7 @@
 //! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
+//! | [`render`] | scripts → images → film | POV-Ray's options; which images are up to date; ffmpeg |
 //!
 //! [`Run`] takes a scene through them. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
 //! what there is to choose from, and [`starter`] a scene to start from.
@@ -43,6 +44,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod explain;
 pub mod output;
+pub mod render;
 mod run;
 pub mod scene;
 pub mod simulate;

@@ -2,8 +2,8 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::emit::{EmitError, Emitter};
-use crate::scene::{Scene, View};
-use crate::simulate::{Crossing, Diverged, Frame, Frames, Selection, Survey, survey};
+use crate::scene::{Scene, Shutter, View};
+use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Selection, Survey, survey};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {
@@ -12,6 +12,15 @@ pub struct Run<'a> {
     emitter: Emitter,
     /// The name of the view; none for the main camera.
     view: Option<String>,
+    /// How the camera blurs what moves.
+    shutter: Option<Shutter>,
+}
+
+/// A frame, and the run from there on if the camera blurs what moves.
+pub(crate) struct Exposed<'a> {
+    pub(crate) frame: Frame,
+    /// The shutter, and the branch of the run on which it is open.
+    pub(crate) shutter: Option<(Shutter, Branch<'a>)>,
 }
 
 /// Why a run cannot be drawn.
@@ -39,7 +48,7 @@ impl<'a> Run<'a> {
     pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
         let survey = survey(scene, seen)?;
         let emitter = Emitter::new(scene, &scene.camera, &survey)?;
-        Ok(Run { scene, survey, emitter, view: None })
+        Ok(Run { scene, survey, emitter, view: None, shutter: scene.camera.shutter })
     }
 
     /// The same run, seen by one of the scene's other cameras.
@@ -49,7 +58,8 @@ impl<'a> Run<'a> {
     pub fn seen_by(&self, view: &View) -> Result<Run<'a>, RunError> {
         let emitter = Emitter::new(self.scene, &view.camera, &self.survey)?;
         let survey = self.survey.clone();
-        Ok(Run { scene: self.scene, survey, emitter, view: Some(view.name.clone()) })
+        let (view, shutter) = (Some(view.name.clone()), view.camera.shutter);
+        Ok(Run { scene: self.scene, survey, emitter, view, shutter })
     }
 
     /// The scene.
@@ -60,6 +70,11 @@ impl<'a> Run<'a> {
     /// The name of the view that sees the run; none for the main camera.
     pub fn view(&self) -> Option<&str> {
         self.view.as_deref()
+    }
+
+    /// How the camera blurs what moves, if it does.
+    pub fn shutter(&self) -> Option<Shutter> {
+        self.shutter
     }
 
     /// What is known of the run as a whole.
@@ -98,9 +113,24 @@ impl<'a> Run<'a> {
     pub(crate) fn selected(
         &self,
         selection: &Selection,
-    ) -> impl Iterator<Item = Result<Frame, Diverged>> + Send {
-        let until_last = self.frames().take(selection.last().map_or(0, |last| last.saturating_add(1)));
-        until_last.filter(|frame| frame.as_ref().map_or(true, |frame| selection.contains(frame.index)))
+    ) -> impl Iterator<Item = Result<Exposed<'a>, Diverged>> + Send {
+        let mut frames = self.frames();
+        let mut left = selection.last().map_or(0, |last| last.saturating_add(1));
+        let shutter = self.shutter;
+        let next = move || {
+            loop {
+                left = left.checked_sub(1)?;
+                match frames.next()? {
+                    Ok(frame) if !selection.contains(frame.index) => {}
+                    Ok(frame) => {
+                        let shutter = shutter.map(|shutter| (shutter, frames.branch()));
+                        return Some(Ok(Exposed { frame, shutter }));
+                    }
+                    Err(error) => return Some(Err(error)),
+                }
+            }
+        };
+        std::iter::from_fn(next)
     }
 
     /// The script of a frame.
@@ -109,6 +139,21 @@ impl<'a> Run<'a> {
     /// Where a body is at a place that cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         self.emitter.script(frame)
+    }
+
+    /// The script of an image with motion blur: the moments from the frame on, by which [`Branch::at`] or
+    /// [`Frames::branch`] gives the run. None if the camera does not blur what moves.
+    ///
+    /// # Errors
+    /// Where a body is at a place that cannot be written, a template fails, or the run leaves the numbers.
+    pub fn shutter_script(&self, frame: &Frame, branch: Branch<'_>) -> Result<Option<String>, RunError> {
+        let Some(shutter) = self.shutter else { return Ok(None) };
+        let mut script = String::new();
+        self.emitter.shutter::<RunError>(frame, shutter, branch.moments(shutter), |piece| {
+            script.push_str(piece);
+            Ok(())
+        })?;
+        Ok(Some(script))
     }
 }
 

@@ -13,12 +13,14 @@ use std::process::Output;
 use support::{jabuka, root, stderr, stdout};
 
 /// Codes that no scene alone can show: each with the place of its test.
-const ELSEWHERE: [(&str, &str); 6] = [
+const ELSEWHERE: [(&str, &str); 8] = [
     ("no-templates", "a_folder_without_templates_is_said_to_be_so"),
     ("cannot-read", "a_missing_file_is_said_to_be_missing"),
     ("not-a-file", "a_folder_is_no_scene"),
     ("not-utf8", "what_is_not_utf_8_is_refused_at_its_first_byte"),
     ("file-too-large", "a_huge_file_is_refused_before_it_is_read"),
+    ("computed-include", "trusted_sdl_that_computes_what_it_includes_gets_a_warning_wherever_it_stands"),
+    ("same-asset", "two_files_cannot_be_copied_to_one_place"),
     ("bad-set", "a_setting_is_refused_at_its_place_in_the_argument"),
 ];
 
@@ -84,6 +86,49 @@ fn ten_mistakes_are_ten_errors_each_at_its_line() {
     let said = stderr(&output);
     let lines: BTreeSet<&str> = said.lines().filter(|line| line.contains("--> ")).collect();
     assert_eq!((said.matches("error[").count(), lines.len()), (10, 10), "{said}");
+}
+
+#[test]
+fn trusted_sdl_that_computes_what_it_includes_gets_a_warning_wherever_it_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let text = "
+[povray]
+include = ['plain.inc', 'walls.inc']
+sdl = '#include Wall'
+[material.m]
+sdl = '#include concat(\"a\", \".inc\")'
+[body.a]
+shape.sphere.radius = 1
+look.sdl_before = '#include Before // once'
+look.sdl_after = '#include \"after.inc\" // #include Nothing'
+[body.b]
+shape.sdl = { object = 'sphere { 0, 1 #include Skin }', stand_in.sphere.radius = 1 }
+";
+    std::fs::write(&scene, text).unwrap();
+    std::fs::write(folder.path().join("plain.inc"), "#include \"more.inc\"\n").unwrap();
+    std::fs::write(folder.path().join("walls.inc"), "#for (I, 1, 3)\n#include Walls[I]\n#end\n").unwrap();
+    let output = check(&scene, &["--trust"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stderr(&output);
+    let places: Vec<_> = said.lines().filter_map(|line| line.split_once("scene.toml:")).collect();
+    let places: Vec<_> = places.into_iter().map(|(_, place)| place).collect();
+    assert_eq!(places, ["3:25", "4:7", "6:7", "9:19", "12:24"], "{said}");
+    assert_eq!(said.matches("warning[computed-include]: ").count(), 5, "{said}");
+}
+
+#[test]
+fn two_files_cannot_be_copied_to_one_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    std::fs::create_dir(&inner).unwrap();
+    std::fs::write(folder.path().join("a.png"), "a").unwrap();
+    std::fs::write(inner.join("a.png"), "another").unwrap();
+    let scene = inner.join("scene.toml");
+    std::fs::write(&scene, "povray.assets = ['a.png', '../a.png']\n").unwrap();
+    let said = stderr(&check(&scene, &["--trust"]));
+    let expected = "error[same-asset]: two assets would be copied to `assets/a.png`\n";
+    assert!(said.contains(expected) && said.contains("scene.toml:1:27\n"), "{said}");
 }
 
 #[test]

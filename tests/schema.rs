@@ -17,7 +17,7 @@ const BEYOND: [&str; 4] =
     ["axis_without_angle", "date_and_time", "formula_not_finite", "formula_with_a_value_out_of_range"];
 
 /// The codes of mistakes that a key or a value alone makes.
-const STRUCTURAL: [&str; 13] = [
+const STRUCTURAL: [&str; 14] = [
     "unknown-key",
     "missing-key",
     "exclusive-keys",
@@ -29,6 +29,7 @@ const STRUCTURAL: [&str; 13] = [
     "unknown-color",
     "bad-identifier",
     "bad-include",
+    "bad-asset",
     "number-too-large",
     "unnamed-table",
 ];

@@ -1,15 +1,22 @@
 //! The command line: arguments → library → exit code.
 
+mod average;
+mod batch;
 mod check;
 mod compile;
 mod completions;
 mod explain;
+mod interrupt;
 mod list;
 mod man;
 mod new;
+mod products;
 mod progress;
+mod render;
 mod say;
+mod scene_arguments;
 mod schema;
+mod status;
 mod summary;
 mod templates;
 
@@ -29,6 +36,10 @@ struct Arguments {
 enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
+    Render(render::Arguments),
+    Batch(batch::Arguments),
+    Average(average::Arguments),
+    Status(status::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
@@ -42,6 +53,8 @@ enum Command {
 enum Failure {
     /// The scene or the run has errors, and they have been said.
     Errors,
+    /// Somebody has stopped the command, and that has been said.
+    Interrupted,
     /// The command was used wrongly, in this way.
     Usage(String),
 }
@@ -54,6 +67,10 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Average(arguments) => average::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
+        Command::Status(arguments) => status::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
@@ -66,6 +83,8 @@ pub(crate) fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Errors) => ExitCode::from(1),
+        // As shells tell that a signal of the keyboard has ended a command.
+        Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
             say::error(&format!("error: {message}\n\nFor more information, try '--help'.\n"));
             ExitCode::from(2)

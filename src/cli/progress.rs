@@ -1,10 +1,14 @@
 //! A progress bar for what takes long.
 
+use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jabuka::output::OutputError;
+
+use super::{Failure, say};
 
 /// A bar on standard error, for what takes over a second; without a terminal there is none.
 pub(super) struct Progress {
@@ -16,8 +20,17 @@ pub(super) struct Progress {
 impl Progress {
     /// A bar of so many steps, not yet shown.
     pub(super) fn new(steps: usize) -> Progress {
+        Progress::with(steps, "{msg:12} {wide_bar} {percent:>3} %  {eta} left")
+    }
+
+    /// A bar of so many frames that are rendered.
+    pub(super) fn of_frames(frames: usize) -> Progress {
+        Progress::with(frames, "rendering    {wide_bar} {pos} of {len}  {per_sec}  {eta} left  {msg}")
+    }
+
+    fn with(steps: usize, template: &str) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
         // Without a terminal it counts as shown, and never is.
@@ -25,8 +38,13 @@ impl Progress {
     }
 
     /// Says what is being done now.
-    pub(super) fn phase(&self, what: &'static str) {
+    pub(super) fn phase(&self, what: impl Into<Cow<'static, str>>) {
         self.bar.set_message(what);
+    }
+
+    /// Says something above the bar.
+    pub(super) fn above(&self, say: impl FnOnce()) {
+        self.bar.suspend(say);
     }
 
     /// One step is done.
@@ -41,5 +59,12 @@ impl Progress {
     /// All is done: the bar goes.
     pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+
+    /// It failed: the bar goes, and the reason is said.
+    pub(super) fn failed(&self, error: &OutputError) -> Failure {
+        self.finish();
+        say::report(&error.report());
+        Failure::Errors
     }
 }

@@ -24,12 +24,16 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
     } else {
         format!("unit      1 unit of POV-Ray's is {} m\n", short(unit))
     };
+    let blur = run.shutter().map_or(String::new(), |shutter| {
+        format!("shutter   open for {} s, {} moments a frame\n", short(shutter.open), shutter.samples)
+    });
     format!(
         "{folder}: {scripts} of {frames} frames{others}\n\
          bodies    {bodies}\n\
          timestep  {step} s, {steps} a frame, by {method}\n\
          drift     {drift} of the largest kinetic energy\n\
          {unit}\
+         {blur}\
          written   {bytes} in {seconds:.2} s\n\
          render    cd {folder} && povray {INI}\n",
         folder = folder.display(),

@@ -12,6 +12,7 @@ mod names;
 mod number;
 mod sdl;
 mod shapes;
+mod shutter;
 mod stage;
 mod templates;
 mod text;
@@ -22,11 +23,12 @@ use self::sdl::Style;
 use self::stage::Stage;
 use self::templates::Templates;
 use self::values::FrameConstants;
-use crate::scene::{Camera, Layout, Scene};
-use crate::simulate::{Frame, Survey};
+use crate::scene::{Camera, Layout, Scene, Shutter};
+use crate::simulate::{Diverged, Frame, Survey};
 
 pub use error::EmitError;
-pub use names::{COMMON, INI, MASTER, frame_name};
+pub(crate) use names::width;
+pub use names::{ASSETS, COMMON, INI, MASTER, frame_name, shutter_name};
 pub use templates::{TEMPLATES, write_templates};
 pub(crate) use text::comment;
 
@@ -38,6 +40,7 @@ pub struct Emitter {
     constants: FrameConstants,
     block: Block,
     unit: f64,
+    digits: usize,
     too_thin: Option<usize>,
     too_small: Option<f64>,
     /// The names of the bodies.
@@ -65,6 +68,7 @@ impl Emitter {
             shared,
             block: Block::new(scene, &materials, style),
             unit: stage.unit,
+            digits: scene.povray.digits,
             too_thin: stage.too_thin,
             too_small: stage.too_small,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
@@ -98,6 +102,25 @@ impl Emitter {
             .write(&mut bodies_sdl, frame)
             .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
         self.templates.render("frame.pov", &self.constants.of(frame, bodies_sdl))
+    }
+
+    /// The script of an image with motion blur, piece by piece, so that its moments need not be held together: `put`
+    /// gets one piece after another. `frame` is the moment at which the shutter opens.
+    ///
+    /// # Errors
+    /// As [`Emitter::script`], where a moment cannot be simulated, and what `put` says.
+    pub fn shutter<E: From<EmitError> + From<Diverged>>(
+        &self,
+        frame: &Frame,
+        shutter: Shutter,
+        moments: impl Iterator<Item = Result<Frame, Diverged>>,
+        mut put: impl FnMut(&str) -> Result<(), E>,
+    ) -> Result<(), E> {
+        put(&shutter::head(frame, shutter, self.digits))?;
+        for (number, moment) in moments.enumerate() {
+            put(&shutter::moment(number, &self.script(&moment?)?))?;
+        }
+        put(&shutter::end(shutter))
     }
 
     /// The files beside the scripts, name and text of each: those with which one `povray` command renders the whole

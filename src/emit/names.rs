@@ -8,6 +8,9 @@ pub const INI: &str = "animation.ini";
 /// What all scripts have in common, where it is a file of its own.
 pub const COMMON: &str = "common.inc";
 
+/// The folder with the files that scripts read, where there are any.
+pub const ASSETS: &str = "assets";
+
 /// The number of digits in the names of the scripts of so many frames: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
     const LEAST: usize = 4;
@@ -19,6 +22,11 @@ pub fn frame_name(index: usize, frames: usize) -> String {
     format!("frame_{index:0width$}.pov", width = width(frames))
 }
 
+/// The name of the script of an image with motion blur, in a sequence of so many: `shutter_0050.pov`.
+pub fn shutter_name(index: usize, frames: usize) -> String {
+    format!("shutter_{index:0width$}.pov", width = width(frames))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,5 +36,6 @@ mod tests {
         assert_eq!(frame_name(50, 501), "frame_0050.pov");
         assert_eq!(frame_name(9_999, 10_000), "frame_9999.pov");
         assert_eq!(frame_name(9_999, 10_001), "frame_09999.pov");
+        assert_eq!(shutter_name(50, 501), "shutter_0050.pov");
     }
 }

@@ -53,6 +53,7 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         height => scene.output.height,
         transparent => scene.output.transparent,
         frame_rate => scene.simulation.frame_rate,
+        assets => !scene.povray.assets.is_empty(),
         end => scene.simulation.time(last),
     }
 }

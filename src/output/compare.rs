@@ -9,7 +9,8 @@ use similar::{ChangeTag, TextDiff};
 
 use super::{OutputError, folder};
 use crate::Run;
-use crate::emit::frame_name;
+use crate::emit::{frame_name, shutter_name};
+use crate::run::Exposed;
 use crate::simulate::Selection;
 
 /// How the script of a frame differs from the one in a folder.
@@ -59,18 +60,30 @@ pub fn compare(
         return Err(OutputError::NoFolder(path.to_owned()));
     }
     let frames = run.scene().simulation.frames();
-    let check = |frame| -> Result<Option<Difference>, OutputError> {
-        let frame: crate::simulate::Frame = frame?;
-        let name = frame_name(frame.index, frames);
-        let kind = difference(&path.join(&name), &run.script(&frame)?)?;
+    let check = |exposed| -> Result<Vec<Difference>, OutputError> {
+        let Exposed { frame, shutter } = exposed?;
+        let mut scripts = vec![(frame_name(frame.index, frames), run.script(&frame)?)];
+        if let Some((_, branch)) = shutter {
+            let script = run.shutter_script(&frame, branch)?;
+            scripts.extend(script.map(|script| (shutter_name(frame.index, frames), script)));
+        }
+        let mut found = Vec::new();
+        for (name, script) in scripts {
+            let kind = difference(&path.join(&name), &script)?;
+            found.extend(kind.map(|kind| Difference { frame: frame.index, name, kind }));
+        }
         done();
-        Ok(kind.map(|kind| Difference { frame: frame.index, name, kind }))
+        Ok(found)
     };
     let found: Result<Vec<_>, _> = run.selected(selection).par_bridge().map(check).collect();
     let mut found: Vec<Difference> = found?.into_iter().flatten().collect();
     if *selection == Selection::first(frames) {
         let scripts = folder::scripts(path)?.into_iter();
-        let extra = scripts.filter(|(frame, name)| *frame >= frames || *name != frame_name(*frame, frames));
+        let is_ours = |(frame, name): &(usize, String)| {
+            let blurred = || run.shutter().is_some() && *name == shutter_name(*frame, frames);
+            *frame < frames && (*name == frame_name(*frame, frames) || blurred())
+        };
+        let extra = scripts.filter(|script| !is_ours(script));
         found.extend(extra.map(|(frame, name)| Difference { frame, name, kind: Kind::Extra }));
     }
     found.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));

@@ -25,13 +25,18 @@ impl Folder {
     /// # Errors
     /// Where the folder is somebody else's, is being written to, or cannot be used.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
+        Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
+    }
+
+    /// Like [`Folder::open`], for a folder that something else than a manifest marks as ours.
+    pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
         let io_error = |error| OutputError::Io(path.to_owned(), error);
         match fs::metadata(path) {
             Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path.to_owned())),
             Ok(_) => {}
             Err(_) => fs::create_dir_all(path).map_err(io_error)?,
         }
-        if !is_ours(path).map_err(io_error)? {
+        if !is_ours(path, marked).map_err(io_error)? {
             return Err(OutputError::NotOurs(path.to_owned()));
         }
         let folder = Folder { path: path.to_owned(), _lock: lock(path)? };
@@ -59,18 +64,30 @@ impl Folder {
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
         let path = self.path.join(name);
-        let temporary = self.path.join(format!(".jabuka-{name}.tmp"));
+        self.try_write_with(name, |file| fill(file).map_err(|error| OutputError::Io(path, error)))
+    }
+
+    /// Like [`Folder::write_with`], where also the making of a piece can fail.
+    pub(super) fn try_write_with(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
+    ) -> Result<(), OutputError> {
+        let path = self.path.join(name);
+        let io_error = |error| OutputError::Io(path.clone(), error);
+        // Also the file of a folder in the folder is made here, where the next run looks for what a kill has left.
+        let temporary = self.path.join(format!(".jabuka-{}.tmp", name.replace('/', "-")));
         let fill_and_rename = || {
             // `create_new` follows no link.
-            let mut file = BufWriter::new(OpenOptions::new().write(true).create_new(true).open(&temporary)?);
+            let file = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(io_error)?;
+            let mut file = BufWriter::new(file);
             fill(&mut file)?;
-            file.into_inner().map_err(io::IntoInnerError::into_error)?;
-            fs::rename(&temporary, &path)
+            file.into_inner().map_err(io::IntoInnerError::into_error).map_err(io_error)?;
+            fs::rename(&temporary, &path).map_err(io_error)
         };
-        fill_and_rename().map_err(|error: io::Error| {
+        fill_and_rename().inspect_err(|_| {
             // If even this fails, the next run sweeps it away.
             let _ = fs::remove_file(&temporary);
-            OutputError::Io(path.clone(), error)
         })
     }
 
@@ -79,10 +96,11 @@ impl Folder {
         scripts(&self.path)
     }
 
-    /// Removes scripts and what belongs to them, and tells the numbers of the scripts.
+    /// Removes scripts and what belongs to them, and tells the numbers of the frames of which there was one.
     pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
         let scripts = self.scripts()?;
-        let numbers = scripts.iter().map(|(number, _)| *number).collect();
+        let mut numbers: Vec<usize> = scripts.iter().map(|(number, _)| *number).collect();
+        numbers.dedup();
         let names = scripts.into_iter().map(|(_, name)| name);
         for name in names.chain([MASTER, INI, COMMON].map(str::to_owned)) {
             let path = self.path.join(name);
@@ -107,8 +125,9 @@ impl Folder {
     }
 }
 
-/// The numbers and names of the scripts in a folder, in their order.
-pub(super) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
+/// The numbers and names of the scripts in a folder, in their order: of each frame first the sharp one, then that of
+/// the image with motion blur.
+pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
     let io_error = |error| OutputError::Io(path.to_owned(), error);
     let mut scripts = Vec::new();
     for entry in fs::read_dir(path).map_err(io_error)? {
@@ -122,8 +141,9 @@ pub(super) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> 
 }
 
 /// The number in the name of a script; `None` for every other name.
-fn script_number(name: &str) -> Option<usize> {
-    let digits = name.strip_prefix("frame_")?.strip_suffix(".pov")?;
+pub(super) fn script_number(name: &str) -> Option<usize> {
+    let number = name.strip_prefix("frame_").or_else(|| name.strip_prefix("shutter_"))?;
+    let digits = number.strip_suffix(".pov")?;
     let plain = digits.len() >= 4 && digits.bytes().all(|b| b.is_ascii_digit());
     plain.then(|| digits.parse().ok())?
 }
@@ -132,12 +152,12 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }
 
-/// Whether a folder is empty but for what a killed run may leave, or holds a manifest of ours.
-fn is_ours(path: &Path) -> io::Result<bool> {
+/// Whether a folder is empty but for what a killed run may leave, or is marked as ours.
+fn is_ours(path: &Path, marked: &dyn Fn(&Path) -> bool) -> io::Result<bool> {
     for entry in fs::read_dir(path)? {
         let name = entry?.file_name();
         if name.to_str().is_none_or(|name| name != LOCK && !is_temporary(name)) {
-            return Ok(manifest::read(&path.join(MANIFEST)).is_some());
+            return Ok(marked(path));
         }
     }
     Ok(true)
@@ -165,9 +185,17 @@ mod tests {
     fn only_our_own_plain_names_are_scripts() {
         assert_eq!(script_number("frame_0050.pov"), Some(50));
         assert_eq!(script_number("frame_10000.pov"), Some(10_000));
-        for name in
-            ["frame_050.pov", "frame_+050.pov", "../frame_0050.pov", "frame_0050.png", "frame_.pov", "x"]
-        {
+        assert_eq!(script_number("shutter_0050.pov"), Some(50));
+        for name in [
+            "frame_050.pov",
+            "shutter_50.pov",
+            "shutter_frame_0050.pov",
+            "frame_+050.pov",
+            "../frame_0050.pov",
+            "frame_0050.png",
+            "frame_.pov",
+            "x",
+        ] {
             assert_eq!(script_number(name), None, "{name}");
         }
     }

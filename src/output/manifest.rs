@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Component, Path};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use sha2::{Digest, Sha256};
 
+use super::folder;
 use crate::Run;
 
 /// The name of the manifest in its folder.
@@ -15,12 +16,51 @@ pub const MANIFEST: &str = "manifest.json";
 /// What jabuka calls itself in a manifest.
 const GENERATOR: &str = "jabuka";
 
+/// The largest manifest that is read: more than a million frames need.
+const MAX_BYTES: u64 = 512 << 20;
+
+/// What an output folder holds, and of which scene.
+///
+/// Everything in it was read from a file that anyone can change: it says what to look for, and is no reason to remove
+/// or overwrite anything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manifest {
+    /// What is said of the folder as a whole.
+    pub head: Head,
+    /// The files: first those of the sequence as a whole, then the scripts in the order of their frames. Empty while
+    /// they are being written.
+    pub files: Vec<Entry>,
+}
+
+impl Manifest {
+    /// Reads the manifest of a folder; `None` if there is none, if it is not ours, if it is a link, or if it lists
+    /// files that are not in the folder.
+    pub fn read(folder: &Path) -> Option<Manifest> {
+        #[derive(Deserialize)]
+        struct File {
+            #[serde(flatten)]
+            head: Head,
+            #[serde(default)]
+            files: Vec<Entry>,
+        }
+        let file: File = serde_json::from_reader(open(&folder.join(MANIFEST))?).ok()?;
+        let ours = file.head.is_ours() && file.files.iter().all(Entry::is_inside);
+        ours.then_some(Manifest { head: file.head, files: file.files })
+    }
+
+    /// Whether all files are there that were to be written.
+    pub fn is_complete(&self) -> bool {
+        self.head.state == State::Complete
+    }
+}
+
 /// A file of an output folder.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(from = "Line")]
 pub struct Entry {
     /// Of a script, the number of its frame.
     pub frame: Option<usize>,
-    /// Its name.
+    /// Its name; of a file in a folder of the folder, its path with `/`.
     pub name: String,
     /// Its length in bytes.
     pub bytes: u64,
@@ -28,17 +68,58 @@ pub struct Entry {
     pub sha256: [u8; 32],
 }
 
+/// A file as a manifest lists it.
+#[derive(Deserialize)]
+struct Line {
+    name: String,
+    bytes: u64,
+    #[serde(deserialize_with = "digest")]
+    sha256: [u8; 32],
+}
+
+impl From<Line> for Entry {
+    fn from(line: Line) -> Entry {
+        let Line { name, bytes, sha256 } = line;
+        Entry { frame: folder::script_number(&name), name, bytes, sha256 }
+    }
+}
+
+/// A digest in hexadecimal.
+fn digest<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[u8; 32], D::Error> {
+    let text = String::deserialize(deserializer)?;
+    let wrong = || serde::de::Error::custom("not a SHA-256 in hexadecimal");
+    if text.len() != 64 || !text.is_ascii() {
+        return Err(wrong());
+    }
+    let mut digest = [0; 32];
+    for (i, byte) in digest.iter_mut().enumerate() {
+        *byte = u8::from_str_radix(&text[2 * i..2 * i + 2], 16).map_err(|_| wrong())?;
+    }
+    Ok(digest)
+}
+
 impl Entry {
     /// The entry of a file that holds these bytes.
     pub(super) fn of(frame: Option<usize>, name: String, bytes: &[u8]) -> Entry {
         Entry { frame, name, bytes: bytes.len() as u64, sha256: Sha256::digest(bytes).into() }
+    }
+
+    /// Whether its name is a path that stays in the folder.
+    fn is_inside(&self) -> bool {
+        let mut parts = Path::new(&self.name).components().peekable();
+        parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
+    }
+
+    /// Its digest in hexadecimal, as `sha256sum` prints it.
+    pub fn hex(&self) -> String {
+        self.sha256.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
 /// How far a folder is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum State {
+pub enum State {
     /// Files of another scene may be there.
     Clearing,
     /// All files are of this scene; some may be missing.
@@ -47,28 +128,49 @@ pub(super) enum State {
     Complete,
 }
 
-/// The head of a manifest: all but its list of files.
+/// The head of a manifest: all but its list of files. What it has learnt to say since the first version is optional, so
+/// that manifests of old can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Head {
+pub struct Head {
+    /// The program that wrote it.
     pub(super) generator: String,
-    pub(super) version: String,
-    pub(super) state: State,
+    /// The version of that program.
+    pub version: String,
+    /// How far the folder is.
+    pub state: State,
     /// The name of the scene.
-    pub(super) scene: String,
+    pub scene: String,
     /// The view that sees the scene; absent for the main camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) view: Option<String>,
+    pub view: Option<String>,
     /// The digest of the texts that the scene was read from.
-    pub(super) digest: String,
-    /// The number of the scene's frames.
-    pub(super) frames: usize,
-    pub(super) frame_rate: f64,
+    pub digest: String,
+    /// The number of the scene's frames, of which the folder may hold some.
+    pub frames: usize,
+    /// Frames per second.
+    pub frame_rate: f64,
+    /// The width of the images, pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<u32>,
+    /// The height of the images, pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<u32>,
+    /// Whether the images have alpha.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transparent: Option<bool>,
+    /// Where images are blurred by motion, and there are `shutter_` scripts: how long the shutter is open, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shutter: Option<f64>,
+    /// And the number of moments in each of those scripts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u32>,
     /// While writing: the frames that are being written.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) planned: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planned: Option<String>,
 }
 
 impl Head {
+    /// The head of a folder that holds all files of a run.
     pub(super) fn new(run: &Run<'_>) -> Head {
         let scene = run.scene();
         Head {
@@ -80,8 +182,17 @@ impl Head {
             digest: scene.digest.clone(),
             frames: scene.simulation.frames(),
             frame_rate: scene.simulation.frame_rate,
+            width: Some(scene.output.width),
+            height: Some(scene.output.height),
+            transparent: Some(scene.output.transparent),
+            shutter: run.shutter().map(|shutter| shutter.open),
+            samples: run.shutter().map(|shutter| shutter.samples),
             planned: None,
         }
+    }
+
+    fn is_ours(&self) -> bool {
+        self.generator == GENERATOR
     }
 
     /// Whether all files of a folder with this manifest are as jabuka would write them now.
@@ -92,15 +203,16 @@ impl Head {
 }
 
 /// Reads the head of a manifest; `None` if there is none, if it is not ours, or if it is a link.
-pub(super) fn read(path: &Path) -> Option<Head> {
-    /// More than a million frames need.
-    const MAX_BYTES: u64 = 512 << 20;
+pub(crate) fn read(path: &Path) -> Option<Head> {
+    let head: Head = serde_json::from_reader(open(path)?).ok()?;
+    head.is_ours().then_some(head)
+}
+
+/// Opens a manifest that is a file, and no link, of a size that makes sense.
+fn open(path: &Path) -> Option<impl io::Read> {
     let metadata = fs::symlink_metadata(path).ok()?;
-    if !metadata.is_file() || metadata.len() > MAX_BYTES {
-        return None;
-    }
-    let head: Head = serde_json::from_reader(io::BufReader::new(fs::File::open(path).ok()?)).ok()?;
-    (head.generator == GENERATOR).then_some(head)
+    let sensible = metadata.is_file() && metadata.len() <= MAX_BYTES;
+    sensible.then(|| fs::File::open(path).ok().map(io::BufReader::new))?
 }
 
 /// Writes a manifest, one line a file.
@@ -111,15 +223,74 @@ pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io:
     write!(out, "{open},\n  \"files\": [")?;
     for (i, entry) in entries.iter().enumerate() {
         let comma = if i == 0 { "" } else { "," };
-        write!(
-            out,
-            "{comma}\n    {{ \"name\": \"{}\", \"bytes\": {}, \"sha256\": \"",
-            entry.name, entry.bytes
-        )?;
-        for byte in entry.sha256 {
-            write!(out, "{byte:02x}")?;
-        }
-        write!(out, "\" }}")?;
+        // The name of a file that somebody else chose may need escapes.
+        let name = serde_json::to_string(&entry.name)?;
+        let (bytes, digest) = (entry.bytes, entry.hex());
+        write!(out, "{comma}\n    {{ \"name\": {name}, \"bytes\": {bytes}, \"sha256\": \"{digest}\" }}")?;
     }
     writeln!(out, "\n  ]\n}}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    fn head() -> Head {
+        let scene = Scene::parse("[body.ball]\nshape.sphere.radius = 1").unwrap();
+        Head::new(&Run::new(&scene).unwrap())
+    }
+
+    /// A folder with a manifest of these entries, whose text is changed.
+    fn folder(entries: &[Entry], change: impl Fn(String) -> String) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let mut text = Vec::new();
+        write(&mut text, &head(), entries).unwrap();
+        fs::write(folder.path().join(MANIFEST), change(String::from_utf8(text).unwrap())).unwrap();
+        folder
+    }
+
+    #[test]
+    fn what_was_written_is_read() {
+        let entries = [
+            Entry::of(None, "animation.ini".to_owned(), b"; all"),
+            Entry::of(None, "assets/a \"b\".png".to_owned(), b"..."),
+            Entry::of(Some(7), "frame_0007.pov".to_owned(), b"// frame 7"),
+        ];
+        let manifest = Manifest::read(folder(&entries, |text| text).path()).unwrap();
+        assert_eq!(manifest, Manifest { head: head(), files: entries.to_vec() });
+        assert!(manifest.is_complete());
+        let Head { width, height, transparent, frame_rate, .. } = manifest.head;
+        assert_eq!((width, height, transparent, frame_rate), (Some(1280), Some(720), Some(false), 25.0));
+    }
+
+    #[test]
+    fn a_manifest_of_an_older_version_is_read() {
+        let lines = ["\"width\"", "\"height\"", "\"transparent\""];
+        let without = |text: String| {
+            text.lines().filter(|line| !lines.iter().any(|key| line.contains(key))).collect::<String>()
+        };
+        let manifest = Manifest::read(folder(&[], without).path()).unwrap();
+        assert_eq!(manifest.head, Head { width: None, height: None, transparent: None, ..head() });
+    }
+
+    #[test]
+    fn what_is_not_ours_or_leads_out_of_the_folder_is_none() {
+        let entries = [Entry::of(Some(0), "frame_0000.pov".to_owned(), b"")];
+        assert!(Manifest::read(folder(&entries, |text| text).path()).is_some());
+        for (from, to) in [
+            ("\"generator\": \"jabuka\"", "\"generator\": \"another\""),
+            ("frame_0000.pov", "../frame_0000.pov"),
+            ("frame_0000.pov", "/etc/passwd"),
+            ("frame_0000.pov", ""),
+            ("\"sha256\": \"e", "\"sha256\": \"x"),
+        ] {
+            let changed = |text: String| {
+                assert!(text.contains(from), "{text}");
+                text.replace(from, to)
+            };
+            assert_eq!(Manifest::read(folder(&entries, changed).path()), None, "{to}");
+        }
+        assert_eq!(Manifest::read(tempfile::tempdir().unwrap().path()), None);
+    }
 }

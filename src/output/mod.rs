@@ -3,14 +3,19 @@
 //! An output folder survives whatever happens: files appear whole, under their names, or not at all; a run that was
 //! killed is made good by running it again; and nothing that jabuka did not write is ever touched.
 
+mod assets;
 mod compare;
 mod error;
 mod folder;
 mod manifest;
+mod tally;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
-pub use manifest::{Entry, MANIFEST};
+pub(crate) use folder::scripts;
+pub(crate) use manifest::read as read_manifest;
+pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
+use tally::Tally;
 pub use write::{Written, write};

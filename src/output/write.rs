@@ -1,14 +1,17 @@
 //! All selected scripts of a run into a folder.
 
 use std::fs;
+use std::io::Write;
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::manifest::{self, Entry, Head, MANIFEST, State};
-use super::{Folder, OutputError};
+use super::{Folder, OutputError, Tally, assets};
 use crate::Run;
-use crate::emit::frame_name;
-use crate::simulate::Selection;
+use crate::emit::{frame_name, shutter_name};
+use crate::run::Exposed;
+use crate::scene::Shutter;
+use crate::simulate::{Branch, Frame, Selection};
 
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,20 +52,26 @@ pub fn write(
     put_head(State::Writing)?;
 
     let mut entries = scripts(run, folder, selection, done)?;
-    let scripts = entries.len();
+    let scripts = frames(&entries);
     for (name, text) in run.emitter().sequence(run.scene())? {
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
     }
+    entries.extend(assets::copy(folder, &run.scene().povray.assets)?);
     removed.retain(|frame| !selection.contains(*frame));
     let bytes = entries.iter().map(|entry| entry.bytes).sum();
     let kept = kept(folder, selection)?;
-    let written = Written { scripts, bytes, kept: kept.len(), removed: removed.len() };
+    let written = Written { scripts, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
     // First what belongs to the sequence as a whole, then the scripts in their order.
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
     Ok(written)
+}
+
+/// How many frames have one of these scripts, which stand in the order of frames or, of each frame, side by side.
+fn frames(entries: &[Entry]) -> usize {
+    entries.chunk_by(|a, b| a.frame == b.frame).count()
 }
 
 /// Writes the selected scripts. The frames come one after another, as the simulation makes them; whichever thread is
@@ -74,15 +83,40 @@ fn scripts(
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Entry>, OutputError> {
     let frames = run.scene().simulation.frames();
-    let put = |frame| -> Result<Entry, OutputError> {
-        let frame = frame?;
+    let put = |exposed| -> Result<Vec<Entry>, OutputError> {
+        let Exposed { frame, shutter } = exposed?;
         let text = run.script(&frame)?;
         let name = frame_name(frame.index, frames);
         folder.write(&name, text.as_bytes())?;
+        let mut entries = vec![Entry::of(Some(frame.index), name, text.as_bytes())];
+        if let Some((shutter, branch)) = shutter {
+            entries.push(put_blurred(run, folder, &frame, shutter, branch)?);
+        }
         done();
-        Ok(Entry::of(Some(frame.index), name, text.as_bytes()))
+        Ok(entries)
     };
-    run.selected(selection).par_bridge().map(put).collect()
+    let entries: Result<Vec<_>, _> = run.selected(selection).par_bridge().map(put).collect();
+    Ok(entries?.into_iter().flatten().collect())
+}
+
+/// Writes the script of an image with motion blur, moment by moment.
+fn put_blurred(
+    run: &Run<'_>,
+    folder: &Folder,
+    frame: &Frame,
+    shutter: Shutter,
+    branch: Branch<'_>,
+) -> Result<Entry, OutputError> {
+    let name = shutter_name(frame.index, run.scene().simulation.frames());
+    let mut digest = Tally::default();
+    folder.try_write_with(&name, |file| {
+        run.emitter().shutter(frame, shutter, branch.moments(shutter), |piece| {
+            digest.add(piece.as_bytes());
+            let io_error = |error| OutputError::Io(folder.path().join(&name), error);
+            file.write_all(piece.as_bytes()).map_err(io_error)
+        })
+    })?;
+    Ok(digest.entry(Some(frame.index), name))
 }
 
 /// The scripts of the folder that were there before and have stayed.

@@ -1,5 +1,7 @@
 //! The part of a checked scene that is look.
 
+use std::path::PathBuf;
+
 use glam::DVec3;
 
 use super::{Color, LibraryMaterial, Pattern, Preset};
@@ -121,6 +123,8 @@ pub struct Camera {
     pub projection: Projection,
     /// How it blurs what is not in focus.
     pub blur: Option<Blur>,
+    /// How it blurs what moves.
+    pub shutter: Option<Shutter>,
 }
 
 /// How a camera sees.
@@ -147,6 +151,23 @@ pub struct Blur {
     pub focus: Option<DVec3>,
     /// The number of rays for a pixel.
     pub samples: u32,
+}
+
+/// How a camera blurs what moves: while its shutter is open, it looks at several moments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shutter {
+    /// How long the shutter is open from the time of a frame on, s; greater than 0.
+    pub open: f64,
+    /// The number of moments.
+    pub samples: u32,
+}
+
+impl Shutter {
+    /// The moments at which the camera looks for an image that begins at a time (s), each in the middle of an equal
+    /// part of the time for which the shutter is open.
+    pub fn moments(self, begin: f64) -> impl ExactSizeIterator<Item = f64> {
+        (0..self.samples).map(move |i| begin + self.open * (f64::from(i) + 0.5) / f64::from(self.samples))
+    }
 }
 
 /// A camera beside the main one.
@@ -231,6 +252,8 @@ pub enum Sky {
 pub struct PovRay {
     /// Include files.
     pub include: Vec<Include>,
+    /// Files that POV-Ray's own words read.
+    pub assets: Vec<Asset>,
     /// POV-Ray's own words, before the bodies.
     pub sdl: Option<String>,
     /// The length of one unit of POV-Ray's, m; none: it follows from the size of the scene.
@@ -239,6 +262,15 @@ pub struct PovRay {
     pub digits: usize,
     /// Templates that take the place of those built in.
     pub templates: Vec<OwnTemplate>,
+}
+
+/// A file that scripts read, of which a copy stands beside them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Asset {
+    /// What scripts call it: the path of its copy below the folder of all copies, with `/`.
+    pub name: String,
+    /// The path of its file.
+    pub path: PathBuf,
 }
 
 /// A template of the user's own.

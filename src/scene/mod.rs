@@ -16,6 +16,7 @@ mod look;
 mod model;
 mod palette;
 mod preset;
+pub mod sdl;
 pub mod source;
 
 use std::path::{Path, PathBuf};
@@ -24,8 +25,8 @@ pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
-    Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material, Output,
-    OwnTemplate, PovRay, Projection, Sky, View,
+    Asset, Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material,
+    Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use preset::Preset;

@@ -2,7 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
+use super::Diverged;
 use crate::dynamics::{Balance, BodyId, Dynamics};
+use crate::scene::Scene;
 
 /// What can be seen at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +51,14 @@ impl Frame {
             force: forces[id],
         };
         Frame { index, time, bodies: (0..state.location.len()).map(body).collect(), balance }
+    }
+
+    /// The frame, unless a body is at no finite place.
+    pub(super) fn checked(self, scene: &Scene) -> Result<Frame, Diverged> {
+        match self.bodies.iter().position(|body| !body.is_finite()) {
+            None => Ok(self),
+            Some(body) => Err(Diverged { body: scene.bodies[body].name.clone(), time: self.time }),
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod build;
 mod frame;
+mod moments;
 mod selection;
 mod survey;
 
@@ -12,6 +13,7 @@ use crate::scene::Scene;
 
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
+pub use moments::Branch;
 pub use selection::Selection;
 pub use survey::{Bounds, Crossing, Survey, survey};
 
@@ -40,6 +42,23 @@ impl<'a> Frames<'a> {
         Frames { scene, dynamics: Box::new(world(scene)), next: 0 }
     }
 
+    /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between
+    /// two. A time before the beginning is the beginning, one after the end is the end.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers before.
+    pub fn at(scene: &Scene, time: f64) -> Result<Frame, Diverged> {
+        Branch::at(scene, time)?.frame()
+    }
+
+    /// The run from the frame on that was asked for last, or from the beginning, to be looked at without touching it.
+    pub fn branch(&self) -> Branch<'a> {
+        // After the end, or a frame that is none, there is no further one.
+        let frames = self.scene.simulation.frames();
+        let index = self.next.min(frames).saturating_sub(1);
+        Branch::new(self.scene, self.dynamics.as_ref(), index, self.dynamics.time())
+    }
+
     /// Starts over, as the space key does in a simulation with a window.
     pub fn reset(&mut self) {
         *self = Frames::new(self.scene);
@@ -56,17 +75,10 @@ impl Iterator for Frames<'_> {
         }
         let time = self.scene.simulation.time(index);
         self.dynamics.advance_to(time);
-        let frame = Frame::of(self.dynamics.as_mut(), index, time);
-        self.next = index + 1;
-        let lost = frame.bodies.iter().position(|body| !body.is_finite());
-        Some(match lost {
-            None => Ok(frame),
-            Some(body) => {
-                // Nothing that follows could be finite.
-                self.next = usize::MAX;
-                Err(Diverged { body: self.scene.bodies[body].name.clone(), time })
-            }
-        })
+        let frame = Frame::of(self.dynamics.as_mut(), index, time).checked(self.scene);
+        // After what is not finite, nothing could be.
+        self.next = if frame.is_ok() { index + 1 } else { usize::MAX };
+        Some(frame)
     }
 }
 

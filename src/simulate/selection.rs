@@ -6,27 +6,55 @@ use std::str::FromStr;
 
 /// Some of a scene's frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Selection(Vec<RangeInclusive<usize>>);
+pub struct Selection {
+    ranges: Vec<RangeInclusive<usize>>,
+    /// Of these, every so many-th, from the first on.
+    every: usize,
+}
 
 impl Selection {
     /// The first so many frames.
     pub fn first(frames: usize) -> Selection {
-        Selection(if frames == 0 { vec![] } else { vec![0..=frames - 1] })
+        Selection { ranges: if frames == 0 { vec![] } else { vec![0..=frames - 1] }, every: 1 }
+    }
+
+    /// Every so many-th frame of the film, from the first one of these on.
+    #[must_use]
+    pub fn every(self, every: usize) -> Selection {
+        Selection { every: every.max(1), ..self }
     }
 
     /// Whether the frame is among them.
     pub fn contains(&self, frame: usize) -> bool {
-        self.0.iter().any(|range| range.contains(&frame))
+        let first = || self.ranges.iter().map(|range| *range.start()).min().unwrap_or(0);
+        self.ranges.iter().any(|range| range.contains(&frame))
+            && (self.every == 1 || (frame - first()).is_multiple_of(self.every))
     }
 
     /// The last of them.
     pub fn last(&self) -> Option<usize> {
-        self.0.iter().map(|range| *range.end()).max()
+        self.ranges.iter().map(|range| *range.end()).max()
     }
 
     /// How many of the first `frames` are among them.
     pub fn count_within(&self, frames: usize) -> usize {
         (0..frames).filter(|&frame| self.contains(frame)).count()
+    }
+}
+
+impl FromIterator<usize> for Selection {
+    /// The frames of these numbers; those that follow each other are one range.
+    fn from_iter<I: IntoIterator<Item = usize>>(numbers: I) -> Selection {
+        let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
+        for number in numbers {
+            match ranges.last_mut() {
+                Some(range) if number.checked_sub(1) == Some(*range.end()) => {
+                    *range = *range.start()..=number;
+                }
+                _ => ranges.push(number..=number),
+            }
+        }
+        Selection { ranges, every: 1 }
     }
 }
 
@@ -59,18 +87,22 @@ impl FromStr for Selection {
                 Ok(first..=last)
             }
         };
-        text.split(',').map(range).collect::<Result<_, _>>().map(Selection)
+        let ranges = text.split(',').map(range).collect::<Result<_, _>>()?;
+        Ok(Selection { ranges, every: 1 })
     }
 }
 
 impl fmt::Display for Selection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, range) in self.0.iter().enumerate() {
+        for (i, range) in self.ranges.iter().enumerate() {
             let comma = if i == 0 { "" } else { "," };
             match (range.start(), range.end()) {
                 (first, last) if first == last => write!(f, "{comma}{first}")?,
                 (first, last) => write!(f, "{comma}{first}-{last}")?,
             }
+        }
+        if self.every > 1 {
+            write!(f, " (every {})", self.every)?;
         }
         Ok(())
     }
@@ -87,6 +119,17 @@ mod tests {
         assert!([1, 49, 89, 101].into_iter().all(|frame| !selection.contains(frame)));
         assert_eq!((selection.last(), selection.count_within(96)), (Some(100), 8));
         assert_eq!(selection.to_string(), "0,50,90-100");
+        assert_eq!([0, 2, 3, 4, 9].into_iter().collect::<Selection>().to_string(), "0,2-4,9");
+    }
+
+    #[test]
+    fn every_so_many_th_counts_from_the_first() {
+        let selection = "5-20,30".parse::<Selection>().unwrap().every(5);
+        assert_eq!(
+            (0..50).filter(|&frame| selection.contains(frame)).collect::<Vec<_>>(),
+            [5, 10, 15, 20, 30]
+        );
+        assert_eq!(selection.to_string(), "5-20,30 (every 5)");
     }
 
     #[test]

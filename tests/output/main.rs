@@ -4,11 +4,13 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod assets;
 mod check;
 mod folder;
 mod frames;
 mod kill;
 mod memory;
 mod sameness;
+mod shutter;
 mod templates;
 mod views;

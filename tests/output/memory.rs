@@ -23,6 +23,15 @@ fn peak(mut child: Child) -> u64 {
 
 #[test]
 fn ten_thousand_frames_need_the_memory_of_a_hundred() {
+    compare(10_000, &[]);
+}
+
+#[test]
+fn nor_do_the_moments_of_blurred_ones_add_up() {
+    compare(2_000, &["--set", "camera.shutter=0.02", "--set", "camera.samples=10"]);
+}
+
+fn compare(frames: u32, arguments: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let compile = |frames: u32| {
         let duration = format!("simulation.duration={}", f64::from(frames - 1) / 25.0);
@@ -31,12 +40,13 @@ fn ten_thousand_frames_need_the_memory_of_a_hundred() {
             .arg(scene("damped_spring"))
             .args(["--set", &duration, "-o"])
             .arg(folder.path().join(frames.to_string()))
+            .args(arguments)
             .stdout(Stdio::null())
             .spawn();
         peak(child.unwrap())
     };
-    let (few, many) = (compile(100), compile(10_000));
+    let (few, many) = (compile(100), compile(frames));
     assert!(few > 1_000_000, "a process needs more than {few} bytes: nothing was measured");
     let most = few as f64 * 1.1 + 2e6;
-    assert!(many as f64 <= most, "100 frames need {few} bytes, 10,000 frames {many}");
+    assert!(many as f64 <= most, "100 frames need {few} bytes, {frames} frames {many}");
 }

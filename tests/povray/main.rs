@@ -3,6 +3,7 @@
 //! A process of POV-Ray's sleeps most of its 0.6 s, so tests that render several scripts start all of them at once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
 
+mod assets;
 mod every_script;
 mod hostile;
 mod image;
@@ -19,6 +20,7 @@ mod scales;
 mod scene;
 mod sequence;
 mod shapes;
+mod shutter;
 mod sides;
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 #[path = "../support/mod.rs"]

@@ -1,20 +1,21 @@
 //! `[camera]` and `[view.NAME]`.
 
 use super::Context;
+use super::read::figure;
 use super::view::View as Keys;
 use crate::diagnostic::Diagnostic;
-use crate::scene::{Blur, Camera, Projection, View};
+use crate::scene::{Blur, Camera, Projection, Shutter, Simulation, View};
 
 /// What `--view` takes for all views, so no view can have this name.
 const ALL: &str = "all";
 
 /// Reads the main camera.
-pub(super) fn read(keys: &Keys<'_>, context: &mut Context<'_>) -> Camera {
-    camera(&[*keys], context)
+pub(super) fn read(root: &Keys<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Camera {
+    camera(&[root.table("camera")], simulation, context)
 }
 
 /// Reads the other cameras, each over the main one.
-pub(super) fn views(root: &Keys<'_>, context: &mut Context<'_>) -> Vec<View> {
+pub(super) fn views(root: &Keys<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Vec<View> {
     let main = root.table("camera");
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
@@ -23,19 +24,25 @@ pub(super) fn views(root: &Keys<'_>, context: &mut Context<'_>) -> Vec<View> {
             let help = format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL}`");
             context.diagnostics.push(Diagnostic::error("bad-view-name", message).at(span, "").help(help));
         }
-        View { name: name.to_owned(), camera: camera(&[keys, main], context) }
+        View { name: name.to_owned(), camera: camera(&[keys, main], simulation, context) }
     };
     root.named("view").into_iter().map(read).collect()
 }
 
 /// Reads a camera from tables, of which the first that has a key says it.
-fn camera(tables: &[Keys<'_>], context: &mut Context<'_>) -> Camera {
+fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_>) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let number = |key: &str| tables.iter().find_map(|keys| keys.number(key));
     let orthographic =
         tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
-    misplaced(&tables[0], orthographic, number("aperture").is_some(), context);
+    let open = number("shutter").filter(|open| *open > 0.0);
+    misplaced(&tables[0], orthographic, number("aperture").is_some(), open.is_some(), context);
+    // What a view inherits has been said of the main camera.
+    if let (Some(open), Some(span)) = (tables[0].number("shutter"), tables[0].span("shutter")) {
+        context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
+    }
 
+    let shutter_samples = tables.iter().find_map(|keys| keys.integer("samples"));
     let samples = tables.iter().find_map(|keys| keys.integer("blur_samples"));
     let camera = Camera {
         location: vector("location"),
@@ -49,6 +56,10 @@ fn camera(tables: &[Keys<'_>], context: &mut Context<'_>) -> Camera {
             aperture,
             focus: vector("focus"),
             samples: samples.and_then(|n| u32::try_from(n).ok()).unwrap_or(60),
+        }),
+        shutter: open.map(|open| Shutter {
+            open,
+            samples: shutter_samples.and_then(|n| u32::try_from(n).ok()).unwrap_or(16),
         }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
@@ -64,8 +75,23 @@ fn camera(tables: &[Keys<'_>], context: &mut Context<'_>) -> Camera {
     camera
 }
 
+/// The error of a shutter that is still open when the next image begins.
+fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
+    // The time between 30 frames a second is 0.0333 s to whoever writes it by hand.
+    const TOLERANCE: f64 = 0.01;
+    let interval = 1.0 / simulation.frame_rate;
+    let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));
+    let message = format!(
+        "the shutter is open for {} s, and the next frame begins after {} s",
+        figure(open),
+        short(interval)
+    );
+    let help = format!("half the time between frames is usual: `shutter = {}`", short(interval / 2.0));
+    (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error("long-shutter", message).help(help))
+}
+
 /// Reports keys of a table that mean nothing for this kind of camera.
-fn misplaced(keys: &Keys<'_>, orthographic: bool, blurred: bool, context: &mut Context<'_>) {
+fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
     let mut report = |key: &str, needs: &str| {
         let message = format!("`{key}` has no effect without {needs}");
         let warning = Diagnostic::warning("no-effect", message);
@@ -76,8 +102,11 @@ fn misplaced(keys: &Keys<'_>, orthographic: bool, blurred: bool, context: &mut C
     } else {
         report("width", "`projection = \"orthographic\"`");
     }
-    if !blurred {
+    if !aperture {
         report("focus", "`aperture`");
         report("blur_samples", "`aperture`");
+    }
+    if !shutter {
+        report("samples", "`shutter`");
     }
 }

@@ -1,5 +1,6 @@
 //! Tree → [`Scene`], or all that is wrong with it.
 
+mod asset;
 mod body;
 mod braces;
 mod camera;
@@ -133,9 +134,9 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
+        camera: camera::read(&root, &simulation, context),
+        views: camera::views(&root, &simulation, context),
         simulation,
-        camera: camera::read(&root.table("camera"), context),
-        views: camera::views(&root, context),
         lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),
@@ -168,5 +169,7 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
             Include::Text { text, .. } => add(text),
         }
     }
+    // What is in them is in no script.
+    povray.assets.iter().for_each(|asset| add(&asset.name));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

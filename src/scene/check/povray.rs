@@ -3,7 +3,7 @@
 use std::path::{Component, Path};
 
 use super::view::View;
-use super::{Context, sdl, suggest};
+use super::{Context, asset, sdl, suggest};
 use crate::diagnostic::Diagnostic;
 use crate::scene::source::Node;
 use crate::scene::{Include, PovRay};
@@ -54,10 +54,12 @@ const STANDARD: &[&str] = &[
 /// The largest include file that goes into every script.
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
 
-pub(super) fn read(root: &View<'_>, context: &Context<'_>) -> PovRay {
+pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
     let view = root.table("povray");
     let items = view.list("include").unwrap_or_default();
+    let assets = asset::read(&view, context);
     PovRay {
+        assets,
         include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
         sdl: view.text("sdl").map(str::to_owned),
         unit: view.number("unit"),

@@ -5,6 +5,7 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::Kind;
+use crate::scene::sdl::{Include, after_comment, includes};
 use crate::scene::source::Node;
 
 /// Directives that open, read, write or include a file, after a `#`.
@@ -32,6 +33,14 @@ pub(super) fn untrusted(what: &str, span: Span) -> Diagnostic {
     Diagnostic::error("untrusted-sdl", format!("the SDL reaches for files: `{what}`"))
         .at(span, "")
         .help("if you know this scene and trust it, say `--trust`")
+}
+
+/// The warning of a text that includes a file whose name only POV-Ray will know, if it does.
+pub(super) fn computed_include(text: &str, span: Span) -> Option<Diagnostic> {
+    let message = "the name of a file that the SDL includes is computed";
+    let warning = Diagnostic::warning("computed-include", message).at(span, "");
+    let help = "when that file changes, nothing tells that images are out of date";
+    includes(text).contains(&Include::Computed).then(|| warning.help(help))
 }
 
 /// The first word of the text that opens, reads, writes or includes a file. Words in comments and strings count:
@@ -64,27 +73,6 @@ fn after_blanks(mut text: &str) -> &str {
             return text;
         }
     }
-}
-
-/// What follows a block comment that has just begun; POV-Ray's nest.
-fn after_comment(mut text: &str) -> &str {
-    let mut depth = 1;
-    while depth > 0 {
-        let (open, close) = (text.find("/*"), text.find("*/"));
-        let at = match (open, close) {
-            (Some(open), Some(close)) if open < close => {
-                depth += 1;
-                open
-            }
-            (_, Some(close)) => {
-                depth -= 1;
-                close
-            }
-            (_, None) => return "",
-        };
-        text = &text[at + 2..];
-    }
-    text
 }
 
 fn word_at(text: &str) -> &str {

@@ -3,9 +3,9 @@
 
 use super::{Context, read, sdl, suggest};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::MATERIALS;
 use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
+use crate::scene::{Include, MATERIALS};
 
 /// Reports every key and value of a scene that the language does not know.
 pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
@@ -141,11 +141,20 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         Kind::Direction(_) => keep_all(read::direction::<3>(node), context),
         Kind::Color => keep_all(read::color(node), context),
         Kind::Identifier => keep(read::identifier(node), context),
-        Kind::Sdl => keep(sdl::read(node, context.trust), context),
-        Kind::Include => match node.as_str() {
-            None => context.diagnostics.push(read::wrong_type(node, kind)),
-            Some(_) => keep(super::povray::include(node, context.folder, context.trust), context),
+        Kind::Sdl => match sdl::read(node, context.trust) {
+            Ok(text) => context.diagnostics.extend(sdl::computed_include(text, node.span)),
+            Err(error) => context.diagnostics.push(error),
         },
+        Kind::Include if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
+        Kind::Include => match super::povray::include(node, context.folder, context.trust) {
+            Ok(Include::Text { text, .. }) => {
+                context.diagnostics.extend(sdl::computed_include(&text, node.span));
+            }
+            Ok(Include::Standard(_)) => {}
+            Err(error) => context.diagnostics.push(error),
+        },
+        Kind::Asset if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
+        Kind::Asset => keep(super::asset::asset(node, context.folder, context.trust), context),
         Kind::Choice(words) => choice(node, kind, &words(), entry, context),
         Kind::Reference(collection) => reference(node, kind, *collection, context),
         Kind::List { of, .. } => match read::list(node, kind) {

@@ -3,8 +3,8 @@
 //! To add one: describe it here, read it in `scene/check`, and add a scene that uses it.
 
 use super::Kind::{
-    Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number, Numbers,
-    Reference, Sdl, Table, Text, Variables,
+    Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
+    Numbers, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
 use super::shapes::SHAPE;
@@ -292,6 +292,22 @@ static CAMERA: TableSpec = TableSpec {
             "With `aperture`, the number of rays for a pixel: more is smoother",
         )
         .default("60"),
+        Key::new(
+            "shutter",
+            NON_NEGATIVE,
+            "How long the shutter is open from the time of a frame on, at most until the next frame: what moves \
+             meanwhile is blurred; half the time between frames is usual in films",
+        )
+        .unit("s")
+        .default("0: everything is sharp")
+        .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
+        Key::new(
+            "samples",
+            Integer(2, 256),
+            "With `shutter`, the number of moments that an image is the mean of: more is smoother and takes longer",
+        )
+        .default("16")
+        .also(&["shutter_samples", "motion_blur_samples"]),
     ],
 };
 
@@ -397,6 +413,14 @@ static POVRAY: TableSpec = TableSpec {
         )
         .default("[]")
         .also(&["includes"]),
+        Key::new(
+            "assets",
+            List { of: &Asset, min: 0, max: usize::MAX },
+            "Files beside the scene that POV-Ray's own words read, as images, height fields and fonts; copies of \
+             them stand in the folder `assets` beside the scripts, and the words call them as this list does",
+        )
+        .default("[]")
+        .also(&["files", "images", "textures", "maps"]),
         Key::new("sdl", Sdl, "POV-Ray's own words, to stand in every script before the bodies")
             .default("none"),
         Key::new(

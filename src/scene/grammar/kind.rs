@@ -26,6 +26,8 @@ pub enum Kind {
     Identifier,
     /// The name of an include file.
     Include,
+    /// The path of a file beside the scene.
+    Asset,
     /// One of a list of words.
     Choice(fn() -> Vec<&'static str>),
     /// The name of something in the scene.
@@ -132,6 +134,7 @@ impl Kind {
             | Kind::Sdl
             | Kind::Identifier
             | Kind::Include
+            | Kind::Asset
             | Kind::Choice(_)
             | Kind::Reference(_) => matches!(value, Value::String(_)),
             Kind::Boolean => matches!(value, Value::Boolean(_)),
@@ -164,6 +167,7 @@ impl Kind {
                 "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
             }
             Kind::Include => "the name of an include file".to_owned(),
+            Kind::Asset => "the path of a file beside the scene".to_owned(),
             Kind::Choice(words) => format!("one of {}", quoted(&words())),
             Kind::Reference(collection) => format!("the name of a {}", collection.key()),
             Kind::List { of, min, max } if min == max => {

@@ -97,7 +97,7 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         Kind::Identifier => {
             object(json!({ "type": "string", "pattern": "^[A-Za-z_][A-Za-z0-9_]*$", "maxLength": 255 }))
         }
-        Kind::Include => {
+        Kind::Include | Kind::Asset => {
             object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),

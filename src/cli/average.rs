@@ -1,0 +1,26 @@
+//! `jabuka average`: images → their mean in linear light.
+
+use std::path::PathBuf;
+
+use jabuka::render::linear_light;
+
+use super::{Failure, say};
+
+/// Average images in linear light, as a camera does while its shutter is open
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The images, PNGs of one size
+    #[arg(required = true)]
+    images: Vec<PathBuf>,
+    /// The PNG to write
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let mean = linear_light::mean(&arguments.images).and_then(|mean| mean.write(&arguments.output));
+    mean.map_err(|error| {
+        say::error(&format!("error: {error}\n"));
+        Failure::Errors
+    })
+}

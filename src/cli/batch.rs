@@ -1,0 +1,211 @@
+//! `jabuka batch`: scene → a folder that a cluster renders.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use jabuka::diagnostic::Report;
+use jabuka::output::{self, OutputError};
+use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
+use jabuka::render::{Quality, options};
+use jabuka::simulate::Selection;
+
+use super::progress::Progress;
+use super::scene_arguments::{SceneArguments, seen, survey};
+use super::{Failure, say};
+
+/// Write a folder that a cluster renders: scripts, and what sends them to Slurm or a render farm
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file, or a folder that `jabuka compile` has written
+    #[arg(value_name = "SCENE|DIR")]
+    scene: PathBuf,
+    /// What distributes the frames
+    #[arg(long, value_enum)]
+    engine: Engine,
+    /// The folder for the job [default: out/<name of the scene file>-job]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    of_scene: SceneArguments,
+    /// The size of the images in pixels, instead of the scene's
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// How good the images are
+    #[arg(long, value_enum, default_value_t = Grade::Good)]
+    quality: Grade,
+    /// So many frames are one job of the cluster [default: 10, or more where there are very many]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    chunk: Option<u32>,
+    /// The longest that one frame may take, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
+    limit: u64,
+    /// Slurm's partition
+    #[arg(long, value_name = "NAME", value_parser = parse_line)]
+    partition: Option<String>,
+    /// Slurm's account
+    #[arg(long, value_name = "NAME", value_parser = parse_line)]
+    account: Option<String>,
+    /// The longest that a chunk may take, as Slurm writes it: 01:30:00
+    #[arg(long, value_parser = parse_line)]
+    time: Option<String>,
+    /// The modules to be loaded on a node: "povray/3.7 ffmpeg"
+    #[arg(long, value_parser = parse_line)]
+    modules: Option<String>,
+    /// The processors for a chunk [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    cpus: Option<u32>,
+    /// The memory for a chunk, as Slurm writes it: 2G
+    #[arg(long, value_parser = parse_line)]
+    mem: Option<String>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Engine {
+    /// Slurm: `render.sbatch`, `video.sbatch`, and `submit`, which sends them
+    Slurm,
+    /// An Open Job Description, for AWS Deadline Cloud and its kin
+    Openjd,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Grade {
+    /// For a look at the motion: no anti-aliasing
+    Draft,
+    /// As `povray animation.ini` renders them
+    Good,
+    /// For the film that is kept
+    Final,
+}
+
+fn parse_size(argument: &str) -> Result<[u32; 2], String> {
+    let number = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=100_000).contains(n));
+    let size = argument.split_once('x').and_then(|(width, height)| Some([number(width)?, number(height)?]));
+    size.ok_or_else(|| "write it as 1280x720".to_owned())
+}
+
+/// What goes into a line of a script.
+fn parse_line(argument: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || " ,.:/_+=%@-".contains(c);
+    match !argument.is_empty() && argument.chars().all(plain) {
+        true => Ok(argument.to_owned()),
+        false => Err("it may have letters, digits, spaces and , . : / _ + = % @ -".to_owned()),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.scene.is_dir() { of_scripts(arguments) } else { of_scene(arguments) }
+}
+
+/// A job from a scene, or one for every view.
+fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
+    let scene = arguments.of_scene.read(&arguments.scene)?;
+    let frames = scene.simulation.frames();
+    let selection = arguments.of_scene.selection(frames)?;
+    let folder = folder(arguments, &scene.name);
+    let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
+
+    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let run = survey(&scene, &progress)?;
+    progress.phase("writing");
+    for (view, folder) in &cameras {
+        let seen = seen(&run, *view, &progress)?;
+        let run = seen.as_ref().unwrap_or(&run);
+        let write = |job: &JobFolder| {
+            output::write(run, &job.scripts()?, &selection, &|| progress.step())?;
+            Ok(([scene.output.width, scene.output.height], scene.output.transparent))
+        };
+        let said =
+            make(arguments, folder, Some(&selection), write).map_err(|error| progress.failed(&error))?;
+        progress.finish();
+        say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+        say::result(&said);
+    }
+    Ok(())
+}
+
+/// A job from scripts that are there.
+fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.of_scene.change_the_scene() {
+        let message = "a folder of scripts cannot be changed: `--set`, `--view`, `--templates` and `--trust` want the scene";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    let from = &arguments.scene;
+    let name = from.file_name().unwrap_or(from.as_os_str()).to_string_lossy();
+    let copy = |job: &JobFolder| {
+        batch::copy_scripts(from, &job.scripts()?)?;
+        Ok(batch::size(from))
+    };
+    let said = make(arguments, &folder(arguments, &name), arguments.of_scene.frames(), copy);
+    say::result(&said.map_err(|error| failed(&error))?);
+    Ok(())
+}
+
+fn failed(error: &OutputError) -> Failure {
+    say::report(&error.report());
+    Failure::Errors
+}
+
+fn folder(arguments: &Arguments, name: &str) -> PathBuf {
+    arguments.output.clone().unwrap_or_else(|| Path::new("out").join(format!("{name}-job")))
+}
+
+/// Makes a job folder, and says what it comes to. `write` puts the scripts into it, and says the size of their images, and
+/// whether these have alpha.
+fn make(
+    arguments: &Arguments,
+    folder: &Path,
+    frames: Option<&Selection>,
+    write: impl FnOnce(&JobFolder) -> Result<([u32; 2], bool), OutputError>,
+) -> Result<String, OutputError> {
+    let job = JobFolder::open(folder)?;
+    let (size, transparent) = write(&job)?;
+    let quality = match arguments.quality {
+        Grade::Draft => Quality::Draft,
+        Grade::Good => Quality::Good,
+        Grade::Final => Quality::Final,
+    };
+    let options = options(arguments.size.unwrap_or(size), transparent, quality).join(" ");
+    let settings = batch::settings(&folder.join(SCRIPTS), frames, options)?;
+    let cpus = arguments.cpus.map(|cpus| cpus as usize);
+    let chunk = batch::chunk(settings.frames.len(), cpus.unwrap_or(1));
+    let chunk = arguments.chunk.map_or(chunk, |chunk| chunk as usize);
+    let settings = Settings { chunk, limit: arguments.limit.max(1), ..settings };
+    let requirements = Requirements {
+        partition: arguments.partition.clone(),
+        account: arguments.account.clone(),
+        time: arguments.time.clone(),
+        cpus,
+        memory: arguments.mem.clone(),
+        modules: arguments.modules.clone(),
+    };
+    let engine = match arguments.engine {
+        Engine::Slurm => batch::Engine::Slurm,
+        Engine::Openjd => batch::Engine::OpenJd,
+    };
+    let edits = job.write(&settings, engine, &requirements)?;
+    let (done, all) = batch::up_to_date(folder).map_err(|error| OutputError::Io(folder.to_owned(), error))?;
+
+    let shown = folder.display();
+    let chunks = all.div_ceil(chunk);
+    let (s, c) = (if all == 1 { "" } else { "s" }, if chunks == 1 { "" } else { "s" });
+    let mut said =
+        format!("{shown}: {all} frame{s} in {chunks} chunk{c} of {chunk}, for {}\n", engine.name());
+    said.push_str(&format!("images    {done} of {all} are there\n"));
+    for name in &edits.kept {
+        let new = if edits.new.contains(name) {
+            format!("; what jabuka would write now is {name}.new")
+        } else {
+            String::new()
+        };
+        said.push_str(&format!("kept      {name}, as you edited it{new}\n"));
+    }
+    for name in &edits.moved {
+        said.push_str(&format!("replaced  {name}; as you edited it, it is {name}.old\n"));
+    }
+    said.push_str(&match engine {
+        batch::Engine::Slurm => format!("send      cd {shown} && ./submit\n"),
+        batch::Engine::OpenJd => format!("send      deadline bundle submit {shown}\n"),
+    });
+    said.push_str(&format!("watch     jabuka status {shown} --watch\n"));
+    Ok(said)
+}

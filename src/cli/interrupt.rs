@@ -1,0 +1,17 @@
+//! Ctrl-C: a wish to stop, which what takes long looks at.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// From now on, Ctrl-C (or a request of the system to end) sets this; a second one ends the process at once.
+pub(super) fn watched() -> &'static AtomicBool {
+    let handler = || {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    };
+    // Where there can be no handler, Ctrl-C ends the process as it always did; the next run sweeps up.
+    let _ = ctrlc::set_handler(handler);
+    &STOP
+}

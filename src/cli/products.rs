@@ -1,0 +1,84 @@
+//! What is made of the images: a film, a contact sheet.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
+
+use super::progress::Progress;
+use super::{Failure, render, say};
+
+/// What is to be made of the images.
+pub(super) struct Products {
+    film: Option<(Film, Ffmpeg)>,
+    sheet: Option<ContactSheet>,
+}
+
+impl Products {
+    /// What the arguments ask for. What is missing for it is said now, not after the last frame.
+    pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
+        let film = arguments.video.as_ref().map(|path| {
+            let film = Film::new(path).map_err(|error| misnamed(&error))?;
+            let ffmpeg = film.check(None).map_err(|error| failed(&error))?;
+            Ok((film, ffmpeg))
+        });
+        let sheet = arguments.contact_sheet.as_ref().map(ContactSheet::new).transpose();
+        Ok(Products { film: film.transpose()?, sheet: sheet.map_err(|error| misnamed(&error))? })
+    }
+
+    /// Whether there is anything to be made.
+    pub(super) fn are_wanted(&self) -> bool {
+        self.film.is_some() || self.sheet.is_some()
+    }
+
+    /// Makes them of the images of a sequence, of which only every so many-th frame may be there.
+    #[allow(clippy::cast_precision_loss, reason = "numbers of frames are small")]
+    pub(super) fn make(
+        &self,
+        sequence: &Sequence,
+        images: &Images,
+        every: usize,
+        stop: &AtomicBool,
+    ) -> Result<(), Failure> {
+        let scripts = sequence.scripts();
+        if let Some(sheet) = &self.sheet {
+            let shot = |script: &jabuka::render::Script| Shot {
+                image: images.image(&script.name),
+                frame: script.frame,
+                time: sequence.time(script.frame),
+            };
+            let shots: Vec<Shot> = scripts.iter().map(shot).collect();
+            sheet.make(&shots).map_err(|error| failed(&error))?;
+            say::result(&format!("sheet     {}\n", sheet.path().display()));
+        }
+        if let Some((film, ffmpeg)) = &self.film {
+            let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
+            let rate = sequence.frame_rate / every as f64;
+            let progress = Progress::new(frames.len());
+            progress.phase("film");
+            let seen = std::cell::Cell::new(0);
+            let made = film.make(&frames, rate, ffmpeg, &|| stop.load(Ordering::Relaxed), &|done| {
+                (seen.get()..done).for_each(|_| progress.step());
+                seen.set(done.max(seen.get()));
+            });
+            progress.finish();
+            made.map_err(|error| failed(&error))?;
+            let seconds = frames.len() as f64 / film.shown_rate(rate);
+            say::result(&format!("film      {}, {seconds:.2} s\n", film.path().display()));
+        }
+        Ok(())
+    }
+}
+
+fn failed(error: &FilmError) -> Failure {
+    say::report(&error.report());
+    Failure::Errors
+}
+
+/// A name that no film or sheet can have is a wrong use of the command.
+fn misnamed(error: &FilmError) -> Failure {
+    Failure::Usage(match error.help() {
+        Some(help) => format!("{error}: {help}"),
+        None => error.to_string(),
+    })
+}

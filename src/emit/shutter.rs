@@ -1,0 +1,52 @@
+//! The script of an image with motion blur: the scripts of all its moments in one, chosen by number.
+//!
+//! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen of them, one after another, in one process. What is
+//! between them is what a camera sees while its shutter is open: their mean.
+
+use super::number;
+use crate::scene::Shutter;
+use crate::simulate::Frame;
+
+/// What stands before the first moment. To the words of a scene, `frame_number` is the number of the frame, as in its
+/// sharp script, and not that of the moment.
+pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
+    let mut time = String::new();
+    number::write(&mut time, frame.time, digits);
+    let (index, samples) = (frame.index, shutter.samples);
+    format!(
+        "// frame {index}, t = {time} s, {samples} moments while the shutter is open\n\
+         #version 3.7;\n\
+         #ifndef (Shutter_Sample) #declare Shutter_Sample = frame_number; #end\n\
+         #declare frame_number = {index};\n\
+         #switch (Shutter_Sample)\n"
+    )
+}
+
+/// A moment, of which this is the script.
+pub(super) fn moment(number: usize, script: &str) -> String {
+    // Its first line has the number of the frame and the time. Without it, scripts of equal pictures are equal but for
+    // the first line of the whole.
+    let script = match script.split_once('\n') {
+        Some((first, rest)) if first.starts_with("//") => rest,
+        _ => script,
+    };
+    let end = if script.ends_with('\n') { "" } else { "\n" };
+    format!("#case ({number})\n{script}{end}#break\n")
+}
+
+/// What stands after the last moment.
+pub(super) fn end(shutter: Shutter) -> String {
+    let last = shutter.samples - 1;
+    format!("#else\n#error \"Shutter_Sample goes from 0 to {last}\"\n#end\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moment_loses_the_line_that_says_its_time_and_no_other() {
+        assert_eq!(moment(3, "// frame 7, t = 1 s\nsphere {}\n"), "#case (3)\nsphere {}\n#break\n");
+        assert_eq!(moment(0, "#version 3.7;\n// the end"), "#case (0)\n#version 3.7;\n// the end\n#break\n");
+    }
+}

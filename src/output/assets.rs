@@ -1,0 +1,56 @@
+//! Copies of the files that scripts read: images, height fields, fonts.
+
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use super::manifest::Entry;
+use super::{Folder, OutputError, Tally};
+use crate::emit::ASSETS;
+use crate::scene::Asset;
+
+/// Copies the assets of a scene to where its scripts find them. Copies of others that are there stay: nothing tells
+/// them from files of somebody else's.
+///
+/// # Errors
+/// Where an asset cannot be read or its copy not be written, or a folder on the way is a link.
+pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
+    let copy = |asset: &Asset| {
+        let name = format!("{ASSETS}/{}", asset.name);
+        make_folders(folder.path(), Path::new(&name))?;
+        let original = |error| OutputError::Io(asset.path.clone(), error);
+        let mut file = File::open(&asset.path).map_err(original)?;
+        let mut tally = Tally::default();
+        folder.try_write_with(&name, |copy| {
+            let mut buffer = [0; 1 << 16];
+            loop {
+                match file.read(&mut buffer).map_err(original)? {
+                    0 => return Ok(()),
+                    length => {
+                        let piece = &buffer[..length];
+                        tally.add(piece);
+                        copy.write_all(piece)
+                            .map_err(|error| OutputError::Io(folder.path().join(&name), error))?;
+                    }
+                }
+            }
+        })?;
+        Ok(tally.entry(None, name))
+    };
+    assets.iter().map(copy).collect()
+}
+
+/// Makes the folders that a file stands in, below a folder that is there. No link is followed.
+fn make_folders(folder: &Path, file: &Path) -> Result<(), OutputError> {
+    let mut path: PathBuf = folder.to_owned();
+    for part in file.parent().into_iter().flat_map(Path::components) {
+        path.push(part);
+        match fs::symlink_metadata(&path) {
+            Ok(metadata) if metadata.is_symlink() => return Err(OutputError::Link(path)),
+            Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path)),
+            Ok(_) => {}
+            Err(_) => fs::create_dir(&path).map_err(|error| OutputError::Io(path.clone(), error))?,
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Scripts that were compiled before, for a job of their own.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::emit::{COMMON, INI, MASTER};
+use crate::output::{self, Folder, MANIFEST, OutputError};
+use crate::render::files;
+
+/// Copies all scripts of a folder, and what belongs to them, into the folder of a job. What is there and equal stays
+/// untouched, what is of no use any more goes.
+///
+/// # Errors
+/// Where the scripts are not complete, or a file cannot be copied.
+pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
+    let io_error = |error| OutputError::Io(from.to_owned(), error);
+    let head = output::read_manifest(&from.join(MANIFEST));
+    if head.is_none_or(|head| head.state != output::State::Complete) {
+        return Err(OutputError::NoFolder(from.to_owned()));
+    }
+    let same = |a: &Path, b: &Path| Ok::<_, io::Error>(a.canonicalize()? == b.canonicalize()?);
+    if same(from, to.path()).map_err(io_error)? {
+        return Ok(());
+    }
+    let names = scripts(from).map_err(io_error)?;
+    let old = scripts(to.path()).map_err(|error| OutputError::Io(to.path().to_owned(), error))?;
+    for name in old.difference(&names).filter(|name| name.as_str() != MANIFEST) {
+        let path = to.path().join(name);
+        fs::remove_file(&path).map_err(|error| OutputError::Io(path, error))?;
+    }
+    // The manifest comes last: it says that all is there.
+    let last = names.get(MANIFEST);
+    for name in names.iter().filter(|name| name.as_str() != MANIFEST).chain(last) {
+        let path = from.join(name);
+        let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
+        if fs::read(to.path().join(name)).is_ok_and(|there| there == bytes) {
+            continue;
+        }
+        match name.rsplit_once('/') {
+            None => to.write(name, &bytes)?,
+            Some((folder, _)) => {
+                let path = to.path().join(name);
+                let copy = || {
+                    fs::create_dir_all(to.path().join(folder))?;
+                    fs::write(&path, &bytes)
+                };
+                copy().map_err(|error| OutputError::Io(path.clone(), error))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The names of everything in a folder of scripts that is ours.
+fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
+    let mut names: BTreeSet<String> = files::of_scripts(folder)?.into_iter().collect();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        let numbered = |start: &str| {
+            let digits = name.strip_prefix(start).and_then(|name| name.strip_suffix(".pov"));
+            digits.is_some_and(|digits| digits.len() >= 4 && digits.bytes().all(|b| b.is_ascii_digit()))
+        };
+        let ours = [COMMON, INI, MASTER, MANIFEST].contains(&name.as_str());
+        if entry.file_type()?.is_file() && (ours || numbered("frame_") || numbered("shutter_")) {
+            names.insert(name);
+        }
+    }
+    Ok(names)
+}
+
+/// The size of the images of a folder of scripts, and whether they have alpha, as its `animation.ini` says.
+pub fn size(scripts: &Path) -> ([u32; 2], bool) {
+    let ini = fs::read_to_string(scripts.join(INI)).unwrap_or_default();
+    let value = |key: &str| ini.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix('='));
+    let number =
+        |key: &str, default| value(key).and_then(|value| value.trim().parse().ok()).unwrap_or(default);
+    ([number("Width", 1280), number("Height", 720)], value("Output_Alpha").is_some_and(|v| v.trim() == "On"))
+}

@@ -1,0 +1,131 @@
+//! Writing files that users may edit, without losing their edits.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::Edits;
+use super::texts::Text;
+use crate::output::{Folder, OutputError};
+
+/// The file that marks a folder as a job of ours, and knows its files as jabuka wrote them.
+const MARKS: &str = ".jabuka-job.json";
+
+const GENERATOR: &str = "jabuka";
+
+/// What jabuka wrote into a job folder.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Marks {
+    generator: String,
+    /// Names and digests.
+    files: BTreeMap<String, String>,
+}
+
+impl Default for Marks {
+    fn default() -> Marks {
+        Marks { generator: GENERATOR.to_owned(), files: BTreeMap::new() }
+    }
+}
+
+impl Marks {
+    /// Reads the marks of a folder; none if it is no job of ours.
+    pub(super) fn read(folder: &Path) -> Option<Marks> {
+        let marks: Marks = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
+        (marks.generator == GENERATOR).then_some(marks)
+    }
+
+    pub(super) fn write(&self, folder: &Folder) -> Result<(), OutputError> {
+        let text = serde_json::to_string_pretty(self).unwrap_or_default();
+        folder.write(MARKS, format!("{text}\n").as_bytes())
+    }
+}
+
+/// Writes the texts, but for those that have been edited.
+pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
+    let mut marks = Marks::read(folder.path()).unwrap_or_default();
+    let mut edits = Edits::default();
+    for text in texts {
+        let path = folder.path().join(text.name);
+        let (was, is) = (marks.files.get(text.name).cloned(), digest(text.text.as_bytes()));
+        let there = fs::read(&path).ok().map(|bytes| digest(&bytes));
+        let edited = there.as_ref().is_some_and(|there| *there != is && Some(there) != was.as_ref());
+        if edited && text.users {
+            edits.kept.push(text.name);
+            if was.as_ref() != Some(&is) {
+                edits.new.push(text.name);
+                put(folder, &format!("{}.new", text.name), text)?;
+            }
+        } else {
+            if edited {
+                edits.moved.push(text.name);
+                let old = folder.path().join(format!("{}.old", text.name));
+                fs::rename(&path, &old).map_err(|error| OutputError::Io(old, error))?;
+            }
+            put(folder, text.name, text)?;
+        }
+        marks.files.insert(text.name.to_owned(), is);
+        // After every file: a run that is killed must not take its own files for edited ones.
+        marks.write(folder)?;
+    }
+    Ok(edits)
+}
+
+fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
+    folder.write(name, text.text.as_bytes())?;
+    #[cfg(unix)]
+    if text.runs {
+        use std::os::unix::fs::PermissionsExt;
+        let path = folder.path().join(name);
+        let permit = |path: &Path| {
+            let mut permissions = fs::metadata(path)?.permissions();
+            // Who may read it may run it.
+            let mode = permissions.mode();
+            permissions.set_mode(mode | (mode & 0o444) >> 2);
+            fs::set_permissions(path, permissions)
+        };
+        permit(&path).map_err(|error| OutputError::Io(path, error))?;
+    }
+    Ok(())
+}
+
+fn digest(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(name: &'static str, users: bool, text: &str) -> Text {
+        Text { name, text: text.to_owned(), users, runs: false }
+    }
+
+    #[test]
+    fn edits_are_not_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        let open = || Folder::open_marked(folder.path(), &|path| Marks::read(path).is_some()).unwrap();
+        let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+        let texts = |version: &str| [text("render.sbatch", true, version), text("submit", false, version)];
+        assert_eq!(write(&open(), &texts("1")).unwrap(), Edits::default());
+        assert_eq!(write(&open(), &texts("2")).unwrap(), Edits::default(), "nobody has edited anything");
+        assert_eq!((read("render.sbatch"), read("submit")), ("2".to_owned(), "2".to_owned()));
+
+        for name in ["render.sbatch", "submit"] {
+            fs::write(folder.path().join(name), "mine").unwrap();
+        }
+        let edits = write(&open(), &texts("2")).unwrap();
+        assert_eq!((edits.kept, edits.new, edits.moved), (vec!["render.sbatch"], vec![], vec!["submit"]));
+        assert_eq!(["render.sbatch", "submit", "submit.old"].map(read), ["mine", "2", "mine"]);
+        let edits = write(&open(), &texts("3")).unwrap();
+        assert_eq!(
+            (edits.kept, edits.new, edits.moved),
+            (vec!["render.sbatch"], vec!["render.sbatch"], vec![])
+        );
+        assert_eq!(["render.sbatch", "render.sbatch.new", "submit"].map(read), ["mine", "3", "3"]);
+        let edits = write(&open(), &texts("3")).unwrap();
+        assert_eq!((edits.kept, edits.new), (vec!["render.sbatch"], vec![]), "it has been said");
+    }
+}

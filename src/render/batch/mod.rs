@@ -1,0 +1,153 @@
+//! Job folders: everything that machines need to render a film together, without jabuka.
+//!
+//! A job folder holds the scripts, the images, and `render-chunk`, a script for bash that renders some of the frames and
+//! that every engine calls. Its texts are in `templates/batch/`.
+
+mod copy;
+mod edits;
+mod settings;
+mod texts;
+
+use std::fs;
+use std::path::Path;
+
+pub use copy::{copy_scripts, size};
+pub(super) use settings::InForce;
+pub use settings::{SETTINGS, Settings};
+pub use texts::Requirements;
+
+use super::record::HIDDEN;
+use crate::output::{self, Folder, OutputError};
+
+/// The folder of the scripts in a job folder.
+pub const SCRIPTS: &str = "scripts";
+
+/// What distributes the frames to machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Slurm.
+    Slurm,
+    /// A manager of render farms that reads Open Job Descriptions.
+    OpenJd,
+}
+
+impl Engine {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Engine::Slurm => "slurm",
+            Engine::OpenJd => "openjd",
+        }
+    }
+}
+
+/// A job folder that this process alone writes to.
+pub struct JobFolder {
+    folder: Folder,
+}
+
+/// What has become of the files that users may edit.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Edits {
+    /// They were edited, and have stayed.
+    pub kept: Vec<&'static str>,
+    /// Of those, the ones of which jabuka would write another text now: it is beside them, with the ending `.new`.
+    pub new: Vec<&'static str>,
+    /// They were edited, and jabuka needs its own: the edited ones have the ending `.old` now.
+    pub moved: Vec<&'static str>,
+}
+
+impl JobFolder {
+    /// Opens a job folder: a new or empty one, or one that jabuka made.
+    ///
+    /// # Errors
+    /// Where the folder is somebody else's, is being written to, or cannot be used.
+    pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
+        let folder = Folder::open_marked(path, &|path| edits::Marks::read(path).is_some())?;
+        let job = JobFolder { folder };
+        // From the first moment on it says whose it is.
+        edits::Marks::read(path).unwrap_or_default().write(&job.folder)?;
+        Ok(job)
+    }
+
+    /// The folder for its scripts, to be written as any other.
+    ///
+    /// # Errors
+    /// Where it cannot be used.
+    pub fn scripts(&self) -> Result<Folder, OutputError> {
+        Folder::open(&self.folder.path().join(SCRIPTS))
+    }
+
+    /// Writes everything but the scripts. What a user has edited is not lost.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn write(
+        &self,
+        settings: &Settings,
+        engine: Engine,
+        requirements: &Requirements,
+    ) -> Result<Edits, OutputError> {
+        let path = self.folder.path();
+        // A log that has no folder fails its job without a word.
+        for folder in ["logs", "images", &format!("images/{HIDDEN}")] {
+            let folder = path.join(folder);
+            fs::create_dir_all(&folder).map_err(|error| OutputError::Io(folder, error))?;
+        }
+        edits::write(&self.folder, &texts::texts(settings, engine, requirements))
+    }
+}
+
+/// The number of images of a job folder that are up to date, and of those that are asked for.
+///
+/// # Errors
+/// Where a file that the scripts read is not there.
+pub fn up_to_date(folder: &Path) -> std::io::Result<(usize, usize)> {
+    let status = super::status::Status::read(folder)?;
+    Ok((status.done.len(), status.frames.len()))
+}
+
+/// The settings of a job for the scripts of a folder.
+///
+/// `frames` are those that are asked for; `None` stands for all that have scripts.
+///
+/// # Errors
+/// Where the folder has no complete scripts of jabuka's.
+pub fn settings(
+    scripts: &Path,
+    frames: Option<&crate::simulate::Selection>,
+    options: String,
+) -> Result<Settings, OutputError> {
+    let head = output::read_manifest(&scripts.join(output::MANIFEST));
+    let head = head.filter(|head| head.state == output::State::Complete);
+    let head = head.ok_or_else(|| OutputError::NoFolder(scripts.to_owned()))?;
+    let found = output::scripts(scripts)?.into_iter().map(|(frame, _)| frame);
+    let frames: Vec<usize> =
+        found.filter(|frame| frames.is_none_or(|frames| frames.contains(*frame))).collect();
+    let blurred = fs::read_dir(scripts).map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
+    let blurred = blurred.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("shutter_"));
+    let last_frame = head.frames.saturating_sub(1);
+    let number = frames.len();
+    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
+    let end = last_frame as f64 / head.frame_rate;
+    Ok(Settings {
+        job: format!("jabuka-{}", head.scene),
+        frames,
+        last_frame,
+        end,
+        digits: crate::emit::width(head.frames),
+        frame_rate: head.frame_rate,
+        chunk: chunk(number, 1),
+        options,
+        files: super::files::of_scripts(scripts)
+            .map_err(|error| OutputError::Io(scripts.to_owned(), error))?,
+        blurred,
+        limit: 3600,
+    })
+}
+
+/// How many frames are one job of an engine, where the user does not say: few enough that a failure costs little, enough
+/// for all processors, and at most 1000 jobs.
+pub fn chunk(frames: usize, cpus: usize) -> usize {
+    frames.div_ceil(1000).max(10).max(cpus.saturating_mul(4))
+}

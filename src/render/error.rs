@@ -1,0 +1,132 @@
+//! Why nothing could be rendered.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use crate::diagnostic::{Diagnostic, Report};
+
+/// Why rendering had to stop. What concerns one frame only is a [`Fault`](super::Fault), and stops nothing.
+#[derive(Debug)]
+pub enum RenderError {
+    /// There is no POV-Ray: what was looked for.
+    NoPovray(PathBuf),
+    /// What was found is no POV-Ray, or none of a version that is known: its path and what it says of itself.
+    NotPovray(PathBuf, String),
+    /// The folder has no scripts.
+    NoScripts(PathBuf),
+    /// The scripts in the folder are not all there: a compile was broken off.
+    Incomplete(PathBuf),
+    /// The folder has no scripts of these frames.
+    NoSuchFrames(PathBuf, String),
+    /// The folder for the images holds files, and none of them says that jabuka made it.
+    NotOurs(PathBuf),
+    /// There is a link where jabuka would write.
+    Link(PathBuf),
+    /// Another process renders into the folder.
+    Locked(PathBuf),
+    /// There is no room for images.
+    DiskFull(PathBuf),
+    /// A file could not be read, written or removed.
+    Io(PathBuf, io::Error),
+    /// So many frames failed, and none succeeded.
+    AllFail(usize),
+}
+
+impl RenderError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> &'static str {
+        match self {
+            RenderError::NoPovray(_) => "no-povray",
+            RenderError::NotPovray(..) => "wrong-povray",
+            RenderError::NoScripts(_) | RenderError::NoSuchFrames(..) => "no-scripts",
+            RenderError::Incomplete(_) => "incomplete-scripts",
+            RenderError::NotOurs(_) => "folder-not-ours",
+            RenderError::Link(_) => "link",
+            RenderError::Locked(_) => "folder-locked",
+            RenderError::DiskFull(_) => "disk-full",
+            RenderError::Io(..) => "cannot-write",
+            RenderError::AllFail(_) => "all-frames-fail",
+        }
+    }
+
+    /// The error as a diagnostic.
+    pub fn report(&self) -> Report {
+        let diagnostic = Diagnostic::error(self.code(), self.to_string());
+        let diagnostic = match self.help() {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        };
+        Report { diagnostics: vec![diagnostic], ..Report::default() }
+    }
+
+    /// How to mend it, where that is not plain from the message.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            RenderError::NoPovray(_) => Some(
+                "install POV-Ray 3.7: `apt install povray povray-includes` on Debian and Ubuntu, `brew install povray` \
+                 on macOS, `dnf install povray` on Fedora; or say where it is with `--povray PATH`",
+            ),
+            RenderError::NotPovray(..) => {
+                Some("jabuka needs POV-Ray 3.7 or 3.8: say where it is with `--povray PATH`")
+            }
+            RenderError::NoScripts(_) => {
+                Some("`jabuka compile` writes them; `jabuka render SCENE.toml` does both")
+            }
+            RenderError::Incomplete(_) => Some("run `jabuka compile` again"),
+            RenderError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
+            RenderError::Link(_) => Some("remove the link"),
+            RenderError::Locked(_) => {
+                Some("wait until the other run has ended, or name another folder with `-o`")
+            }
+            RenderError::DiskFull(_) => {
+                Some("make room and run the same command again: it goes on where this one has stopped")
+            }
+            RenderError::AllFail(_) => Some("with `--keep-going`, the other frames are tried as well"),
+            RenderError::Io(..) | RenderError::NoSuchFrames(..) => None,
+        }
+    }
+
+    /// The error of a file; that of a full disk is one of its own.
+    pub(super) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> RenderError {
+        let path = path.into();
+        |error| match error.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => RenderError::DiskFull(path),
+            _ => RenderError::Io(path, error),
+        }
+    }
+}
+
+impl fmt::Display for RenderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RenderError::NoPovray(path) => write!(f, "POV-Ray is not there: no program `{}`", path.display()),
+            RenderError::NotPovray(path, said) => {
+                write!(f, "`{}` is no POV-Ray that jabuka can use: it says `{said}`", path.display())
+            }
+            RenderError::NoScripts(path) => {
+                write!(f, "the folder `{}` holds no scripts of frames", path.display())
+            }
+            RenderError::Incomplete(path) => {
+                write!(f, "not all scripts are in `{}`: what writes them was broken off", path.display())
+            }
+            RenderError::NoSuchFrames(path, frames) => {
+                write!(f, "the folder `{}` has no scripts of the frames {frames}", path.display())
+            }
+            RenderError::NotOurs(path) => {
+                write!(f, "the folder `{}` is not empty, and jabuka did not make it", path.display())
+            }
+            RenderError::Link(path) => write!(f, "`{}` is a link, which is not followed", path.display()),
+            RenderError::Locked(path) => {
+                write!(f, "another jabuka renders into the folder `{}`", path.display())
+            }
+            RenderError::DiskFull(path) => write!(f, "no space is left for `{}`", path.display()),
+            RenderError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
+            RenderError::AllFail(frames) => {
+                write!(f, "stopped, since all of the first {frames} frames failed")
+            }
+        }
+    }
+}
+
+impl std::error::Error for RenderError {}

@@ -1,0 +1,57 @@
+//! A frame with motion blur: the images of its moments, until all are there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::linear_light;
+use super::{Images, RenderError};
+
+/// The images of the moments of a frame. Their folder goes with this.
+pub(super) struct Exposure {
+    folder: PathBuf,
+    images: Vec<PathBuf>,
+    /// What they have cost together, s.
+    pub(super) seconds: f64,
+}
+
+impl Exposure {
+    /// A frame of which no moment is there.
+    pub(super) fn new(images: &Images, index: usize) -> Result<Exposure, RenderError> {
+        Ok(Exposure { folder: images.exposure_folder(index)?, images: Vec::new(), seconds: 0.0 })
+    }
+
+    /// Takes in the image of one of so many moments, and says whether all are there.
+    pub(super) fn add(
+        &mut self,
+        image: &Path,
+        moment: u32,
+        seconds: f64,
+        of: u32,
+    ) -> Result<bool, RenderError> {
+        let path = self.folder.join(format!("{moment:04}.png"));
+        fs::rename(image, &path).map_err(RenderError::io(&path))?;
+        self.images.push(path);
+        self.seconds += seconds;
+        Ok(self.images.len() == of as usize)
+    }
+
+    /// The mean of all moments in linear light, in the folder of this.
+    pub(super) fn develop(&self) -> Result<PathBuf, RenderError> {
+        let path = self.folder.join("mean.png");
+        let mut images = self.images.clone();
+        // The sum of floating-point numbers depends on their order.
+        images.sort();
+        let other = |error: linear_light::ImageError| {
+            RenderError::io(&path)(std::io::Error::other(error.to_string()))
+        };
+        linear_light::mean(&images).and_then(|mean| mean.write(&path)).map_err(other)?;
+        Ok(path)
+    }
+}
+
+impl Drop for Exposure {
+    fn drop(&mut self) {
+        // What cannot be removed now is swept by the next run.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}

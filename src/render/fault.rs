@@ -1,0 +1,144 @@
+//! A frame that cannot be rendered, and what POV-Ray says of it.
+
+use std::fmt;
+use std::fs;
+use std::path::PathBuf;
+
+use crate::diagnostic::{Diagnostic, Report, Span};
+
+/// Why one frame could not be rendered; others can.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The number of the frame.
+    pub frame: usize,
+    /// Its script.
+    pub script: PathBuf,
+    /// The line of the script where POV-Ray stopped, from 1.
+    pub line: Option<usize>,
+    /// The body that is drawn there.
+    pub body: Option<String>,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl Fault {
+    /// The fault in what POV-Ray has said of a script.
+    pub(super) fn parse(frame: usize, script: PathBuf, said: &str) -> Fault {
+        let name = script.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        let mut place = None;
+        let mut message: Vec<&str> = Vec::new();
+        let mut in_context = false;
+        for line in said.lines() {
+            if let Some(found) = file_and_line(line) {
+                place = Some(found);
+                in_context = false;
+                message.clear();
+            } else if line.starts_with("File Context") {
+                in_context = true;
+            } else if !in_context || line.contains("Error: ") {
+                in_context = false;
+                message.push(line.trim());
+            }
+        }
+        let text = if message.is_empty() { said.trim().to_owned() } else { message.join(" ") };
+        let text = text.strip_prefix("Parse Error: ").unwrap_or(&text).to_owned();
+        let source =
+            fs::read(&script).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
+        let (line, message) = match place {
+            Some((file, line)) if file == name => (Some(line), text),
+            // Where something is left open, POV-Ray finds out behind the end.
+            Some(("run.pov", _)) => (Some(source.lines().count()), text),
+            Some((file, line)) => (None, format!("in {file}, line {line}: {text}")),
+            None => (None, text),
+        };
+        let body = line.and_then(|line| body_at(&source, line));
+        Fault { frame, script, line, body, message }
+    }
+
+    /// The fault as an error at its place in the script.
+    pub fn report(&self) -> Report {
+        let mut report = Report::default();
+        let body = self.body.as_ref().map_or_else(String::new, |body| format!(", body `{body}`"));
+        let message = format!("frame {}{body}: {}", self.frame, self.message);
+        let diagnostic = Diagnostic::error("bad-frame", message);
+        let place = self.line.and_then(|line| Some((line, fs::read(&self.script).ok()?)));
+        report.diagnostics.push(match place {
+            None => diagnostic,
+            Some((line, bytes)) => {
+                let text = String::from_utf8_lossy(&bytes).into_owned();
+                let start: usize =
+                    text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+                let length = text[start..].lines().next().map_or(0, str::len);
+                let id = report.sources.add(self.script.display().to_string(), text);
+                diagnostic.at(Span { source: id, start, end: start + length }, "POV-Ray stopped here")
+            }
+        });
+        report
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "frame {}: {}", self.frame, self.script.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if let Some(body) = &self.body {
+            write!(f, ", body `{body}`")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+/// The file's name and the line in what begins a message: `File: scripts/frame_0060.pov  Line: 34`.
+fn file_and_line(said: &str) -> Option<(&str, usize)> {
+    let (path, line) = said.strip_prefix("File: ")?.rsplit_once("Line: ")?;
+    Some((path.trim().rsplit('/').next()?, line.trim().parse().ok()?))
+}
+
+/// The body that stands in a line of a script: the object's last line ends with its name as a comment.
+fn body_at(script: &str, line: usize) -> Option<String> {
+    let lines: Vec<&str> = script.lines().collect();
+    let bodies = lines.iter().position(|line| *line == "// the bodies")?;
+    let from = line.checked_sub(1).filter(|from| *from > bodies)?;
+    let name = |line: &&str| line.rsplit_once("} // ").map(|(_, name)| name.to_owned());
+    lines.get(from..)?.iter().find_map(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCRIPT: &str = "// frame 60\n#version 3.7;\n// the bodies\n\
+        sphere { <0, 1, 0>, 1 material { M } } // ball\n\
+        union {\n  box { <0, 0, 0>, <1, 1, 1> }\n  fnish {}\n} // table\n";
+
+    fn fault(said: &str) -> (Option<usize>, Option<String>, String) {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("frame_0060.pov");
+        fs::write(&script, SCRIPT).unwrap();
+        let fault = Fault::parse(60, script, said);
+        (fault.line, fault.body, fault.message)
+    }
+
+    #[test]
+    fn a_message_names_line_and_body() {
+        let said = "File: scripts/frame_0060.pov  Line: 7\nFile Context (5 lines):\nunion {\n  fnish\n\
+            Parse Error: No matching } in 'union', undeclared identifier 'fnish' found\n instead\n";
+        let message = "No matching } in 'union', undeclared identifier 'fnish' found instead";
+        assert_eq!(fault(said), (Some(7), Some("table".to_owned()), message.to_owned()));
+        let (line, body, _) = fault("File: scripts/frame_0060.pov  Line: 4\nParse Error: x\n");
+        assert_eq!((line, body), (Some(4), Some("ball".to_owned())));
+        let (line, body, _) = fault("File: run.pov  Line: 5\nParse Error: x\n");
+        assert_eq!((line, body), (Some(8), Some("table".to_owned())));
+    }
+
+    #[test]
+    fn what_is_wrong_elsewhere_has_no_body() {
+        let (line, body, _) = fault("File: scripts/frame_0060.pov  Line: 2\nParse Error: x\n");
+        assert_eq!((line, body), (Some(2), None));
+        let (line, _, message) = fault("File: scripts/common.inc  Line: 9\nParse Error: x\n");
+        assert_eq!((line, message.as_str()), (None, "in common.inc, line 9: x"));
+        assert_eq!(fault("Something else.\n"), (None, None, "Something else.".to_owned()));
+    }
+}

@@ -1,0 +1,171 @@
+//! Why a film or a contact sheet could not be made.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use super::{Film, Format};
+use crate::diagnostic::{Diagnostic, Report};
+
+/// Why a film or a contact sheet could not be made.
+#[derive(Debug)]
+pub enum FilmError {
+    /// The name of the film does not end as that of a film that jabuka makes.
+    FilmName(PathBuf),
+    /// The name of the contact sheet does not end in `.png`.
+    SheetName(PathBuf),
+    /// There is a folder where the film or the sheet should be.
+    Folder(PathBuf),
+    /// There is nothing to show.
+    NoImages,
+    /// No film can be shown at this rate, in frames per second.
+    Rate(f64),
+    /// There is no ffmpeg: what was looked for, and why it cannot be used.
+    NoFfmpeg(PathBuf, String),
+    /// This ffmpeg was built without an encoder that is needed.
+    NoEncoder(PathBuf, &'static str),
+    /// An image is not there, or is no whole PNG: its path, and what is wrong.
+    Image(PathBuf, String),
+    /// Two images differ in size.
+    Sizes {
+        /// The first image, its width and height.
+        first: (PathBuf, (usize, usize)),
+        /// The first one of another size.
+        other: (PathBuf, (usize, usize)),
+    },
+    /// Another process writes the same file.
+    Locked(PathBuf),
+    /// There is no room for the file.
+    DiskFull(PathBuf),
+    /// A file could not be written.
+    Io(PathBuf, io::Error),
+    /// ffmpeg failed: on which file, how it ended, and the last that it said.
+    Failed(PathBuf, String, String),
+    /// ffmpeg ended well, but the film has not as many frames as there are images: the file, its frames, and the images.
+    Count(PathBuf, usize, usize),
+    /// Somebody has asked to stop.
+    Cancelled,
+}
+
+impl FilmError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> &'static str {
+        match self {
+            FilmError::FilmName(_) | FilmError::SheetName(_) => "bad-film-name",
+            FilmError::NoImages => "no-images",
+            FilmError::Rate(_) => "bad-film-rate",
+            FilmError::NoFfmpeg(..) | FilmError::NoEncoder(..) => "no-ffmpeg",
+            FilmError::Image(..) => "bad-image",
+            FilmError::Sizes { .. } => "image-sizes",
+            FilmError::Folder(_) | FilmError::Locked(_) | FilmError::DiskFull(_) | FilmError::Io(..) => {
+                "cannot-write"
+            }
+            FilmError::Failed(..) | FilmError::Count(..) => "ffmpeg-failed",
+            FilmError::Cancelled => "stopped",
+        }
+    }
+
+    /// The error as a diagnostic.
+    pub fn report(&self) -> Report {
+        let diagnostic = Diagnostic::error(self.code(), self.to_string());
+        let diagnostic = match self.help() {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        };
+        Report { diagnostics: vec![diagnostic], ..Report::default() }
+    }
+
+    /// How to mend it, where that is not plain from the message.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            FilmError::FilmName(_) => Some(
+                "`.mp4` plays nearly everywhere, `.webm` in browsers, and `.gif` where only images may stand",
+            ),
+            FilmError::NoFfmpeg(..) => Some(
+                "install it: `apt install ffmpeg` on Debian and Ubuntu, `brew install ffmpeg` on macOS, \
+                 `dnf install ffmpeg-free` on Fedora",
+            ),
+            FilmError::NoEncoder(..) => Some(
+                "install a complete one: `apt install ffmpeg` on Debian and Ubuntu, `brew install ffmpeg` on macOS, \
+                 `dnf install ffmpeg` from RPM Fusion on Fedora; or name a film of another kind: `.mp4`, `.webm`, `.gif`",
+            ),
+            FilmError::Rate(_) => Some(
+                "the time in the scene may run much faster or slower than a film can: give the film a rate of its own, \
+                 such as 25",
+            ),
+            FilmError::Image(..) | FilmError::Sizes { .. } => {
+                Some("remove the image, so that it is rendered again")
+            }
+            FilmError::Locked(_) => Some("wait until the other run has ended, or name another file"),
+            FilmError::Folder(_) => Some("name a file"),
+            FilmError::DiskFull(_) => Some("make room; the images are kept"),
+            FilmError::Cancelled => Some("run the same command again: the images are kept"),
+            FilmError::SheetName(_)
+            | FilmError::NoImages
+            | FilmError::Io(..)
+            | FilmError::Failed(..)
+            | FilmError::Count(..) => None,
+        }
+    }
+
+    /// The error of a file that is written; that of a full disk is one of its own.
+    pub(in crate::render) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> FilmError {
+        let path = path.into();
+        |error| match error.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => FilmError::DiskFull(path),
+            _ => FilmError::Io(path, error),
+        }
+    }
+}
+
+impl fmt::Display for FilmError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FilmError::FilmName(path) => {
+                let [mp4, webm, gif] = Format::ALL.map(Format::extension);
+                write!(
+                    f,
+                    "the name of a film ends in `.{mp4}`, `.{webm}` or `.{gif}`, and `{}` does not",
+                    path.display()
+                )
+            }
+            FilmError::SheetName(path) => {
+                write!(f, "the name of a contact sheet ends in `.png`, and `{}` does not", path.display())
+            }
+            FilmError::Folder(path) => write!(f, "`{}` is a folder", path.display()),
+            FilmError::NoImages => f.write_str("there are no images to show"),
+            FilmError::Rate(rate) => {
+                let (low, high) = (Film::RATES.start(), Film::RATES.end());
+                write!(f, "a film shows from {low} to {high} frames a second, not {rate}")
+            }
+            FilmError::NoFfmpeg(path, why) => {
+                write!(f, "ffmpeg, which makes films, cannot be used: `{}`: {why}", path.display())
+            }
+            FilmError::NoEncoder(path, encoder) => {
+                write!(f, "`{}` was built without the encoder `{encoder}`", path.display())
+            }
+            FilmError::Image(path, why) => write!(f, "the image `{}` cannot be read: {why}", path.display()),
+            FilmError::Sizes { first: (first, (w1, h1)), other: (other, (w2, h2)) } => write!(
+                f,
+                "the images differ in size: `{}` has {w1} × {h1} pixels, and `{}` has {w2} × {h2}",
+                first.display(),
+                other.display()
+            ),
+            FilmError::Locked(path) => write!(f, "another jabuka writes `{}`", path.display()),
+            FilmError::DiskFull(path) => write!(f, "no space is left for `{}`", path.display()),
+            FilmError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
+            FilmError::Failed(path, how, said) if said.is_empty() => {
+                write!(f, "ffmpeg could not make `{}`: it {how} without a word", path.display())
+            }
+            FilmError::Failed(path, how, said) => {
+                write!(f, "ffmpeg could not make `{}`: it {how}, and said last:\n{said}", path.display())
+            }
+            FilmError::Count(path, frames, images) => {
+                write!(f, "ffmpeg made {frames} frames of {images} images for `{}`", path.display())
+            }
+            FilmError::Cancelled => f.write_str("stopped"),
+        }
+    }
+}
+
+impl std::error::Error for FilmError {}

@@ -1,0 +1,226 @@
+//! ffmpeg: whether it is there, and a run of it.
+
+use std::collections::VecDeque;
+use std::ffi::OsString;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use rustix::process::{Pid, Signal, kill_process_group};
+
+use super::{FilmError, Format};
+
+/// An ffmpeg that is there and can make a film of some format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ffmpeg {
+    program: PathBuf,
+    version: String,
+}
+
+/// How a run of ffmpeg has ended.
+pub(super) struct End {
+    /// Whether it says that it has ended well, which is not always so.
+    pub(super) success: bool,
+    /// How: "ended with code 1".
+    pub(super) how: String,
+    /// The last that it said.
+    pub(super) said: String,
+    /// How many frames it has written.
+    pub(super) frames: usize,
+}
+
+impl Ffmpeg {
+    /// Looks for a program, or for `ffmpeg` where the shell would, and asks it for the encoder of a format.
+    pub(super) fn find(program: Option<&Path>, format: Format) -> Result<Ffmpeg, FilmError> {
+        let program = program.unwrap_or(Path::new("ffmpeg"));
+        let ask = |arguments: &[&str]| {
+            let output =
+                Command::new(program).args(arguments).stdin(Stdio::null()).output().map_err(|error| {
+                    let why = match error.kind() {
+                        io::ErrorKind::NotFound => "there is no such program".to_owned(),
+                        _ => error.to_string(),
+                    };
+                    FilmError::NoFfmpeg(program.to_owned(), why)
+                })?;
+            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+        };
+        let answer = ask(&["-version"])?;
+        let version = answer.strip_prefix("ffmpeg version ").and_then(|rest| rest.split_whitespace().next());
+        let Some(version) = version else {
+            let why = "it is no ffmpeg, for it does not tell its version".to_owned();
+            return Err(FilmError::NoFfmpeg(program.to_owned(), why));
+        };
+        let encoder = format.encoder();
+        let answer = ask(&["-hide_banner", "-loglevel", "error", "-h", &format!("encoder={encoder}")])?;
+        if !answer.starts_with("Encoder ") {
+            return Err(FilmError::NoEncoder(program.to_owned(), encoder));
+        }
+        Ok(Ffmpeg { program: program.to_owned(), version: version.to_owned() })
+    }
+
+    /// Its path, or its name where that was enough to find it.
+    pub fn program(&self) -> &Path {
+        &self.program
+    }
+
+    /// What it calls its version, such as `5.1.6-0+deb12u1`.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// Runs it. `feed` writes to its standard input, on a thread of its own; `progress` is told how many frames it has
+    /// written.
+    ///
+    /// # Errors
+    /// Where it cannot be run, `feed` fails, or `cancelled` says so.
+    pub(super) fn run(
+        &self,
+        arguments: &[OsString],
+        feed: impl FnOnce(&mut dyn Write, &AtomicBool) -> Result<(), FilmError> + Send,
+        cancelled: &dyn Fn() -> bool,
+        progress: &dyn Fn(usize),
+    ) -> Result<End, FilmError> {
+        let mut command = Command::new(&self.program);
+        command
+            .args(["-hide_banner", "-loglevel", "error", "-nostats", "-xerror", "-progress", "pipe:1"])
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            // Its errors are looked through for words.
+            .env("LC_ALL", "C")
+            // Either would put what nobody has asked for into the messages or into the folder.
+            .env_remove("AV_LOG_FORCE_COLOR")
+            .env_remove("FFREPORT")
+            // What the terminal sends to interrupt jabuka must not reach ffmpeg, which would end a film too early.
+            .process_group(0);
+        let spawned = command.spawn();
+        let child = spawned.map_err(|error| FilmError::NoFfmpeg(self.program.clone(), error.to_string()))?;
+        let mut running = Running { child, exit: None };
+        let (input, output, errors) =
+            (running.child.stdin.take(), running.child.stdout.take(), running.child.stderr.take());
+        let (stop, frames) = (AtomicBool::new(false), AtomicUsize::new(0));
+        thread::scope(|scope| {
+            let feeder =
+                scope.spawn(|| input.map_or(Ok(()), |mut input: ChildStdin| feed(&mut input, &stop)));
+            scope.spawn(|| output.map(|output| count(output, &frames)));
+            let said = scope.spawn(|| errors.map(last_lines).unwrap_or_default());
+            let mut shown = 0;
+            let stopped = loop {
+                let now = frames.load(Ordering::Relaxed);
+                if now != shown {
+                    progress(now);
+                    shown = now;
+                }
+                if running.has_ended() {
+                    break false;
+                }
+                let has_failed = feeder.is_finished() && stop.load(Ordering::Relaxed);
+                if has_failed || cancelled() {
+                    break !has_failed;
+                }
+                thread::sleep(Duration::from_millis(10));
+            };
+            stop.store(true, Ordering::Relaxed);
+            // From here on no thread waits for ffmpeg: its ends of the pipes are closed.
+            let exit = running.end();
+            if stopped {
+                return Err(FilmError::Cancelled);
+            }
+            // A thread that panics would be a mistake in this file.
+            feeder.join().unwrap_or(Ok(()))?;
+            let said = said.join().unwrap_or_default();
+            Ok(End { success: exit.is_some_and(|exit| exit.success()), how: how(exit), said, frames: 0 })
+        })
+        .map(|end| End { frames: frames.load(Ordering::Relaxed), ..end })
+    }
+}
+
+/// A process that is ended when nobody wants it any more.
+struct Running {
+    child: Child,
+    exit: Option<ExitStatus>,
+}
+
+impl Running {
+    fn has_ended(&mut self) -> bool {
+        if self.exit.is_none() {
+            self.exit = self.child.try_wait().ok().flatten();
+        }
+        self.exit.is_some()
+    }
+
+    /// Ends it, if it has not ended, with all that it has started: `ffmpeg` may be a script that runs another.
+    fn end(&mut self) -> Option<ExitStatus> {
+        if self.exit.is_none() {
+            // What has ended already cannot be killed, and that is as good.
+            let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
+            let _ = self.child.kill();
+            self.exit = self.child.wait().ok();
+        }
+        self.exit
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
+
+fn how(exit: Option<ExitStatus>) -> String {
+    match exit.map(|exit| (exit.code(), exit.signal())) {
+        Some((Some(code), _)) => format!("ended with code {code}"),
+        Some((None, Some(signal))) => format!("was killed by signal {signal}"),
+        Some((None, None)) => "ended".to_owned(),
+        None => "could not be watched".to_owned(),
+    }
+}
+
+/// Follows what ffmpeg tells of its progress: lines such as `frame=25`.
+fn count(output: impl Read, frames: &AtomicUsize) {
+    for line in BufReader::new(output).lines().map_while(Result::ok) {
+        if let Some(number) = line.strip_prefix("frame=").and_then(|text| text.trim().parse().ok()) {
+            frames.store(number, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Reads to the end, and keeps the last few lines, of moderate length, without what could steer a terminal.
+fn last_lines(mut from: impl Read) -> String {
+    const LINES: usize = 8;
+    const BYTES: usize = 4000;
+    let mut last = VecDeque::new();
+    let mut piece = [0; 4096];
+    while let Ok(length @ 1..) = from.read(&mut piece) {
+        last.extend(&piece[..length]);
+        last.drain(..last.len().saturating_sub(BYTES));
+    }
+    let text: Vec<u8> = last.into();
+    let text = String::from_utf8_lossy(&text).replace('\r', "\n");
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    let shown = |line: &&str| -> String {
+        let plain = line.chars().filter(|c| !c.is_control());
+        format!("  {}", plain.take(300).collect::<String>())
+    };
+    lines[lines.len().saturating_sub(LINES)..].iter().map(shown).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_what_is_said_the_last_is_kept_and_nothing_that_steers_a_terminal() {
+        let mut text = "noise\n".repeat(1_000_000);
+        text += "one\rtwo \u{1b}[31mthree\n\n";
+        let last = last_lines(text.as_bytes());
+        assert_eq!(last.lines().count(), 8);
+        assert!(last.ends_with("  noise\n  one\n  two [31mthree"), "{last}");
+        assert!(last_lines("x".repeat(1_000_000).as_bytes()).len() < 400);
+    }
+}

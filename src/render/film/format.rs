@@ -1,0 +1,108 @@
+//! The formats of films, and how ffmpeg is told to make them.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use super::next_even;
+use crate::render::picture::Size;
+
+/// A format of films.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// H.264 in MP4.
+    Mp4,
+    /// VP9 in WebM.
+    Webm,
+    /// An animated GIF that never ends.
+    Gif,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Format; 3] = [Format::Mp4, Format::Webm, Format::Gif];
+
+    /// The ending of names of films, which is also what ffmpeg calls the format.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Mp4 => "mp4",
+            Format::Webm => "webm",
+            Format::Gif => "gif",
+        }
+    }
+
+    /// The format that the ending of a name says.
+    pub(super) fn of(path: &Path) -> Option<Format> {
+        let extension = path.extension()?;
+        Format::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+
+    /// What ffmpeg calls the encoder.
+    pub(super) fn encoder(self) -> &'static str {
+        match self {
+            Format::Mp4 => "libx264",
+            Format::Webm => "libvpx-vp9",
+            Format::Gif => "gif",
+        }
+    }
+
+    /// The indices of the images that ffmpeg gets before all images, to learn the palette of a GIF from.
+    ///
+    /// A palette of all of them would make it hold all of them: 3.7 MB for each of 1280 × 720 pixels.
+    pub(super) fn samples(self, images: usize) -> Vec<usize> {
+        const MOST: usize = 32;
+        match self {
+            Format::Gif => crate::render::contact_sheet::evenly(images, MOST),
+            Format::Mp4 | Format::Webm => Vec::new(),
+        }
+    }
+
+    /// Tells ffmpeg to read pixels from its standard input, and to make a film of this format of them.
+    pub(super) fn arguments(self, (width, height): Size, rate: f64, samples: usize) -> Vec<OsString> {
+        let (pixels, width, height) = match self {
+            // What is told of transparency, of odd sizes: see above.
+            Format::Gif => ("rgba", width, height),
+            Format::Mp4 | Format::Webm => ("rgb24", next_even(width), next_even(height)),
+        };
+        let mut words: Vec<String> = ["-f", "rawvideo", "-pixel_format", pixels].map(str::to_owned).into();
+        words.extend(["-video_size".to_owned(), format!("{width}x{height}")]);
+        words.extend(["-framerate".to_owned(), rate.to_string(), "-i".to_owned(), "pipe:0".to_owned()]);
+        words.extend(["-filter_complex".to_owned(), self.filters(samples)]);
+        let options = match self {
+            // 18 is hardly to be told from the original; +faststart lets a browser begin before it has all.
+            Format::Mp4 => "-c:v libx264 -preset medium -crf 18 -movflags +faststart",
+            // 24 is the quality of libx264's 18, by SSIM and PSNR.
+            Format::Webm => "-c:v libvpx-vp9 -crf 24 -b:v 0 -deadline good -cpu-used 2 -row-mt 1",
+            Format::Gif => "-c:v gif -loop 0",
+        };
+        words.extend(options.split(' ').map(str::to_owned));
+        if self != Format::Gif {
+            // Fixed, since the bytes depend on it.
+            let options = "-threads 8 -pix_fmt yuv420p \
+                           -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
+            words.extend(options.split_whitespace().map(str::to_owned));
+        }
+        // No version, no time: what would differ between equal films.
+        words.extend(["-fflags", "+bitexact", "-flags:v", "+bitexact"].map(str::to_owned));
+        words.extend(["-y", "-f", self.extension()].map(str::to_owned));
+        words.into_iter().map(OsString::from).collect()
+    }
+
+    /// What happens to the pixels on their way to the encoder.
+    fn filters(self, samples: usize) -> String {
+        match self {
+            Format::Mp4 | Format::Webm => {
+                "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int+full_chroma_inp,\
+                 format=yuv420p,\
+                 setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709"
+                    .to_owned()
+            }
+            // The pattern of `bayer` stands still where errors that are passed on would boil, and packs best.
+            Format::Gif => format!(
+                "split[first][rest];\
+                 [first]trim=end_frame={samples},palettegen=stats_mode=full[palette];\
+                 [rest]trim=start_frame={samples},setpts=PTS-STARTPTS[frames];\
+                 [frames][palette]paletteuse=dither=bayer:bayer_scale=4"
+            ),
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Images → film, by ffmpeg.
+//!
+//! jabuka reads the images and gives ffmpeg their pixels through a pipe: so any images make a film, whatever they are
+//! called; one that is broken is found by its name; and ffmpeg's own reader of PNG is not needed. A film has as many
+//! frames as there are images, which is checked by what ffmpeg has counted.
+//!
+//! **Colors.** The bytes are sRGB. For `.mp4` and `.webm`, they are converted by the matrix of BT.709, to the limited
+//! range, and the film says so; without that, players guess by the size. Half of the color's resolution goes (4:2:0),
+//! since nothing else plays everywhere.
+//!
+//! **Sizes.** These two formats need even widths and heights. An odd one gets one more column or row, a copy of the last.
+//!
+//! **Transparency.** `.mp4` and `.webm` show what is transparent before white. A `.gif` keeps it, as far as the format can:
+//! a pixel that is at least half opaque is opaque, any other is not there.
+//!
+//! **Rates.** What is written is the rate itself: 23.976 is 2997/125. The times in a `.webm` are whole milliseconds.
+//! The frames of a `.gif` last whole hundredths of a second, and two at least, for browsers show those of one for ten. So
+//! 25 and 50 frames a second are exact, 24 are delays of 4, 4, 4, 4, 4, 5 hundredths, 30 are 3, 3, 4 — both last as long as they should — and
+//! everything above 50 is shown at 50: a second of 60 frames takes 1.2 s. [`Film::shown_rate`] tells.
+//!
+//! **Sameness.** The same images and the same build of ffmpeg give the same bytes, whatever the number of cores: the threads are
+//! always [as many](Format), since libx264 and libvpx depend on that. Another version of ffmpeg may give other bytes.
+
+mod error;
+mod ffmpeg;
+mod format;
+mod target;
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+pub use error::FilmError;
+pub use ffmpeg::Ffmpeg;
+pub use format::Format;
+pub(super) use target::Target;
+
+use super::picture::{self, Picture, Size};
+
+/// A film that is to be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Film {
+    path: PathBuf,
+    format: Format,
+}
+
+impl Film {
+    /// The rates that a film can have, in frames per second.
+    pub const RATES: RangeInclusive<f64> = 0.01..=1000.0;
+
+    /// A film of this name, whose ending says the format.
+    ///
+    /// # Errors
+    /// Where the ending is another, or there is a folder of this name.
+    pub fn new(path: impl Into<PathBuf>) -> Result<Film, FilmError> {
+        let path = path.into();
+        let Some(format) = Format::of(&path) else {
+            return Err(FilmError::FilmName(path));
+        };
+        if path.is_dir() {
+            return Err(FilmError::Folder(path));
+        }
+        Ok(Film { path, format })
+    }
+
+    /// Where it will be.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its format.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// The frames per second at which it will be shown, if it is made for so many: all but `.gif` keep them.
+    pub fn shown_rate(&self, frame_rate: f64) -> f64 {
+        match self.format {
+            Format::Gif => frame_rate.min(50.0),
+            Format::Mp4 | Format::Webm => frame_rate,
+        }
+    }
+
+    /// Finds what makes the film, so that a lack of it is known before anything is rendered: a program, or `ffmpeg` where the
+    /// shell would find it.
+    ///
+    /// # Errors
+    /// Where it is not there, or cannot make this format.
+    pub fn check(&self, ffmpeg: Option<&Path>) -> Result<Ffmpeg, FilmError> {
+        Ffmpeg::find(ffmpeg, self.format)
+    }
+
+    /// Whether a film can have this rate, in frames per second.
+    ///
+    /// # Errors
+    /// Where it cannot.
+    pub fn check_rate(frame_rate: f64) -> Result<(), FilmError> {
+        if Film::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
+    }
+
+    /// Makes the film of some images, in their order. `cancelled` is asked, and `progress` told how many frames are in
+    /// the film, many times a second and on this thread. A film that was there stays until the new one is whole.
+    ///
+    /// # Errors
+    /// Where an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` says so.
+    pub fn make(
+        &self,
+        images: &[PathBuf],
+        frame_rate: f64,
+        ffmpeg: &Ffmpeg,
+        cancelled: &dyn Fn() -> bool,
+        progress: &dyn Fn(usize),
+    ) -> Result<(), FilmError> {
+        Film::check_rate(frame_rate)?;
+        // All heads are read first: that is quick, and what is missing is known before the long work.
+        let size = picture::common_size(images.iter())?;
+        let target = Target::create(&self.path)?;
+        let samples = self.format.samples(images.len());
+        let mut arguments = self.format.arguments(size, self.shown_rate(frame_rate), samples.len());
+        let mut output = OsString::from("file:");
+        output.push(target.temporary());
+        arguments.push(output);
+
+        let order = samples.into_iter().chain(0..images.len());
+        let feed = |pipe: &mut dyn Write, stop: &AtomicBool| {
+            for index in order {
+                if stop.load(Ordering::Relaxed) {
+                    return Ok(());
+                }
+                let fed = self.pixels(&images[index], size).map(|pixels| pipe.write_all(&pixels));
+                match fed {
+                    Ok(Ok(())) => {}
+                    // ffmpeg has closed its end, and will say why.
+                    Ok(Err(error)) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(()),
+                    Ok(Err(error)) => return fail(stop, FilmError::io(&self.path)(error)),
+                    Err(error) => return fail(stop, error),
+                }
+            }
+            Ok(())
+        };
+        let end = ffmpeg.run(&arguments, feed, cancelled, progress)?;
+        self.judge(end, images.len())?;
+        target.finish()
+    }
+
+    /// Whether a run of ffmpeg's has made a film of so many images.
+    fn judge(&self, end: ffmpeg::End, images: usize) -> Result<(), FilmError> {
+        // It ends with code 0 also where it could not write the last bytes, without which nothing can be played.
+        let unwritten = ["Error writing", "Error closing", "File too large", "Input/output error"];
+        let full = ["No space left on device", "Disk quota exceeded"];
+        let says = |words: &[&str]| words.iter().any(|word| end.said.contains(word));
+        if says(&full) {
+            return Err(FilmError::DiskFull(self.path.clone()));
+        }
+        if !end.success || says(&unwritten) {
+            return Err(FilmError::Failed(self.path.clone(), end.how, end.said));
+        }
+        if end.frames != images {
+            return Err(FilmError::Count(self.path.clone(), end.frames, images));
+        }
+        Ok(())
+    }
+
+    /// The pixels of an image as ffmpeg gets them.
+    fn pixels(&self, path: &Path, size: Size) -> Result<Vec<u8>, FilmError> {
+        let picture = Picture::read(path)?;
+        if picture.size != size {
+            // It was another one a moment ago.
+            return Err(FilmError::Image(path.to_owned(), "it has been changed meanwhile".to_owned()));
+        }
+        Ok(match self.format {
+            Format::Gif => picture.rgba,
+            Format::Mp4 | Format::Webm => even(&picture.over_white(), size),
+        })
+    }
+}
+
+/// Ends the feeding of ffmpeg by an error.
+fn fail(stop: &AtomicBool, error: FilmError) -> Result<(), FilmError> {
+    stop.store(true, Ordering::Relaxed);
+    Err(error)
+}
+
+/// The next even number.
+fn next_even(length: usize) -> usize {
+    length + length % 2
+}
+
+/// A picture of three bytes a pixel with even width and height: the last column and the last row may come twice.
+fn even(rgb: &[u8], (width, height): Size) -> Vec<u8> {
+    let mut pixels = Vec::with_capacity(3 * next_even(width) * next_even(height));
+    let last = height.saturating_sub(1);
+    for y in 0..next_even(height) {
+        let start = 3 * width * y.min(last);
+        pixels.extend(&rgb[start..start + 3 * width]);
+        if width % 2 == 1 {
+            pixels.extend(&rgb[start + 3 * width - 3..start + 3 * width]);
+        }
+    }
+    pixels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_odd_size_gets_copies_of_its_last_column_and_row() {
+        let pixel = |value| [value; 3];
+        let odd: Vec<u8> = [1, 2, 3].map(pixel).concat();
+        assert_eq!(even(&odd, (3, 1)), [1, 2, 3, 3, 1, 2, 3, 3].map(pixel).concat());
+        assert_eq!(even(&odd[..6], (2, 1)), [1, 2, 1, 2].map(pixel).concat());
+        let square: Vec<u8> = [1, 2, 3, 4].map(pixel).concat();
+        assert_eq!(even(&square, (2, 2)), square);
+    }
+
+    #[test]
+    fn the_ending_says_the_format() {
+        let format = |name: &str| Film::new(name).map(|film| film.format()).ok();
+        assert_eq!(format("no/such.folder/A.MP4"), Some(Format::Mp4));
+        assert_eq!(format("x.webm"), Some(Format::Webm));
+        assert_eq!(format("x.y.gif"), Some(Format::Gif));
+        for name in ["x.avi", "mp4", ".mp4", "x.mp4/", "x.mp4.png", ""] {
+            let error = Film::new(name).map_err(|error| error.to_string());
+            if name == "x.mp4/" {
+                assert!(error.is_ok(), "a path without its last slash");
+                continue;
+            }
+            let message =
+                format!("the name of a film ends in `.mp4`, `.webm` or `.gif`, and `{name}` does not");
+            assert_eq!(error.unwrap_err(), message);
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
+
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use super::exposure::Exposure;
+use super::order::coarse_to_fine;
+use super::pool::{Fate, Pool};
+use super::process::{Setup, Unit};
+use super::record::{Compare, Record, State};
+use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
+
+/// What is to be rendered, and how.
+pub struct Job<'a> {
+    /// The scripts.
+    pub sequence: &'a Sequence,
+    /// Where the images go.
+    pub images: &'a Images,
+    /// What renders them.
+    pub povray: &'a PovRay,
+    /// The options of POV-Ray that decide on pixels.
+    pub options: Vec<String>,
+    /// The number of processes; none: as many as keep the processors busy.
+    pub jobs: Option<usize>,
+    /// How often a frame is tried again after POV-Ray has died of it.
+    pub retries: u32,
+    /// Whether to go on where all frames fail.
+    pub keep_going: bool,
+    /// How long a frame may take; none: far longer than others have taken.
+    pub time_limit: Option<Duration>,
+}
+
+/// What happens while a job is done.
+pub enum Event<'a> {
+    /// So many images are there or follow from others, and so many are to be rendered.
+    Planned {
+        /// The images that are up to date.
+        up_to_date: usize,
+        /// The images that are to be made.
+        to_make: usize,
+    },
+    /// An image has been made, or copied from an equal one.
+    Made {
+        /// The number of the frame.
+        frame: usize,
+        /// What it has cost, s; none: it is a copy.
+        seconds: Option<f64>,
+    },
+    /// A frame cannot be rendered.
+    Failed(&'a Fault),
+}
+
+/// What a job has come to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// The images that POV-Ray has rendered.
+    pub rendered: usize,
+    /// The images that are copies, since their scripts are equal to others.
+    pub copied: usize,
+    /// The images that were up to date.
+    pub up_to_date: usize,
+    /// The frames that failed, in the order of their numbers.
+    pub failed: Vec<Fault>,
+    /// The images that were removed, since the film has no such frames any more.
+    pub removed: usize,
+    /// The frame that took longest, and how long, s.
+    pub slowest: Option<(usize, f64)>,
+    /// The processes of POV-Ray's that were started.
+    pub processes: usize,
+    /// What POV-Ray has warned of.
+    pub warnings: Vec<String>,
+    /// Whether somebody has asked to stop before all was done.
+    pub stopped: bool,
+}
+
+/// Frames of equal scripts: the first is rendered.
+struct Group {
+    /// The numbers within the sequence.
+    members: Vec<usize>,
+    record: Record,
+}
+
+impl Job<'_> {
+    /// Renders what is not there yet. `watch` is told how it goes; `stop` ends it.
+    ///
+    /// # Errors
+    /// Where the disk is full, a folder is gone, or nothing can be rendered. Frames that
+    /// fail by themselves are no error here: they are in the outcome.
+    pub fn run(&self, watch: &mut dyn FnMut(Event<'_>), stop: &AtomicBool) -> Result<Outcome, RenderError> {
+        let removed = self.images.remove_others(|name| self.sequence.has(name))?;
+        let mut outcome = Outcome { removed, ..Outcome::default() };
+        let records = inputs::records(self.sequence, &self.options.join(" "), self.povray.version())?;
+        let groups = self.groups(&records, &mut outcome)?;
+        let to_make = groups.iter().map(|group| group.members.len()).sum();
+        watch(Event::Planned { up_to_date: outcome.up_to_date, to_make });
+        if !groups.is_empty() {
+            self.render(&groups, &mut outcome, watch, stop)?;
+        }
+        outcome.failed.sort_by_key(|fault| fault.frame);
+        Ok(outcome)
+    }
+
+    /// What is to be rendered. What is equal to an image that is up to date is copied at once.
+    fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
+        let scripts = self.sequence.scripts();
+        let folder = self.images.folder();
+        let mut there: HashMap<String, &str> = HashMap::new();
+        let mut missing = Vec::new();
+        for (index, (script, record)) in scripts.iter().zip(records).enumerate() {
+            if record.state(folder, &script.name, Compare::All) == State::UpToDate {
+                outcome.up_to_date += 1;
+                there.insert(record.to_text(), &script.name);
+            } else {
+                missing.push(index);
+            }
+        }
+        let mut groups: Vec<Group> = Vec::new();
+        let mut group_of: HashMap<String, usize> = HashMap::new();
+        for index in missing {
+            let (record, name) = (&records[index], &scripts[index].name);
+            let text = record.to_text();
+            if let Some(equal) = there.get(&text) {
+                self.images.copy(equal, name, record)?;
+                outcome.copied += 1;
+                continue;
+            }
+            let group = *group_of.entry(text).or_insert_with(|| {
+                groups.push(Group { members: Vec::new(), record: record.clone() });
+                groups.len() - 1
+            });
+            groups[group].members.push(index);
+        }
+        Ok(groups)
+    }
+
+    fn render(
+        &self,
+        groups: &[Group],
+        outcome: &mut Outcome,
+        watch: &mut dyn FnMut(Event<'_>),
+        stop: &AtomicBool,
+    ) -> Result<(), RenderError> {
+        /// If so many fail and none succeeds, it is not the frames' fault.
+        const HOPELESS: usize = 8;
+        let sequence = self.sequence;
+        let scripts = sequence.scripts();
+        let setup = Setup {
+            povray: self.povray.path(),
+            scripts: sequence.absolute(),
+            options: &self.options,
+            end: (sequence.last, sequence.time(sequence.last)),
+            threads: 1,
+        };
+        let mut pool = Pool::new(setup, self.images, stop);
+        pool.jobs = self.jobs;
+        pool.retries = self.retries;
+        pool.time_limit = self.time_limit;
+        let unit = |index: usize| {
+            let script = &scripts[groups[index].members[0]];
+            let asks_clock = groups[index].record.frame.is_some();
+            Unit { index, frame: script.frame, script: script.file.clone(), moment: None, asks_clock }
+        };
+        let moments = |unit: Unit| -> Vec<Unit> {
+            let moments = sequence.moments.map(|moments| {
+                (0..moments).map(|m| Unit { moment: Some(m), asks_clock: false, ..unit.clone() }).collect()
+            });
+            moments.unwrap_or_else(|| vec![unit])
+        };
+        let units: Vec<Unit> = coarse_to_fine(groups.len()).map(unit).flat_map(moments).collect();
+        // The folder of a process goes with it; images of moments wait here for the others of their frame.
+        let mut exposures: HashMap<usize, Exposure> = HashMap::new();
+        let mut failed = HashSet::new();
+        let mut done = |unit: Unit, fate: Fate| -> Result<(), RenderError> {
+            let group = &groups[unit.index];
+            let first = &scripts[group.members[0]];
+            let said = match fate {
+                Fate::Image(path, seconds) => {
+                    let mut exposed = None;
+                    if let Some(moment) = unit.moment {
+                        let of = sequence.moments.unwrap_or(1);
+                        let exposure = match exposures.entry(unit.index) {
+                            Entry::Occupied(begun) => begun.into_mut(),
+                            Entry::Vacant(new) => new.insert(Exposure::new(self.images, unit.index)?),
+                        };
+                        if !exposure.add(&path, moment, seconds, of)? {
+                            return Ok(());
+                        }
+                        exposed = exposures.remove(&unit.index);
+                    }
+                    let (path, seconds) = match &exposed {
+                        None => (path, seconds),
+                        Some(exposure) => (exposure.develop()?, exposure.seconds),
+                    };
+                    self.images.adopt(&path, &first.name, &group.record)?;
+                    outcome.rendered += 1;
+                    if outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
+                        outcome.slowest = Some((unit.frame, seconds));
+                    }
+                    watch(Event::Made { frame: first.frame, seconds: Some(seconds) });
+                    for &other in &group.members[1..] {
+                        self.images.copy(&first.name, &scripts[other].name, &group.record)?;
+                        outcome.copied += 1;
+                        watch(Event::Made { frame: scripts[other].frame, seconds: None });
+                    }
+                    return Ok(());
+                }
+                Fate::Broken(said) | Fate::Died(said) => said,
+            };
+            // Other moments of the frame may already be on their way.
+            exposures.remove(&unit.index);
+            if !failed.insert(unit.index) {
+                return Ok(());
+            }
+            for &member in &group.members {
+                let script = &scripts[member];
+                let path: PathBuf = sequence.folder().join(&script.file);
+                let fault = Fault::parse(script.frame, path, &said);
+                self.images.note_failure(&script.name, &fault.to_string())?;
+                watch(Event::Failed(&fault));
+                outcome.failed.push(fault);
+            }
+            if !self.keep_going && outcome.rendered == 0 && outcome.failed.len() >= HOPELESS {
+                return Err(RenderError::AllFail(outcome.failed.len()));
+            }
+            Ok(())
+        };
+        let finished = pool.run(units, &mut done)?;
+        outcome.stopped = !finished;
+        outcome.processes = pool.started();
+        outcome.warnings = pool.warnings();
+        Ok(())
+    }
+}

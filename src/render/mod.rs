@@ -1,0 +1,48 @@
+//! Scripts → images → film.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | the scripts of a film in their folder | [`Sequence`] |
+//! | the folder of the images, who owns it | [`Images`] |
+//! | what an image was rendered from | [`Record`] |
+//! | the POV-Ray that is there, and its options | [`PovRay`], [`options`] |
+//! | all images of a sequence, by a pool of POV-Rays | [`Job`], its [`Outcome`] |
+//! | a frame that POV-Ray refuses | [`Fault`] |
+//! | the mean of images, for motion blur | [`linear_light`] |
+//! | images → film, contact sheet | [`Film`], [`ContactSheet`] |
+//! | jobs for clusters, and how far they are | [`batch`], [`Status`] |
+
+pub mod batch;
+mod contact_sheet;
+mod cpu;
+mod error;
+mod exposure;
+mod fault;
+mod files;
+pub mod film;
+mod images;
+mod inputs;
+mod job;
+pub mod linear_light;
+mod options;
+mod order;
+mod picture;
+mod pool;
+mod povray;
+mod process;
+mod record;
+mod sequence;
+mod status;
+
+pub use contact_sheet::{ContactSheet, Shot};
+pub use error::RenderError;
+pub use fault::Fault;
+pub use files::{ASSETS, of_scripts};
+pub use film::{Ffmpeg, Film, FilmError, Format};
+pub use images::Images;
+pub use job::{Event, Job, Outcome};
+pub use options::{Quality, options};
+pub use povray::PovRay;
+pub use record::{Compare, Files, HIDDEN, Record, State};
+pub use sequence::{Script, Sequence};
+pub use status::{Failed, Running, Status};

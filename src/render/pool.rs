@@ -1,0 +1,292 @@
+//! Several processes of POV-Ray's at once, so that the processors never wait.
+//!
+//! POV-Ray waits 0.3 s before its first image and 0.1 to 0.2 s between two, whatever they cost. So there are more
+//! processes than processors: as many as those waits take, by what the images are measured to cost.
+
+use std::collections::{HashMap, VecDeque};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::process::{Process, Setup, Step, Unit};
+use super::{Images, RenderError, cpu};
+
+/// The time that POV-Ray waits for itself between two images, s. Measured on POV-Ray 3.7.
+const WAIT: f64 = 0.2;
+
+/// So many processes for each processor before anything is measured, and at most.
+const FIRST: usize = 4;
+const MOST: usize = 12;
+
+/// How often all processes are looked at.
+const TICK: Duration = Duration::from_millis(8);
+
+/// What has become of a unit.
+pub(super) enum Fate {
+    /// Its image is at this path, where it stays until this has been dealt with; it has cost so many seconds.
+    Image(PathBuf, f64),
+    /// POV-Ray says this of its script.
+    Broken(String),
+    /// POV-Ray has ended before, for this reason, as often as it may.
+    Died(String),
+}
+
+/// The processes, and what is left for them to do.
+pub(super) struct Pool<'a> {
+    pub(super) setup: Setup<'a>,
+    pub(super) images: &'a Images,
+    /// The number of processes, if it is not to be found out.
+    pub(super) jobs: Option<usize>,
+    /// The memory that a process may need, bytes.
+    pub(super) memory: u64,
+    /// How often a unit is tried again after POV-Ray has died of it.
+    pub(super) retries: u32,
+    pub(super) time_limit: Option<Duration>,
+    pub(super) stop: &'a AtomicBool,
+    processors: usize,
+    running: Vec<Process>,
+    queue: VecDeque<Unit>,
+    /// How often POV-Ray has died of a unit.
+    deaths: HashMap<Unit, u32>,
+    started: usize,
+    /// The images so far: their number, what they have cost together, and the slowest one's time on the clock, s.
+    measured: (usize, f64, f64),
+    warnings: Vec<String>,
+}
+
+impl<'a> Pool<'a> {
+    pub(super) fn new(setup: Setup<'a>, images: &'a Images, stop: &'a AtomicBool) -> Pool<'a> {
+        Pool {
+            setup,
+            images,
+            jobs: None,
+            memory: 0,
+            retries: 2,
+            time_limit: None,
+            stop,
+            processors: thread::available_parallelism().map_or(1, usize::from),
+            running: Vec::new(),
+            queue: VecDeque::new(),
+            deaths: HashMap::new(),
+            started: 0,
+            measured: (0, 0.0, 0.0),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Renders all units, and says whether it has come to the end: somebody may have asked to stop. `done` is told of
+    /// each unit.
+    ///
+    /// # Errors
+    /// Where the disk is full or a folder is gone; or the error of `done`.
+    pub(super) fn run(
+        &mut self,
+        units: impl IntoIterator<Item = Unit>,
+        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+    ) -> Result<bool, RenderError> {
+        self.queue = units.into_iter().collect();
+        let mut looked = Instant::now();
+        while !(self.queue.is_empty() && self.running.is_empty()) {
+            if self.stop.load(Ordering::Relaxed) {
+                return Ok(false);
+            }
+            while !self.queue.is_empty() && self.running.len() < self.wanted() {
+                self.start()?;
+            }
+            let mut index = 0;
+            while index < self.running.len() {
+                let step = self.running[index].step();
+                index += usize::from(self.take(index, step, done)?);
+            }
+            if looked.elapsed() > Duration::from_secs(1) {
+                looked = Instant::now();
+                self.guard(done)?;
+            }
+            thread::sleep(TICK);
+        }
+        Ok(true)
+    }
+
+    /// The number of processes that have been started.
+    pub(super) fn started(&self) -> usize {
+        self.started
+    }
+
+    /// What POV-Ray has warned of, each once.
+    pub(super) fn warnings(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.warnings)
+    }
+
+    /// The number of processes that keep all processors busy.
+    fn wanted(&self) -> usize {
+        if let Some(jobs) = self.jobs {
+            return jobs;
+        }
+        let (images, cost, _) = self.measured;
+        let processors = self.processors;
+        let busy = if images < processors {
+            FIRST * processors
+        } else {
+            #[allow(clippy::cast_precision_loss, reason = "numbers of images and processors are small")]
+            let (each, processors) = (cost / images as f64, processors as f64);
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "it is small and positive"
+            )]
+            let busy = (processors * (1.0 + WAIT / each.max(1e-3))).min(1e3).ceil() as usize;
+            busy.clamp(self.processors + 2, MOST * self.processors)
+        };
+        let room = cpu::available_memory().map_or(usize::MAX, |bytes| {
+            let more = bytes / 2 / self.memory.max(1);
+            usize::try_from(more).unwrap_or(usize::MAX).saturating_add(self.running.len())
+        });
+        busy.min(room.max(1))
+    }
+
+    /// The number of units for a new process: few at the end, so that all processes end together.
+    fn share(&self) -> usize {
+        /// More than these bring nothing.
+        const MOST_UNITS: usize = 200;
+        let (left, processes) = (self.queue.len(), self.wanted());
+        let is_first_round = self.started < processes;
+        if is_first_round && left <= 4 * processes {
+            left.div_ceil(processes - self.started)
+        } else {
+            left.div_ceil(2 * processes).min(MOST_UNITS)
+        }
+    }
+
+    /// Starts a process on the next units of the queue.
+    fn start(&mut self) -> Result<(), RenderError> {
+        // Somebody wants to look at the first image while the others are being made.
+        let is_first = self.started == 0;
+        let share = if is_first { 1 } else { self.share() };
+        let mut units = Vec::new();
+        while let Some(next) = self.queue.front() {
+            // What POV-Ray has died of may be what others have done to it.
+            let alone = next.asks_clock || self.deaths.contains_key(next);
+            if units.len() >= share || (alone && !units.is_empty()) {
+                break;
+            }
+            units.extend(self.queue.pop_front());
+            if alone {
+                break;
+            }
+        }
+        let folder = self.images.work_folder(self.started)?;
+        let humble = !is_first && self.measured.0 == 0 && self.jobs.is_none();
+        let process = Process::start(&self.setup, folder.clone(), units, humble);
+        self.running.push(process.map_err(RenderError::io(folder))?);
+        self.started += 1;
+        Ok(())
+    }
+
+    /// Deals with what has happened to a process; says whether it goes on.
+    fn take(
+        &mut self,
+        index: usize,
+        step: Step,
+        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+    ) -> Result<bool, RenderError> {
+        match step {
+            Step::Working => return Ok(true),
+            Step::Image { unit, path, seconds } => {
+                let (images, cost, slowest) = self.measured;
+                self.measured = (images + 1, cost + seconds, slowest.max(seconds));
+                done(unit, Fate::Image(path, seconds))?;
+                return Ok(true);
+            }
+            Step::Done => {}
+            Step::Broken { message, left } => {
+                let mut left = left.into_iter();
+                let broken = left.next();
+                // The others are as they were.
+                left.rev().for_each(|unit| self.queue.push_front(unit));
+                if let Some(unit) = broken {
+                    self.queue.retain(|other| other.index != unit.index);
+                    done(unit, Fate::Broken(message))?;
+                }
+            }
+            Step::Died { why, left } => {
+                self.probe(index)?;
+                let mut left = left.into_iter();
+                let died = left.next();
+                left.rev().for_each(|unit| self.queue.push_front(unit));
+                if let Some(unit) = died {
+                    self.again(unit, &why, done)?;
+                }
+            }
+        }
+        let process = self.running.swap_remove(index);
+        for line in process.warnings().split_inclusive('\n') {
+            if line.contains("Warning")
+                && self.warnings.len() < 20
+                && !self.warnings.iter().any(|w| w == line.trim())
+            {
+                self.warnings.push(line.trim().to_owned());
+            }
+        }
+        Ok(false)
+    }
+
+    /// Tries a unit again that POV-Ray has died of, unless that has happened too often.
+    fn again(
+        &mut self,
+        unit: Unit,
+        why: &str,
+        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+    ) -> Result<(), RenderError> {
+        let deaths = self.deaths.entry(unit.clone()).or_insert(0);
+        *deaths += 1;
+        if *deaths > self.retries {
+            self.queue.retain(|other| other.index != unit.index);
+            let times = if *deaths == 1 { String::new() } else { format!(" ({deaths} times)") };
+            return done(unit, Fate::Died(format!("POV-Ray gave no image: {why}{times}")));
+        }
+        self.queue.push_front(unit);
+        Ok(())
+    }
+
+    /// Whether there is room for what POV-Ray writes; it does not say so itself.
+    fn probe(&self, index: usize) -> Result<(), RenderError> {
+        let folder = self.running[index].folder();
+        let path = folder.join("probe");
+        let bytes = vec![0x5a; 1 << 20];
+        let result = fs::write(&path, &bytes);
+        let removed = fs::remove_file(&path);
+        result.and(removed).map_err(RenderError::io(self.images.folder()))
+    }
+
+    /// Ends what hangs.
+    fn guard(
+        &mut self,
+        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+    ) -> Result<(), RenderError> {
+        let seconds = cpu::seconds_by_group();
+        let limit = self.time_limit.unwrap_or_else(|| self.usual_limit());
+        let mut index = 0;
+        while index < self.running.len() {
+            let process = &mut self.running[index];
+            let cpu = process.group().and_then(|group| seconds.as_ref()?.get(&group).copied());
+            let step = process.guard(cpu, limit);
+            index += usize::from(self.take(index, step, done)?);
+        }
+        Ok(())
+    }
+
+    /// Longer than this no frame takes, by what others have taken.
+    fn usual_limit(&self) -> Duration {
+        /// For the first frames, nothing is known.
+        const UNKNOWN: Duration = Duration::from_secs(24 * 3600);
+        let (images, _, slowest) = self.measured;
+        if images == 0 {
+            return UNKNOWN;
+        }
+        #[allow(clippy::cast_precision_loss, reason = "the number of processes is small")]
+        let sharing = (self.running.len().div_ceil(self.processors)) as f64;
+        Duration::from_secs_f64(120.0 + 50.0 * slowest * sharing)
+    }
+}

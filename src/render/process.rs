@@ -1,0 +1,305 @@
+//! One process of POV-Ray's, and the images that it makes one after another.
+//!
+//! A process costs 0.6 s of waiting, so each is given several images through POV-Ray's animation loop: the script that it
+//! is started with includes another one for each frame number.
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process_group};
+
+use super::cpu;
+
+/// A picture that POV-Ray makes: of a frame, or of one moment of a blurred one.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Unit {
+    /// The number of the frame within the job.
+    pub(super) index: usize,
+    /// The number of the frame within the film.
+    pub(super) frame: usize,
+    /// The name of the script's file.
+    pub(super) script: String,
+    /// Of a blurred frame: which of its moments.
+    pub(super) moment: Option<u32>,
+    /// Whether the script asks POV-Ray for its clock, which takes a process of its own.
+    pub(super) asks_clock: bool,
+}
+
+/// What all processes of a job have in common.
+pub(super) struct Setup<'a> {
+    pub(super) povray: &'a Path,
+    /// The folder of the scripts, absolute.
+    pub(super) scripts: &'a Path,
+    /// The options that decide on pixels.
+    pub(super) options: &'a [String],
+    /// The number of the last frame, and its time, s.
+    pub(super) end: (usize, f64),
+    /// The threads that each process renders with.
+    pub(super) threads: usize,
+}
+
+/// A running process.
+pub(super) struct Process {
+    child: Child,
+    folder: PathBuf,
+    units: Vec<Unit>,
+    names: Names,
+    done: usize,
+    /// When the present image was begun.
+    since: Instant,
+    /// The CPU time that the process had used then, s.
+    cpu_before: f64,
+    /// The CPU time when it was last seen to grow, s, and when that was.
+    alive: (f64, Instant),
+    ended: bool,
+}
+
+/// What has happened since the last look.
+pub(super) enum Step {
+    /// Nothing that matters.
+    Working,
+    /// The image of a unit is whole.
+    Image { unit: Unit, path: PathBuf, seconds: f64 },
+    /// The process has ended, or has been ended, after its last image.
+    Done,
+    /// It has ended before: POV-Ray said this of the script of the first unit left.
+    Broken { message: String, left: Vec<Unit> },
+    /// It has ended before, or was ended, for a reason that is not the script's.
+    Died { why: String, left: Vec<Unit> },
+}
+
+/// How POV-Ray numbers images.
+enum Names {
+    /// From 0, five digits.
+    Plain,
+    /// The one image's number, so many digits.
+    Own(usize, usize),
+}
+
+impl Process {
+    /// Starts a process on some units. `humble` lets others go first.
+    pub(super) fn start(
+        setup: &Setup<'_>,
+        folder: PathBuf,
+        units: Vec<Unit>,
+        humble: bool,
+    ) -> io::Result<Process> {
+        // The names of folders may contain what neither POV-Ray's command line nor its strings can.
+        std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
+        fs::write(folder.join("run.pov"), master(&units))?;
+        let (last, end) = setup.end;
+        let (names, range) = match units.as_slice() {
+            [unit] if unit.asks_clock => {
+                let frame = unit.frame;
+                let digits = if last == 0 { 0 } else { last.to_string().len() };
+                let range = [format!("+KFI0 +KFF{last} +KI0 +KF{end}"), format!("+SF{frame} +EF{frame}")];
+                (Names::Own(frame, digits), range.join(" "))
+            }
+            _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", units.len() - 1)),
+        };
+        let mut command = launcher(setup.povray, humble);
+        command
+            .current_dir(&folder)
+            .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
+            .args(["+Lscripts", "+Lscripts/assets"])
+            .args(setup.options)
+            .arg(if units.iter().any(|unit| unit.moment.is_some()) { "+FN16" } else { "+FN8" })
+            .arg(format!("+WT{}", setup.threads))
+            .args(range.split(' '))
+            .args(["+Irun.pov", "+Oimage.png"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(File::create(folder.join("console.txt"))?)
+            // What the terminal sends to interrupt jabuka must not reach POV-Ray, which would leave its state behind.
+            .process_group(0);
+        let child = command.spawn()?;
+        let now = Instant::now();
+        Ok(Process {
+            child,
+            folder,
+            units,
+            names,
+            done: 0,
+            since: now,
+            cpu_before: 0.0,
+            alive: (0.0, now),
+            ended: false,
+        })
+    }
+
+    /// Looks what has happened.
+    pub(super) fn step(&mut self) -> Step {
+        // First the end, then the images: what was there before the end is not missed.
+        let exit = match self.child.try_wait() {
+            Ok(exit) => exit,
+            Err(error) => return self.died(format!("it cannot be watched: {error}")),
+        };
+        if let Some(unit) = self.units.get(self.done) {
+            let path = self.folder.join(self.names.of(self.done));
+            if is_whole(&path) {
+                let unit = unit.clone();
+                let cpu = cpu::seconds(self.child.id());
+                let seconds = match cpu {
+                    Some(cpu) if cpu - self.cpu_before > 0.01 => cpu - self.cpu_before,
+                    _ => self.since.elapsed().as_secs_f64(),
+                };
+                self.cpu_before = cpu.unwrap_or(0.0);
+                self.since = Instant::now();
+                self.done += 1;
+                return Step::Image { unit, path, seconds };
+            }
+        } else {
+            // To wait for its end would cost a third of a second.
+            self.end();
+            return Step::Done;
+        }
+        match exit {
+            None => Step::Working,
+            Some(exit) => self.fate(exit),
+        }
+    }
+
+    /// Ends it if it does nothing any more, or takes longer than it may.
+    pub(super) fn guard(&mut self, cpu: Option<f64>, limit: Duration) -> Step {
+        /// POV-Ray never waits so long for anything.
+        const STILL: Duration = Duration::from_secs(20);
+        let now = Instant::now();
+        if cpu.is_none_or(|cpu| cpu > self.alive.0 + 0.005) {
+            self.alive = (cpu.unwrap_or(0.0), now);
+        }
+        if now - self.alive.1 > STILL {
+            self.died("it hung: it did nothing for 20 s".to_owned())
+        } else if now - self.since > limit {
+            self.died(format!("it took more than the time limit of {:.0} s", limit.as_secs_f64()))
+        } else {
+            Step::Working
+        }
+    }
+
+    /// Its process group.
+    pub(super) fn group(&self) -> Option<i32> {
+        i32::try_from(self.child.id()).ok()
+    }
+
+    /// What it warned of.
+    pub(super) fn warnings(&self) -> String {
+        said(&self.folder.join("warnings.txt"))
+    }
+
+    /// Its folder of work.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Why it has ended before it had made all images.
+    fn fate(&mut self, exit: ExitStatus) -> Step {
+        let message = said(&self.folder.join("errors.txt"));
+        if exit.code() == Some(1) && !message.is_empty() {
+            self.end();
+            return Step::Broken { message, left: self.units.split_off(self.done) };
+        }
+        let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
+        let console = String::from_utf8_lossy(&console);
+        let last = console.lines().rev().find(|line| !line.trim().is_empty());
+        let why = match (exit.signal(), exit.code()) {
+            (Some(signal), _) => format!("it was killed by signal {signal}"),
+            (None, Some(0)) => "it ended without an image".to_owned(),
+            (None, code) => {
+                let code = code.map_or_else(String::new, |code| code.to_string());
+                format!("it ended with code {code}: {}", last.unwrap_or("it said nothing").trim())
+            }
+        };
+        self.died(why)
+    }
+
+    fn died(&mut self, why: String) -> Step {
+        self.end();
+        Step::Died { why, left: self.units.split_off(self.done.min(self.units.len())) }
+    }
+
+    /// Ends the process and all that it has started.
+    fn end(&mut self) {
+        if self.ended {
+            return;
+        }
+        self.ended = true;
+        // What has ended already cannot be killed, and that is as good.
+        let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.end();
+        // What cannot be removed now is swept by the next run.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+impl Names {
+    fn of(&self, index: usize) -> String {
+        match *self {
+            Names::Plain => format!("image{index:05}.png"),
+            Names::Own(_, 0) => "image.png".to_owned(),
+            Names::Own(number, digits) => format!("image{number:0digits$}.png"),
+        }
+    }
+}
+
+/// POV-Ray's command; where the system can, it ends with jabuka, however that ends.
+fn launcher(povray: &Path, humble: bool) -> Command {
+    let mut words: Vec<&std::ffi::OsStr> = Vec::new();
+    if which::which("setpriv").is_ok() && cfg!(target_os = "linux") {
+        words.extend(["setpriv", "--pdeathsig", "KILL"].map(std::ffi::OsStr::new));
+    }
+    if humble && which::which("nice").is_ok() {
+        words.extend(["nice", "-n", "10"].map(std::ffi::OsStr::new));
+    }
+    words.push(povray.as_os_str());
+    let mut command = Command::new(words[0]);
+    command.args(&words[1..]);
+    command
+}
+
+/// The script that includes another one for each frame number.
+fn master(units: &[Unit]) -> String {
+    let mut text = "#version 3.7;\n#switch (frame_number)\n".to_owned();
+    for (index, unit) in units.iter().enumerate() {
+        let case = if unit.asks_clock { unit.frame } else { index };
+        let _ = writeln!(text, "#case ({case})\n#declare frame_number = {};", unit.frame);
+        if let Some(moment) = unit.moment {
+            let _ = writeln!(text, "#declare Shutter_Sample = {moment};");
+        }
+        let _ = writeln!(text, "#include \"scripts/{}\"\n#break", unit.script);
+    }
+    text + "#end\n"
+}
+
+/// Whether there is an image with a beginning and an end.
+pub(super) fn is_whole(path: &Path) -> bool {
+    /// The last chunk of every PNG: no bytes, `IEND`, and their checksum.
+    const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
+    let ends = || -> io::Result<bool> {
+        let mut file = File::open(path)?;
+        file.seek(SeekFrom::End(-12))?;
+        let mut last = [0; 12];
+        file.read_exact(&mut last)?;
+        Ok(last == END)
+    };
+    ends().unwrap_or(false)
+}
+
+/// What POV-Ray has written to one of its streams, without the banners between frames.
+fn said(path: &Path) -> String {
+    let bytes = fs::read(path).unwrap_or_default();
+    let text = String::from_utf8_lossy(&bytes);
+    let lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('='));
+    lines.map(|line| format!("{line}\n")).collect()
+}

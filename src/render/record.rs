@@ -1,0 +1,317 @@
+//! What an image was rendered from: a text beside it, by which a finished image is known to be up to date.
+//!
+//! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, six lines:
+//!
+//! ```text
+//! script <SHA-256 of the script without its first line, which has number and time>
+//! files <SHA-256 of the bytes of all files that it reads, one after another; - if there are none>
+//! options <the options of POV-Ray that matter for the pixels>
+//! frame <the frame's number where the script may depend on it, or ->
+//! povray <the version of POV-Ray>
+//! bytes <the length of the image>
+//! ```
+//!
+//! It is written after the image, so whatever breaks off leaves an image without a record, which is rendered again. The
+//! script `render-chunk` of a cluster job writes and reads the same texts; a test holds the two together.
+
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use sha2::{Digest, Sha256};
+
+/// The hidden folder beside the images, for records and what else is known of them.
+pub const HIDDEN: &str = ".jabuka";
+
+/// The words by which a script may depend on the number of its frame.
+const NUMBERED: [&str; 2] = ["frame_number", "clock"];
+
+/// The beginning of the names of scripts that hold the moments of a blurred frame. Their `frame_number` is that of the
+/// moment, so they do not depend on the number of the frame.
+const BLURRED: &str = "shutter_";
+
+/// What an image was rendered from, or would be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// The digest of the script without its first line, in hexadecimal digits.
+    pub script: String,
+    /// The digest of the files that the script reads, in hexadecimal digits, or `-`.
+    pub files: String,
+    /// The options of POV-Ray that matter for the pixels, in one line.
+    pub options: String,
+    /// The frame's number, where the script may depend on it.
+    pub frame: Option<usize>,
+    /// The version of POV-Ray: the word after `POV-Ray` in what `povray --version` prints.
+    pub povray: String,
+    /// The length of the image in bytes; of no account in a record of what would be rendered.
+    pub bytes: u64,
+}
+
+/// How much of a record must be as expected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compare {
+    /// All of it.
+    All,
+    /// All but the version of POV-Ray, where there is none to ask.
+    NotPovray,
+    /// Script, files and frame, where it is not known what options were asked for.
+    Scene,
+}
+
+/// What is there of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It is what would be rendered now.
+    UpToDate,
+    /// There is an image, but of something else, or nobody knows of what, or not whole.
+    Outdated,
+    /// There is none.
+    Missing,
+}
+
+/// The files that all scripts of a folder read: what they share, and their assets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Files {
+    digest: String,
+    numbered: bool,
+}
+
+impl Files {
+    /// Reads the files, in the order of the list.
+    ///
+    /// # Errors
+    /// Where one cannot be read.
+    pub fn read(files: &[PathBuf]) -> io::Result<Files> {
+        let mut hasher = Sha256::new();
+        let mut numbered = false;
+        for path in files {
+            let bytes = fs::read(path)?;
+            hasher.update(&bytes);
+            numbered |= path.extension().is_some_and(|end| end == "inc") && mentions_number(&bytes);
+        }
+        let digest = if files.is_empty() { "-".to_owned() } else { hex(&hasher.finalize()) };
+        Ok(Files { digest, numbered })
+    }
+}
+
+impl Record {
+    /// The record that an image of this script would get now, but for the length of the image.
+    ///
+    /// # Errors
+    /// Where the script cannot be read.
+    pub fn expected(
+        script: &Path,
+        frame: usize,
+        files: &Files,
+        options: &str,
+        povray: &str,
+    ) -> io::Result<Record> {
+        let mut reader = BufReader::new(File::open(script)?);
+        reader.skip_until(b'\n')?;
+        let mut text = Vec::new();
+        reader.read_to_end(&mut text)?;
+        let blurred = script.file_name().is_some_and(|name| name.to_string_lossy().starts_with(BLURRED));
+        let numbered = !blurred && (files.numbered || mentions_number(&text));
+        Ok(Record {
+            script: hex(&Sha256::digest(&text)),
+            files: files.digest.clone(),
+            options: options.to_owned(),
+            frame: numbered.then_some(frame),
+            povray: povray.to_owned(),
+            bytes: 0,
+        })
+    }
+
+    /// Where the record of an image is; `name` is the image's without its ending: `frame_0007`.
+    pub fn path(images: &Path, name: &str) -> PathBuf {
+        images.join(HIDDEN).join(format!("{name}.txt"))
+    }
+
+    /// Reads the record of an image; none if there is none, or what is there is no record.
+    pub fn read(images: &Path, name: &str) -> Option<Record> {
+        /// Far more than options need.
+        const MAX_BYTES: u64 = 64 << 10;
+        let mut text = String::new();
+        let file = File::open(Record::path(images, name)).ok()?;
+        file.take(MAX_BYTES).read_to_string(&mut text).ok()?;
+        Record::parse(&text)
+    }
+
+    /// Writes the record of an image that is there, whole or not at all. The folder [`HIDDEN`] must be there.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub fn write(&self, images: &Path, name: &str) -> io::Result<()> {
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let unique = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let temporary = images.join(HIDDEN).join(format!(".{name}.{}-{}.tmp", unique.0, unique.1));
+        let write = || {
+            let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+            file.write_all(self.to_text().as_bytes())?;
+            fs::rename(&temporary, Record::path(images, name))
+        };
+        write().inspect_err(|_| {
+            // What is left of it is hidden, and of no record's name.
+            let _ = fs::remove_file(&temporary);
+        })
+    }
+
+    /// What is there of an image that should have this record.
+    pub fn state(&self, images: &Path, name: &str, compare: Compare) -> State {
+        let Ok(metadata) = fs::metadata(images.join(format!("{name}.png"))) else { return State::Missing };
+        let is = |record: Record| record.bytes == metadata.len() && record.is_of(self, compare);
+        match Record::read(images, name).is_some_and(is) {
+            true => State::UpToDate,
+            false => State::Outdated,
+        }
+    }
+
+    /// Whether two images are of the same, apart from their lengths.
+    pub fn is_of(&self, other: &Record, compare: Compare) -> bool {
+        self.script == other.script
+            && self.files == other.files
+            && self.frame == other.frame
+            && (compare == Compare::Scene || self.options == other.options)
+            && (compare != Compare::All || self.povray == other.povray)
+    }
+
+    /// The record as its file has it.
+    pub fn to_text(&self) -> String {
+        let frame = self.frame.map_or_else(|| "-".to_owned(), |frame| frame.to_string());
+        let Record { script, files, options, povray, bytes, .. } = self;
+        format!(
+            "script {script}\nfiles {files}\noptions {options}\nframe {frame}\npovray {povray}\nbytes {bytes}\n"
+        )
+    }
+
+    fn parse(text: &str) -> Option<Record> {
+        let mut lines = text.strip_suffix('\n')?.split('\n');
+        let mut value = |key: &str| lines.next()?.strip_prefix(key)?.strip_prefix(' ');
+        let record = Record {
+            script: value("script")?.to_owned(),
+            files: value("files")?.to_owned(),
+            options: value("options")?.to_owned(),
+            frame: match value("frame")? {
+                "-" => None,
+                number => Some(number.parse().ok()?),
+            },
+            povray: value("povray")?.to_owned(),
+            bytes: value("bytes")?.parse().ok()?,
+        };
+        lines.next().is_none().then_some(record)
+    }
+}
+
+/// Whether a text has one of the words by which a script may depend on the number of its frame.
+fn mentions_number(text: &[u8]) -> bool {
+    let is_word = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
+    let at = |start: usize, word: &str| {
+        text[start..].starts_with(word.as_bytes())
+            && !is_word(text.get(start.wrapping_sub(1)))
+            && !is_word(text.get(start + word.len()))
+    };
+    (0..text.len()).any(|start| NUMBERED.iter().any(|word| at(start, word)))
+}
+
+fn hex(digest: &[u8]) -> String {
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OPTIONS: &str = "+W320 +H180 +A0.1 +AM1 +R3";
+
+    fn expected(folder: &Path, script: &str) -> Record {
+        fs::write(folder.join("frame_0007.pov"), script).unwrap();
+        let files = Files::read(&[]).unwrap();
+        Record::expected(&folder.join("frame_0007.pov"), 7, &files, OPTIONS, "3.7.0.10.unofficial").unwrap()
+    }
+
+    #[test]
+    fn a_record_is_six_lines_and_reads_back() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        let record = Record { bytes: 12, ..expected(folder.path(), "// frame 7\nabc\n") };
+        // echo abc | sha256sum
+        let text = "script edeaaff3f1774ad2888673770c6d64097e391bc362d7d6fb34982ddf0efd18cb\n\
+                    files -\noptions +W320 +H180 +A0.1 +AM1 +R3\nframe -\npovray 3.7.0.10.unofficial\nbytes 12\n";
+        assert_eq!(record.to_text(), text);
+        record.write(folder.path(), "frame_0007").unwrap();
+        assert_eq!(Record::read(folder.path(), "frame_0007"), Some(record.clone()));
+        assert_eq!(fs::read_dir(folder.path().join(HIDDEN)).unwrap().count(), 1, "no temporary file is left");
+        for broken in ["", "script x\n", &text[..text.len() - 1], &format!("{text}more\n")] {
+            assert_eq!(Record::parse(broken), None, "{broken}");
+        }
+        let numbered = Record { frame: Some(7), ..record };
+        assert_eq!(Record::parse(&numbered.to_text()), Some(numbered));
+    }
+
+    #[test]
+    fn the_first_line_is_of_no_account_and_all_others_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = expected(folder.path(), "// frame 7\nabc\n");
+        assert_eq!(expected(folder.path(), "// frame 8, t = 1 s\nabc\n"), first);
+        assert_ne!(expected(folder.path(), "// frame 7\nabd\n").script, first.script);
+        assert_ne!(expected(folder.path(), "// frame 7").script, first.script);
+    }
+
+    #[test]
+    fn a_script_that_knows_its_number_is_no_other_frames() {
+        let folder = tempfile::tempdir().unwrap();
+        let frame = |script: &str| expected(folder.path(), &format!("// frame 7\n{script}\n")).frame;
+        assert_eq!(frame("sphere { <clock, 0, 0>, 1 }"), Some(7));
+        assert_eq!(frame("#if (frame_number>3)"), Some(7));
+        assert_eq!(frame("clock"), Some(7));
+        assert_eq!(frame("#declare Oclock = clocks + my_clock + clock_2; // oclock"), None);
+        assert_eq!(frame("// five o'clocké"), Some(7), "once too often does no harm");
+        fs::write(folder.path().join("common.inc"), "rotate y * clock").unwrap();
+        fs::write(folder.path().join("photo.png"), "rotate y * clock").unwrap();
+        let with = |names: &[&str], script: &str| {
+            let files: Vec<_> = names.iter().map(|name| folder.path().join(name)).collect();
+            fs::write(folder.path().join(script), "// frame 7\nframe_number\n").unwrap();
+            let files = Files::read(&files).unwrap();
+            Record::expected(&folder.path().join(script), 7, &files, OPTIONS, "3.7").unwrap()
+        };
+        assert_eq!(with(&[], "shutter_0007.pov").frame, None, "its number is that of a moment");
+        fs::write(folder.path().join("frame_0007.pov"), "// frame 7\nabc\n").unwrap();
+        let plain = |names: &[&str]| {
+            let files: Vec<_> = names.iter().map(|name| folder.path().join(name)).collect();
+            let files = Files::read(&files).unwrap();
+            Record::expected(&folder.path().join("frame_0007.pov"), 7, &files, OPTIONS, "3.7").unwrap()
+        };
+        assert_eq!(plain(&["common.inc"]).frame, Some(7));
+        assert_eq!(plain(&["photo.png"]).frame, None);
+        assert_eq!(plain(&["photo.png"]).files, plain(&["common.inc"]).files);
+        assert_ne!(plain(&["photo.png", "common.inc"]).files, plain(&["common.inc"]).files);
+    }
+
+    #[test]
+    fn an_image_is_up_to_date_if_everything_is_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        let now = expected(folder.path(), "// frame 7\nabc\n");
+        let state = |record: &Record, compare| record.state(folder.path(), "frame_0007", compare);
+        assert_eq!(state(&now, Compare::All), State::Missing);
+        fs::write(folder.path().join("frame_0007.png"), "an image").unwrap();
+        assert_eq!(state(&now, Compare::Scene), State::Outdated, "there is no record");
+        Record { bytes: 8, ..now.clone() }.write(folder.path(), "frame_0007").unwrap();
+        assert_eq!(state(&now, Compare::All), State::UpToDate);
+
+        let other = |change: &dyn Fn(&mut Record)| {
+            let mut record = now.clone();
+            change(&mut record);
+            [Compare::All, Compare::NotPovray, Compare::Scene].map(|c| state(&record, c) == State::UpToDate)
+        };
+        assert_eq!(other(&|r| r.povray = "3.8".to_owned()), [false, true, true]);
+        assert_eq!(other(&|r| r.options = "+A".to_owned()), [false, false, true]);
+        assert_eq!(other(&|r| r.script = "0".to_owned()), [false, false, false]);
+        assert_eq!(other(&|r| r.files = "0".to_owned()), [false, false, false]);
+        assert_eq!(other(&|r| r.frame = Some(7)), [false, false, false]);
+
+        fs::write(folder.path().join("frame_0007.png"), "an imag").unwrap();
+        assert_eq!(state(&now, Compare::All), State::Outdated, "the image was cut off");
+    }
+}

@@ -1,0 +1,120 @@
+//! The scripts of a film in their folder.
+
+use std::path::{Path, PathBuf};
+
+use super::RenderError;
+use crate::emit::frame_name;
+use crate::output::{Manifest, scripts};
+use crate::simulate::Selection;
+
+/// Some or all scripts of a film.
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    /// The folder as it was given, for people.
+    folder: PathBuf,
+    /// The same folder, wherever one stands.
+    absolute: PathBuf,
+    scripts: Vec<Script>,
+    /// The number of the film's last frame.
+    pub last: usize,
+    /// Frames per second.
+    pub frame_rate: f64,
+    /// Width and height of the images, pixels.
+    pub size: [u32; 2],
+    /// Whether the images have an alpha channel.
+    pub transparent: bool,
+    /// The number of moments of each frame, if frames are blurred.
+    pub moments: Option<u32>,
+    /// Files that scripts read without including them.
+    pub(super) assets: Vec<PathBuf>,
+}
+
+/// The script of a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Script {
+    /// The number of the frame.
+    pub frame: usize,
+    /// The name of the frame, which its image has too: `frame_0007`.
+    pub name: String,
+    /// The name of the file with the script; of a blurred frame, the file with the scripts of its moments.
+    pub file: String,
+}
+
+impl Sequence {
+    /// The scripts in a folder, or those of some frames.
+    ///
+    /// # Errors
+    /// Where there are none, or not all of those that are asked for.
+    pub fn open(folder: &Path, selection: Option<&Selection>) -> Result<Sequence, RenderError> {
+        let found = scripts(folder).map_err(|error| match error {
+            crate::output::OutputError::Io(path, error) => RenderError::io(path)(error),
+            _ => RenderError::NoScripts(folder.to_owned()),
+        })?;
+        let found: Vec<_> = found.into_iter().filter(|(_, file)| file.starts_with("frame_")).collect();
+        let absolute = folder.canonicalize().map_err(RenderError::io(folder))?;
+        let manifest = Manifest::read(folder);
+        if manifest.as_ref().is_some_and(|manifest| !manifest.is_complete()) {
+            return Err(RenderError::Incomplete(folder.to_owned()));
+        }
+        let Some((last, _)) = found.last() else { return Err(RenderError::NoScripts(folder.to_owned())) };
+        let last = manifest.as_ref().map_or(*last, |manifest| manifest.head.frames.saturating_sub(1));
+        let moments = manifest.as_ref().and_then(|manifest| manifest.head.samples);
+        let script = |(frame, file): &(usize, String)| {
+            let name = file.trim_end_matches(".pov").to_owned();
+            let file = match moments {
+                Some(_) => file.replacen("frame_", "shutter_", 1),
+                None => file.clone(),
+            };
+            Script { frame: *frame, name, file }
+        };
+        let wanted = found.iter().filter(|(frame, _)| selection.is_none_or(|s| s.contains(*frame)));
+        let scripts: Vec<Script> = wanted.map(script).collect();
+        if let Some(selection) =
+            selection.filter(|s| s.count_within(last + 1) > scripts.len() || scripts.is_empty())
+        {
+            return Err(RenderError::NoSuchFrames(folder.to_owned(), selection.to_string()));
+        }
+        let assets = manifest.iter().flat_map(|manifest| &manifest.files);
+        let assets = assets.filter(|file| file.name.starts_with("assets/"));
+        let size = manifest.as_ref().and_then(|manifest| Some([manifest.head.width?, manifest.head.height?]));
+        Ok(Sequence {
+            scripts,
+            last,
+            frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.head.frame_rate),
+            size: size.unwrap_or([1280, 720]),
+            transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
+            moments,
+            assets: assets.map(|file| absolute.join(&file.name)).collect(),
+            folder: folder.to_owned(),
+            absolute,
+        })
+    }
+
+    /// The folder of the scripts.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The folder of the scripts, wherever one stands.
+    pub(super) fn absolute(&self) -> &Path {
+        &self.absolute
+    }
+
+    /// The scripts that are asked for, in the order of their frames.
+    pub fn scripts(&self) -> &[Script] {
+        &self.scripts
+    }
+
+    /// The time of a frame, s.
+    #[allow(clippy::cast_precision_loss, reason = "a film has fewer frames than that")]
+    pub fn time(&self, frame: usize) -> f64 {
+        frame as f64 / self.frame_rate
+    }
+
+    /// Whether an image of this name is that of a frame of the film, asked for or not.
+    pub(super) fn has(&self, name: &str) -> bool {
+        let number = name.strip_prefix("frame_").and_then(|digits| digits.parse().ok());
+        let is = |number: usize| frame_name(number, self.last + 1) == format!("{name}.pov");
+        number.is_some_and(|number| number <= self.last && is(number))
+    }
+}

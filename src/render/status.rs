@@ -1,0 +1,235 @@
+//! What is there of the images of a folder: read from the images, and not from whatever renders them.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::batch::{InForce, SCRIPTS};
+use super::files;
+use super::record::{Compare, Files, HIDDEN, Record, State};
+use crate::output::{self, MANIFEST};
+use crate::simulate::Selection;
+
+/// A marker of a frame that is being rendered is touched twice a minute; one that was not touched for so long was left by
+/// something that is dead.
+const HEARTBEATS: Duration = Duration::from_secs(180);
+
+/// What is there of the images of a folder. Every frame is in one of the lists.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Status {
+    /// The frames that are asked for.
+    #[serde(skip)]
+    pub frames: Vec<usize>,
+    /// Those whose images are up to date.
+    pub done: Vec<usize>,
+    /// Those that are being rendered.
+    pub running: Vec<Running>,
+    /// Those that failed when they were last tried.
+    pub failed: Vec<Failed>,
+    /// Those that nobody works on: there is no image, or one of something else.
+    pub missing: Vec<usize>,
+    /// Of those that are missing, the ones that something has begun and not been heard of for three minutes.
+    pub stale: Vec<Running>,
+    /// Whether there is a film of all these images; `None` where none is asked for.
+    pub film: Option<bool>,
+}
+
+/// A frame that is being rendered.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Running {
+    /// Its number.
+    pub frame: usize,
+    /// The machine.
+    pub host: String,
+    /// The number of the process.
+    pub process: u32,
+    /// When it began, in seconds since 1970.
+    pub since: u64,
+}
+
+/// A frame that failed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Failed {
+    /// Its number.
+    pub frame: usize,
+    /// Why, in one line: script and line, message, body.
+    pub reason: String,
+}
+
+/// What a folder has, and where.
+struct Place {
+    scripts: PathBuf,
+    images: PathBuf,
+    frames: Vec<usize>,
+    digits: usize,
+    options: Option<String>,
+    files: Vec<PathBuf>,
+    film: Option<(PathBuf, String)>,
+}
+
+impl Status {
+    /// Reads a job folder, or a folder of scripts whose images are in its folder `images`.
+    ///
+    /// # Errors
+    /// Where it is neither, or cannot be read.
+    pub fn read(folder: &Path) -> io::Result<Status> {
+        let place = Place::find(folder)?;
+        let files = Files::read(&place.files)?;
+        let compare = if place.options.is_some() { Compare::NotPovray } else { Compare::Scene };
+        let options = place.options.as_deref().unwrap_or_default();
+        let mut status = Status { frames: place.frames.clone(), ..Status::default() };
+        for &frame in &place.frames {
+            let number = format!("{frame:0width$}", width = place.digits);
+            let name = format!("frame_{number}");
+            let blurred = place.scripts.join(format!("shutter_{number}.pov"));
+            let script = if blurred.is_file() { blurred } else { place.scripts.join(format!("{name}.pov")) };
+            // Without an image, nothing needs to be compared.
+            let image = place.images.join(format!("{name}.png")).is_file();
+            let expected =
+                image.then(|| Record::expected(&script, frame, &files, options, "").ok()).flatten();
+            let state = expected.map_or(State::Missing, |e| e.state(&place.images, &name, compare));
+            let running = Running::read(&place.images, &name, frame);
+            match running {
+                _ if state == State::UpToDate => status.done.push(frame),
+                Some((running, true)) => status.running.push(running),
+                stale => match Failed::read(&place.images, &name, frame, &script) {
+                    Some(failed) => status.failed.push(failed),
+                    None => {
+                        status.missing.push(frame);
+                        status.stale.extend(stale.map(|(running, _)| running));
+                    }
+                },
+            }
+        }
+        status.film = place.film.as_ref().map(|(film, how)| is_made(film, how, &place));
+        Ok(status)
+    }
+
+    /// Whether all images are there.
+    pub fn is_complete(&self) -> bool {
+        self.done.len() == self.frames.len()
+    }
+
+    /// The status as people read it: what there is how much of, and which.
+    pub fn to_text(&self) -> String {
+        /// So many failures are shown.
+        const SHOWN: usize = 10;
+        let list = |frames: &[usize]| frames.iter().copied().collect::<Selection>().to_string();
+        let on_hosts = |running: &[Running]| {
+            let hosts: BTreeSet<&str> = running.iter().map(|running| running.host.as_str()).collect();
+            let of = |host: &&str| {
+                let frames: Vec<usize> =
+                    running.iter().filter(|r| r.host == **host).map(|r| r.frame).collect();
+                format!("{} on {host}", list(&frames))
+            };
+            hosts.iter().map(of).collect::<Vec<_>>().join("; ")
+        };
+        let mut text = format!("done     {} of {}\n", self.done.len(), self.frames.len());
+        if !self.running.is_empty() {
+            text.push_str(&format!("running  {}: {}\n", self.running.len(), on_hosts(&self.running)));
+        }
+        if !self.failed.is_empty() {
+            text.push_str(&format!("failed   {}\n", self.failed.len()));
+            for failed in self.failed.iter().take(SHOWN) {
+                text.push_str(&format!("  frame {}: {}\n", failed.frame, failed.reason));
+            }
+            if self.failed.len() > SHOWN {
+                let rest: Vec<usize> = self.failed.iter().skip(SHOWN).map(|failed| failed.frame).collect();
+                text.push_str(&format!("  and {}\n", list(&rest)));
+            }
+        }
+        if !self.missing.is_empty() {
+            text.push_str(&format!("missing  {}: {}\n", self.missing.len(), list(&self.missing)));
+        }
+        if !self.stale.is_empty() {
+            let hosts = on_hosts(&self.stale);
+            text.push_str(&format!("         begun and not heard of for three minutes: {hosts}\n"));
+        }
+        match self.film {
+            Some(true) => text.push_str("film     made\n"),
+            Some(false) => text.push_str("film     not made\n"),
+            None => {}
+        }
+        text
+    }
+}
+
+impl Place {
+    fn find(folder: &Path) -> io::Result<Place> {
+        let (scripts, job) = match InForce::read(folder) {
+            Some(job) => (folder.join(SCRIPTS), Some(job)),
+            None => (folder.to_owned(), None),
+        };
+        let images = folder.join("images");
+        let head = output::read_manifest(&scripts.join(MANIFEST)).ok_or_else(|| {
+            io::Error::new(io::ErrorKind::NotFound, "it holds no scripts that jabuka wrote")
+        })?;
+        let digits = crate::emit::width(head.frames);
+        if let Some(job) = job {
+            let frames = (0..head.frames).filter(|frame| job.frames.contains(*frame)).collect();
+            let film = Some((folder.join("film.mp4"), job.film));
+            return Ok(Place {
+                scripts,
+                images,
+                frames,
+                digits,
+                options: Some(job.options),
+                files: job.files,
+                film,
+            });
+        }
+        let found = output::scripts(&scripts).map_err(io::Error::other)?;
+        let frames = found.into_iter().map(|(frame, _)| frame).collect();
+        let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
+        Ok(Place { scripts, images, frames, digits, options: None, files, film: None })
+    }
+}
+
+impl Running {
+    /// The marker of a frame that is being rendered, and whether it is fresh.
+    fn read(images: &Path, name: &str, frame: usize) -> Option<(Running, bool)> {
+        let path = images.join(HIDDEN).join("running").join(name);
+        let touched = fs::metadata(&path).ok()?.modified().ok()?;
+        let text = fs::read_to_string(&path).ok()?;
+        let mut words = text.split_whitespace();
+        let host = words.next()?.to_owned();
+        let process = words.next()?.parse().ok()?;
+        let since = words.next()?.parse().ok()?;
+        // The clock of another machine may be ahead.
+        let age = SystemTime::now().duration_since(touched).unwrap_or_default();
+        Some((Running { frame, host, process, since }, age < HEARTBEATS))
+    }
+}
+
+impl Failed {
+    /// Why a frame failed, unless its script has been changed since.
+    fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
+        let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
+        let text = fs::read_to_string(&path).ok()?;
+        let modified = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
+        if modified(script) > modified(&path) {
+            return None;
+        }
+        let reason = text.lines().next().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
+        Some(Failed { frame, reason })
+    }
+}
+
+/// Whether a film is of these images, as `render-video` notes it.
+fn is_made(film: &Path, how: &str, place: &Place) -> bool {
+    let mut hasher = Sha256::new();
+    hasher.update(format!("{how}\n"));
+    for frame in &place.frames {
+        let name = format!("frame_{frame:0width$}", width = place.digits);
+        let Ok(record) = fs::read_to_string(Record::path(&place.images, &name)) else { return false };
+        hasher.update(format!("{}\n", record.trim_end_matches('\n')));
+    }
+    let digest: String = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let noted = fs::read_to_string(Record::path(&place.images, "film")).unwrap_or_default();
+    fs::metadata(film).is_ok_and(|film| film.len() > 0) && noted.trim_end() == format!("film {digest}")
+}

@@ -1,0 +1,108 @@
+//! `povray.assets`: files beside the scene that its SDL reads.
+
+use std::path::{Component, Path};
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::Diagnostic;
+use crate::scene::Asset;
+use crate::scene::source::Node;
+
+/// Reads the list of assets, and reports those that would be copied to one place.
+pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
+    let mut assets: Vec<(Asset, &Node)> = Vec::new();
+    for item in povray.list("assets").unwrap_or_default() {
+        let Ok(asset) = asset(item, context.folder, context.trust) else { continue };
+        let clashes = |other: &Asset| {
+            let below = |a: &str, b: &str| b.strip_prefix(a).is_some_and(|rest| rest.starts_with('/'));
+            other.name == asset.name || below(&other.name, &asset.name) || below(&asset.name, &other.name)
+        };
+        match assets.iter().find(|(other, _)| clashes(other)) {
+            // The same file twice is one file.
+            Some((other, _)) if other == &asset => {}
+            Some((_, node)) => {
+                let message = format!("two assets would be copied to `assets/{}`", asset.name);
+                let help = "a file from elsewhere is copied under its name alone: rename one of them";
+                let error = Diagnostic::error("same-asset", message).at(item.span, "").help(help);
+                context.diagnostics.push(error.at(node.span, "the other is here"));
+            }
+            None => assets.push((asset, item)),
+        }
+    }
+    assets.into_iter().map(|(asset, _)| asset).collect()
+}
+
+/// A file beside the scene, which is there.
+pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Asset, Diagnostic> {
+    let name = node.as_str().unwrap_or_default();
+    let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
+    // SDL names it in a string.
+    let bad = || {
+        let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
+        error("bad-asset", format!("`{name}` cannot be the name of an asset")).help(help)
+    };
+    if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
+        return Err(bad());
+    }
+    let outside = || {
+        error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+            .help("if you know this scene and trust it, say `--trust`")
+    };
+    let copied_to = match below(name) {
+        Some(path) if path.is_empty() => return Err(bad()),
+        Some(path) => path,
+        None if !trust => return Err(outside()),
+        None => Path::new(name).file_name().and_then(|name| name.to_str()).ok_or_else(bad)?.to_owned(),
+    };
+    let Some(folder) = folder else {
+        let message = format!("there is no `{name}`: a scene that is no file has nothing beside it");
+        return Err(error("missing-asset", message));
+    };
+    let missing = |e: std::io::Error| match e.kind() {
+        std::io::ErrorKind::NotFound => error("missing-asset", format!("there is no file `{name}`")),
+        _ => error("missing-asset", format!("cannot read `{name}`: {e}")),
+    };
+    // A link inside the folder may lead out of it.
+    let path = folder.join(name).canonicalize().map_err(missing)?;
+    if !path.starts_with(folder.canonicalize().map_err(missing)?) && !trust {
+        return Err(outside());
+    }
+    if !path.metadata().map_err(missing)?.is_file() {
+        return Err(error("missing-asset", format!("`{name}` is not a file")));
+    }
+    Ok(Asset { name: copied_to, path })
+}
+
+/// A path that stays in the folder that it starts from, as plain as it can be written: empty if it is that folder;
+/// `None` for every other.
+fn below(name: &str) -> Option<String> {
+    let mut parts = Vec::new();
+    for part in Path::new(name).components() {
+        match part {
+            Component::Normal(part) => parts.push(part.to_str()?),
+            Component::CurDir => {}
+            _ => return None,
+        }
+    }
+    Some(parts.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_as_plain_as_can_be_or_leads_out() {
+        for (name, plain) in [
+            ("wood.png", Some("wood.png")),
+            ("./maps//earth.png", Some("maps/earth.png")),
+            ("maps/./a b.png", Some("maps/a b.png")),
+            ("maps/../wood.png", None),
+            ("../wood.png", None),
+            ("/tmp/wood.png", None),
+            (".", Some("")),
+        ] {
+            assert_eq!(below(name).as_deref(), plain, "{name}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! `jabuka batch` and `jabuka status`, without any engine.
+
+use std::fs;
+
+use super::job::{Job, scene};
+use super::support::{compile, jabuka, stderr, stdout};
+
+const SLURM: [&str; 2] = ["--engine", "slurm"];
+
+#[test]
+fn the_lines_of_a_user_stay() {
+    let job = Job::new(&scene(2), &[&SLURM[..], &["--partition", "long", "--cpus", "4"]].concat());
+    let lines = job.read("render.sbatch");
+    assert!(lines.contains("\n#SBATCH --partition=long\n##SBATCH --account=my_group\n"), "{lines}");
+    assert!(lines.contains("\n#SBATCH --cpus-per-task=4\n"), "{lines}");
+    let mine = lines.replace("##SBATCH --account=my_group", "#SBATCH --account=physics");
+    fs::write(job.join("render.sbatch"), &mine).unwrap();
+    let output = job.batch(&scene(2), &[&SLURM[..], &["--time", "02:00:00"]].concat());
+    let said = stdout(&output);
+    assert!(
+        said.contains(
+            "kept      render.sbatch, as you edited it; what jabuka would write now is render.sbatch.new\n"
+        ),
+        "{said}"
+    );
+    assert_eq!(job.read("render.sbatch"), mine);
+    assert!(job.read("render.sbatch.new").contains("\n#SBATCH --time=02:00:00\n"));
+    assert!(!said.contains("video.sbatch"), "{said}");
+}
+
+#[test]
+fn a_folder_of_scripts_makes_the_same_job_as_its_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let (toml, scripts, job) =
+        (folder.path().join("x.toml"), folder.path().join("scripts"), folder.path().join("job"));
+    fs::write(&toml, scene(3)).unwrap();
+    compile(&toml, &scripts, &[]);
+    let batch = |arguments: &[&str]| {
+        jabuka()
+            .args(["batch", "--engine", "slurm"])
+            .arg(&scripts)
+            .arg("-o")
+            .arg(&job)
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    assert!(batch(&[]).status.success());
+    let of_scene = Job::new(&scene(3), &SLURM);
+    for name in ["job.conf", "render-chunk", "scripts/frame_0002.pov", "scripts/manifest.json"] {
+        assert_eq!(fs::read_to_string(job.join(name)).unwrap(), of_scene.read(name), "{name}");
+    }
+    // A script that is gone goes.
+    fs::write(&toml, scene(2)).unwrap();
+    compile(&toml, &scripts, &[]);
+    assert!(stdout(&batch(&[])).contains("images    0 of 2 are there"));
+    assert!(!job.join("scripts/frame_0002.pov").exists());
+    let output = batch(&["--set", "simulation.gravity=[0,-1,0]"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("want the scene"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_folder_of_somebody_else_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("thesis.txt"), "years of work").unwrap();
+    let toml = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    fs::write(toml.path(), scene(2)).unwrap();
+    let output =
+        jabuka().args(["batch", "--engine", "slurm"]).arg(toml.path()).arg("-o").arg(folder.path()).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).starts_with("error[folder-not-ours]"), "{}", stderr(&output));
+    for argument in [["--chunk", "0"], ["--size", "5"], ["--partition", "a\nb"], ["--modules", "$(x)"]] {
+        let output = jabuka().args(["batch", "--engine", "slurm"]).arg(toml.path()).args(argument).output();
+        assert_eq!(output.unwrap().status.code(), Some(2), "{argument:?}");
+    }
+}
+
+#[test]
+fn every_view_has_a_job_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let toml = folder.path().join("x.toml");
+    fs::write(&toml, scene(2) + "[view.top]\nlocation = [0, 10, 0]\n").unwrap();
+    let mut command = jabuka();
+    command.args(["batch", "--engine", "openjd", "--view", "all"]).arg(&toml);
+    let output = command.arg("-o").arg(folder.path().join("job")).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(
+        folder.path().join("job/template.yaml").exists()
+            && folder.path().join("job-top/template.yaml").exists()
+    );
+}
+
+#[test]
+fn status_reads_the_folder_of_a_render_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let (toml, out) = (folder.path().join("x.toml"), folder.path().join("out"));
+    fs::write(&toml, scene(3)).unwrap();
+    let status = || jabuka().args(["status", "--format", "json"]).arg(&out).output().unwrap();
+    assert_eq!(status().status.code(), Some(1));
+    assert!(stderr(&status()).contains("it holds no scripts that jabuka wrote"), "{}", stderr(&status()));
+    compile(&toml, &out, &[]);
+    let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
+    assert_eq!(json(&stdout(&status()))["missing"], serde_json::json!([0, 1, 2]));
+
+    // The same images, as a job makes them.
+    let job = Job::new(&scene(3), &SLURM);
+    assert!(job.chunk(&["0", "1"]).status.success());
+    fs::rename(job.join("images"), out.join("images")).unwrap();
+    let output = status();
+    let value = json(&stdout(&output));
+    assert_eq!((&value["done"], &value["missing"]), (&serde_json::json!([0, 1]), &serde_json::json!([2])));
+    assert_eq!((&value["frames"], &value["complete"]), (&serde_json::json!(3), &serde_json::json!(false)));
+    assert_eq!(value["film"], serde_json::Value::Null);
+    assert_eq!(output.status.code(), Some(1));
+}

@@ -1,0 +1,235 @@
+//! `render-chunk`, which every engine calls.
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::process::Command;
+use std::time::Duration;
+
+use jabuka::render::{Files, Record};
+
+use super::job::{Job, scene};
+use super::support::{stderr, stdout};
+
+const SLURM: [&str; 2] = ["--engine", "slurm"];
+
+#[test]
+fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
+    let job = Job::new(&scene(8), &[&SLURM[..], &["--chunk", "5"]].concat());
+    assert_eq!(stdout(&job.chunk(&["--chunks"])), "2\n");
+    assert_eq!(job.missing(), "0-7");
+    let output = job.chunk(&["--chunk", "1"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(job.images(), ["frame_0005.png", "frame_0006.png", "frame_0007.png"]);
+    assert_eq!(job.missing(), "0-4");
+    assert_eq!(job.status(), ("done     3 of 8\nmissing  5: 0-4\nfilm     not made\n".to_owned(), false));
+
+    // The text is the one that jabuka expects, to the byte.
+    let version = Command::new("povray").arg("--version").output().unwrap();
+    let version = stderr(&version) + &stdout(&version);
+    let version = version.split("POV-Ray ").nth(1).unwrap().split_whitespace().next().unwrap();
+    let script = job.join("scripts/frame_0006.pov");
+    let files = Files::read(&[]).unwrap();
+    let record = Record::expected(&script, 6, &files, "+W65 +H37 +A0.1 +AM1 +R3", version).unwrap();
+    let bytes = fs::metadata(job.join("images/frame_0006.png")).unwrap().len();
+    assert_eq!(job.read("images/.jabuka/frame_0006.txt"), Record { bytes, ..record }.to_text());
+
+    let before = fs::metadata(job.join("images/frame_0006.png")).unwrap().modified().unwrap();
+    assert!(job.chunk(&["0", "7"]).status.success());
+    assert_eq!(fs::metadata(job.join("images/frame_0006.png")).unwrap().modified().unwrap(), before);
+    assert_eq!(job.missing(), "");
+    assert_eq!(job.leftovers(), [""; 0]);
+    assert!(job.status().1);
+
+    // An image that is cut off, one without a record, and one of another script are rendered again.
+    fs::write(job.join("images/frame_0001.png"), "cut off").unwrap();
+    fs::remove_file(job.join("images/.jabuka/frame_0003.txt")).unwrap();
+    let text = job.read("scripts/frame_0005.pov");
+    fs::write(job.join("scripts/frame_0005.pov"), text.replace("sphere { <0.2,", "sphere { <0.25,")).unwrap();
+    assert_eq!(job.missing(), "1,3,5");
+    let output = job.chunk(&["0-9:2,1"]);
+    assert!(output.status.success() && stdout(&output).contains("1 made now"), "0, 2, 4, 6 and 1");
+    assert_eq!(job.missing(), "3,5");
+}
+
+#[test]
+fn scripts_that_know_their_number_see_it() {
+    // The sky is white from frame 2 on, by its number, and black before.
+    let sdl = "background { rgb (frame_number > 1) * (clock > 0.07) } // clock of a longer film";
+    let text = format!("environment = 'space'\n[povray]\nsdl = '{sdl}'\n") + &scene(4);
+    for layout in ["self-contained", "shared"] {
+        let text = text.replace("[output]", &format!("[output]\nlayout = '{layout}'"));
+        let job = Job::new(&text, &SLURM);
+        let output = job.chunk(&["0", "3"]);
+        assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+        let corner = |frame: usize| {
+            let file = fs::File::open(job.join(format!("images/frame_{frame:04}.png"))).unwrap();
+            let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut pixels).unwrap();
+            pixels[0]
+        };
+        assert_eq!([0, 1, 2, 3].map(corner), [0, 0, 255, 255], "{layout}");
+        assert!(job.read("images/.jabuka/frame_0002.txt").contains("\nframe 2\n"));
+        assert!(job.status().1, "{}", job.status().0);
+    }
+}
+
+#[test]
+fn equal_scripts_are_rendered_once() {
+    let job = Job::new(&scene(6).replace("velocity = [1, 0, 0]", ""), &SLURM);
+    let output = job.chunk(&["0", "2"]);
+    assert_eq!(stdout(&output).matches("rendered in").count(), 1, "{}", stdout(&output));
+    let output = job.chunk(&["3", "5"]);
+    assert_eq!(stdout(&output).matches("rendered in").count(), 0, "{}", stdout(&output));
+    assert_eq!(job.missing(), "");
+    let images = |frame: usize| fs::read(job.join(format!("images/frame_{frame:04}.png"))).unwrap();
+    assert_eq!(images(0), images(5));
+    // Equal scripts fail equally.
+    for frame in [0, 1] {
+        job.break_frame(frame);
+    }
+    let output = job.chunk(&["0", "1"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(job.read("images/.jabuka/failed/frame_0001.txt").starts_with("frame_0001.pov:"));
+}
+
+#[test]
+fn a_broken_frame_stops_no_other_and_says_where_it_is_broken() {
+    let job = Job::new(&scene(6), &SLURM);
+    let line = job.break_frame(3);
+    let output = job.chunk(&["0", "5"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(job.missing(), "3");
+    let why = format!(
+        "frame_0003.pov:{line}: Parse Error: Expected 'numeric expression', undeclared identifier 'oops' found instead (body `ball`)"
+    );
+    let status = format!("done     5 of 6\nfailed   1\n  frame 3: {why}\nfilm     not made\n");
+    assert_eq!(job.status(), (status, false));
+    assert!(job.read("images/.jabuka/failed/frame_0003.txt").starts_with(&why));
+
+    // Mended, it has not failed any more: it is missing.
+    std::thread::sleep(Duration::from_millis(20));
+    let good = job.read("scripts/frame_0002.pov");
+    fs::write(job.join("scripts/frame_0003.pov"), good.replace("<0.08", "<0.12")).unwrap();
+    assert_eq!(job.status().0, "done     5 of 6\nmissing  1: 3\nfilm     not made\n");
+    assert!(job.chunk(&["0", "5"]).status.success());
+    assert_eq!((job.missing().as_str(), job.leftovers().len()), ("", 0));
+}
+
+#[test]
+fn a_frame_that_takes_too_long_is_given_up() {
+    let job = Job::new(&scene(3), &[&SLURM[..], &["--limit", "2"]].concat());
+    let endless = "// frame 1\n#version 3.7;\n#while (1) #end\n";
+    fs::write(job.join("scripts/frame_0001.pov"), endless).unwrap();
+    let output = job.chunk(&["0-2"]);
+    assert_eq!(output.status.code(), Some(124), "{}", stdout(&output));
+    assert!(job.status().0.contains("  frame 1: it took longer than 2 s\n"), "{}", job.status().0);
+    assert_eq!(job.missing(), "1");
+}
+
+#[test]
+fn two_machines_may_render_the_same_frames() {
+    let job = Job::new(&scene(12), &SLURM);
+    let spawn = || job.command("render-chunk").args(["0", "11"]).spawn().unwrap();
+    let mut both = [spawn(), spawn()];
+    assert!(both.iter_mut().all(|chunk| chunk.wait().unwrap().success()));
+    assert_eq!((job.missing().as_str(), job.leftovers().len()), ("", 0));
+    assert!(job.status().1, "{}", job.status().0);
+}
+
+/// A program in place of another.
+fn stand_in(job: &Job, name: &str, text: &str) -> std::path::PathBuf {
+    let path = job.join(name);
+    fs::write(&path, format!("#!/usr/bin/env bash\n{text}\n")).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
+}
+
+#[test]
+fn an_image_that_is_not_whole_is_none() {
+    let job = Job::new(&scene(2), &SLURM);
+    let version = "[[ $1 == --version ]] && { echo 'POV-Ray 3.7.0'; exit; }";
+    stand_in(&job, "povray", &format!("{version}\nprintf 'half a PNG' >image.png"));
+    fs::write(job.join("local.conf"), "POVRAY=$root/povray # as good as none\n").unwrap();
+    let output = job.chunk(&["0"]);
+    assert_eq!(output.status.code(), Some(74), "{}", stdout(&output));
+    assert_eq!(job.images(), [""; 0]);
+    assert!(job.status().0.contains("frame 0: POV-Ray wrote no whole image"), "{}", job.status().0);
+
+    stand_in(&job, "povray", &format!("{version}\nkill -SEGV $$"));
+    assert_eq!(job.chunk(&["0"]).status.code(), Some(139));
+    assert!(job.status().0.contains("frame 0: POV-Ray ended with code 139"), "{}", job.status().0);
+
+    // Another POV-Ray makes other images, wherever there is one to ask.
+    fs::remove_file(job.join("local.conf")).unwrap();
+    assert!(job.chunk(&["0", "1"]).status.success());
+    fs::write(job.join("local.conf"), "POVRAY=$root/povray\n").unwrap();
+    assert_eq!((job.missing().as_str(), job.status().1), ("", true));
+    assert_eq!(job.chunk(&["0"]).status.code(), Some(139));
+
+    fs::write(job.join("local.conf"), "POVRAY=no-such-povray\n").unwrap();
+    let output = job.chunk(&["0"]);
+    assert_eq!(output.status.code(), Some(127));
+    assert!(stderr(&output).contains("`no-such-povray` was not found"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_blurred_frame_is_the_average_of_its_moments() {
+    let job = Job::new(&scene(2), &SLURM);
+    let moments: String =
+        [1, 2, 3].map(|moment| format!("#case ({})\n#declare X = {moment};\n#break\n", moment - 1)).concat();
+    let body = job.read("scripts/frame_0001.pov");
+    let body: String = body.lines().skip(2).map(|line| format!("{line}\n")).collect();
+    let blurred = format!(
+        "// frame 1, t = 0.04 s, 3 moments while the shutter is open\n#version 3.7;\n\
+         #ifndef (Shutter_Sample) #declare Shutter_Sample = frame_number; #end\n#switch (Shutter_Sample)\n{moments}#end\n{body}"
+    );
+    fs::write(job.join("scripts/shutter_0001.pov"), blurred).unwrap();
+    // The first image stands for the average, and it is noted what was to be averaged.
+    let stand_in = stand_in(
+        &job,
+        "average",
+        "[[ $1 == average && $2 == -o ]] || exit 1\ncp -- \"$4\" \"$3\"; echo \"$#\" >\"$(dirname \"$0\")/arguments\"",
+    );
+    let conf = job.read("job.conf").replace("BLURRED=no", "BLURRED=yes");
+    fs::write(job.join("job.conf"), conf).unwrap();
+    let output = job.command("render-chunk").arg("0-1").env("PATH", path_without_jabuka()).output().unwrap();
+    assert_eq!(output.status.code(), Some(127), "there is no jabuka");
+    assert!(stderr(&output).contains("`jabuka` was not found"), "{}", stderr(&output));
+
+    fs::write(job.join("local.conf"), format!("JABUKA={:?}\n", stand_in.to_str().unwrap())).unwrap();
+    let output = job.chunk(&["0-1"]);
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    assert_eq!(job.read("arguments"), "6\n", "three images");
+    assert!(
+        job.read("images/.jabuka/frame_0001.txt").contains("\nframe -\n"),
+        "its frame_number is that of a moment"
+    );
+    assert!(job.status().1, "{}", job.status().0);
+    // The sharp script is of no account then.
+    job.break_frame(1);
+    assert_eq!(job.missing(), "");
+}
+
+fn path_without_jabuka() -> String {
+    let path = std::env::var("PATH").unwrap();
+    path.split(':')
+        .filter(|folder| !fs::exists(format!("{folder}/jabuka")).unwrap())
+        .collect::<Vec<_>>()
+        .join(":")
+}
+
+#[test]
+fn wrong_usage_is_said() {
+    let job = Job::new(&scene(2), &SLURM);
+    for arguments in [&[][..], &["x"], &["3-"], &["--chunk"], &["1-5:0"], &["--misssing"]] {
+        let output = job.chunk(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains("./render-chunk 7 31"), "{}", stderr(&output));
+    }
+    let output = job.chunk(&["7", "31"]);
+    assert!(
+        output.status.success() && stderr(&output).contains("its frames are 0,1")
+            || stderr(&output).contains("0-1")
+    );
+}

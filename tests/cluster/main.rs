@@ -1,0 +1,19 @@
+//! Rendering on many machines: `jabuka batch`, what it writes, and `jabuka status`.
+//!
+//! They need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, and Python for Open Job Description; `tests/run` installs
+//! them.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test stops at the first surprise"
+)]
+
+mod batch;
+mod chunk;
+mod job;
+mod openjd;
+mod recipes;
+mod slurm;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,102 @@
+//! Nothing is done twice, and nothing is stale.
+
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+
+use crate::scene::{Place, SCENE, assert_tidy, pixels};
+use crate::support::stdout;
+
+/// What tells whether a file has been written again.
+fn inodes(place: &Place) -> Vec<(String, u64)> {
+    let inode = |name: &String| fs::metadata(place.path("out/scene/images").join(name)).unwrap().ino();
+    place.images().iter().map(|name| (name.clone(), inode(name))).collect()
+}
+
+#[test]
+fn what_is_up_to_date_starts_no_povray() {
+    let place = Place::new(SCENE);
+    let povray = place.stand_in("echo started >> \"$(dirname \"$0\")/log\"; exec povray \"$@\"");
+    let render = ["render", "scene.toml", "--povray", &povray];
+    place.succeed(&render);
+    let (log, images) = (fs::read_to_string(place.path("log")).unwrap(), inodes(&place));
+    assert!(!log.is_empty());
+    let said = stdout(&place.succeed(&render));
+    assert!(said.contains("as before 26, up to date\n"), "{said}");
+    assert_eq!(fs::read_to_string(place.path("log")).unwrap(), log, "POV-Ray was started");
+    assert_eq!(inodes(&place), images);
+}
+
+#[test]
+fn after_a_change_only_what_has_changed_is_rendered() {
+    let place = Place::new(SCENE);
+    place.succeed(&["render", "scene.toml"]);
+    let before = inodes(&place);
+    // As an edit of the scene would that moves one body from frame 20 on.
+    for frame in 20..26 {
+        let path = place.path(&format!("out/scene/frame_{frame:04}.pov"));
+        let script = fs::read_to_string(&path).unwrap();
+        let moved = script.replace("} // ball", "translate y*0.5 } // ball");
+        assert_ne!(moved, script);
+        fs::write(&path, moved).unwrap();
+    }
+    let output = place.run(&["render", "out/scene"]);
+    let after = inodes(&place);
+    let same = before.iter().zip(&after).filter(|(a, b)| a == b).count();
+    assert_eq!(same, 20, "{}", stdout(&output));
+}
+
+#[test]
+fn equal_scripts_are_rendered_once() {
+    let place = Place::new(&SCENE.replace("velocity = [1, 0, 0]", ""));
+    let said = stdout(&place.succeed(&["render", "scene.toml"]));
+    assert!(said.contains("copied    25, equal to others\n") && said.contains("rendered  1 in "), "{said}");
+    assert_eq!(place.images().len(), 26);
+    assert_tidy(&place.path("out/scene/images"));
+    // A copy that is lost is copied again.
+    fs::remove_file(place.path("out/scene/images/frame_0007.png")).unwrap();
+    let said = stdout(&place.succeed(&["render", "scene.toml"]));
+    assert!(said.contains("copied    1, equal to others\n") && said.contains("rendered  0 in "), "{said}");
+    let image = |name: &str| pixels(&place.path("out/scene/images").join(name));
+    assert_eq!(image("frame_0007.png"), image("frame_0025.png"));
+}
+
+#[test]
+fn an_image_that_was_changed_or_cut_off_is_rendered_again() {
+    let place = Place::new(SCENE);
+    place.succeed(&["render", "scene.toml", "--frames", "0-3"]);
+    let path = place.path("out/scene/images/frame_0002.png");
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+    let said = stdout(&place.succeed(&["render", "scene.toml", "--frames", "0-3"]));
+    assert!(said.contains("as before 3, up to date\n") && said.contains("rendered  1 in "), "{said}");
+    assert_eq!(fs::read(&path).unwrap().len(), whole.len());
+}
+
+#[test]
+fn other_options_another_povray_and_other_includes_make_other_images() {
+    let scene = SCENE.replace("size = [64, 36]", "size = [64, 36]\n layout = 'shared'");
+    let place = Place::new(&format!("povray.include = ['extra.inc']\n{scene}"));
+    fs::write(place.path("extra.inc"), "#declare Extra = 1;\n").unwrap();
+    let render = |more: &[&str]| {
+        let arguments = [&["render", "scene.toml", "--frames", "0-1"], more].concat();
+        let said = stdout(&place.succeed(&arguments));
+        said.lines().last().unwrap().split(' ').filter(|word| !word.is_empty()).nth(1).unwrap().to_owned()
+    };
+    assert_eq!([render(&[]), render(&[])], ["2", "0"]);
+    assert_eq!([render(&["--", "+Q8"]), render(&["--", "+Q8"])], ["2", "0"]);
+    let povray = place.stand_in("exec povray \"$@\"");
+    assert_eq!(render(&["--povray", &povray, "--", "+Q8"]), "0", "it is of the same version");
+    fs::write(place.path("extra.inc"), "#declare Extra = 2;\n").unwrap();
+    assert_eq!(render(&["--", "+Q8"]), "2", "the include stands in common.inc");
+}
+
+#[test]
+fn images_of_frames_that_are_no_more_go() {
+    let place = Place::new(SCENE);
+    place.succeed(&["render", "scene.toml"]);
+    fs::write(place.path("out/scene/images/notes.txt"), "mine").unwrap();
+    let said = stdout(&place.succeed(&["render", "scene.toml", "--set", "simulation.duration=0.4"]));
+    assert!(said.contains("removed   15 of frames that are no more\n"), "{said}");
+    assert_eq!(place.images().len(), 11);
+    assert!(place.path("out/scene/images/notes.txt").exists());
+}

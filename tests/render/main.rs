@@ -1,0 +1,14 @@
+//! `jabuka render`, with real POV-Ray: images that are right, nothing done twice, and whatever can happen in a night.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
+
+mod again;
+mod commands;
+mod crowded;
+mod faults;
+mod folders;
+mod killed;
+mod pictures;
+mod scene;
+#[allow(unreachable_pub, reason = "a test program has no outside")]
+#[path = "../support/mod.rs"]
+mod support;
