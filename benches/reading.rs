@@ -1,4 +1,5 @@
-//! Reading and checking 10,000 bodies, and writing their first frame, against parsing the same file as mere TOML.
+//! Reading and checking 10,000 bodies, and writing their first frame, against parsing the same file as mere TOML; once with
+//! numbers, and once with six formulas a body.
 
 #![allow(
     clippy::unwrap_used,
@@ -15,13 +16,17 @@ const BODIES: usize = 10_000;
 const ROUNDS: usize = 9;
 
 fn main() {
-    let text = scene();
+    measure(&numbers());
+    measure(&formulas());
+}
+
+fn measure(text: &str) {
     let (mut parses, mut checks, mut frames) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        parses.push(timed(|| assert!(toml::de::DeTable::parse(&text).is_ok())));
-        checks.push(timed(|| assert!(Scene::parse(&text).is_ok())));
+        parses.push(timed(|| assert!(toml::de::DeTable::parse(text).is_ok())));
+        checks.push(timed(|| assert!(Scene::parse(text).is_ok())));
         frames.push(timed(|| {
-            let scene = Scene::parse(&text).unwrap();
+            let scene = Scene::parse(text).unwrap();
             let run = Run::new(&scene).unwrap();
             assert!(run.script(&run.frames().next().unwrap().unwrap()).is_ok());
         }));
@@ -34,13 +39,26 @@ fn main() {
     println!("to the first script   {:7.1} ms   {:.1} × TOML", frame.as_secs_f64() * 1e3, times(frame));
 }
 
-fn scene() -> String {
+fn numbers() -> String {
     let mut text = String::from("simulation.duration = 0\n");
     for i in 0..BODIES {
         let (x, y) = (i % 100, i / 100);
         let _ = write!(
             text,
             "[body.ball_{i}]\nshape.sphere.radius = 0.4\nmass = 1.5\nlocation = [{x}.25, {y}.5, 0]\nvelocity = [0, 1, 0]\n"
+        );
+    }
+    text
+}
+
+fn formulas() -> String {
+    let mut text = String::from("simulation.duration = 0\n[variables]\nr = 2.5\nspeed = '2*pi*r'\n");
+    for i in 0..BODIES {
+        let _ = write!(
+            text,
+            "[body.ball_{i}]\nshape.sphere.radius = '0.1*r'\nmass = '1.5*{i}/10 + 1'\n\
+             location = ['{i} + r*cos(2*pi*{i}/60)', 'if({i} % 2 == 0, r, -r)', 0]\n\
+             velocity = ['uniform(-1, 1)*speed', 'normal(0, 1)', 0]\n"
         );
     }
     text

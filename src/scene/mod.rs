@@ -1,17 +1,19 @@
 //! Text → checked scene.
 //!
-//! A scene goes through three steps: [`source`] makes a tree of its text, `check::validate` holds the tree against
-//! the description of the language in [`grammar`], and `check` makes the [`Scene`]: names resolved, defaults
-//! filled in, SI units, radians. All mistakes of all steps are reported in one run.
+//! A scene goes through four steps: [`source`] makes a tree of its text, `expand` puts numbers in the place of formulas
+//! (which [`expression`] reads and evaluates), `check::validate` holds the tree against the description of the language in
+//! [`grammar`], and `check` makes the [`Scene`]: names resolved, defaults filled in, SI units, radians. All mistakes of all
+//! steps are reported in one run.
 
 mod check;
 mod color;
 mod color_names;
+mod expand;
+pub mod expression;
 pub mod grammar;
 mod library;
 mod look;
 mod model;
-mod number;
 mod palette;
 mod preset;
 pub mod sdl;
@@ -27,7 +29,6 @@ pub use look::{
     Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
-pub use number::Number;
 pub use preset::Preset;
 pub use source::Override;
 

@@ -25,6 +25,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use self::view::View;
+use super::expand;
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, PovRay, Scene};
@@ -100,6 +101,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         comparisons: suggest::MAX_COMPARISONS,
         diagnostics: Vec::new(),
     };
+    expand::expand(&mut root, &sources, &mut context.diagnostics);
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &mut context);
     let mut found = context.diagnostics;

@@ -5,9 +5,9 @@
 use glam::DVec3;
 
 use crate::diagnostic::Diagnostic;
+use crate::scene::Color;
 use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
-use crate::scene::{Color, Number};
 
 /// The smallest magnitude beside zero: its square, and products of three, are still numbers.
 const SMALLEST: f64 = 1e-100;
@@ -33,19 +33,7 @@ pub(super) fn figure(number: f64) -> String {
 
 /// A finite number within a bound.
 pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
-    let number = match Number::of(node) {
-        Some(Number::Literal(number)) => number,
-        Some(Number::Formula(formula)) => {
-            let message = format!("expected a number{}, found a string", bound.in_words());
-            let error = Diagnostic::error("formula-not-yet", message);
-            let is_number = formula.trim().parse::<f64>().is_ok();
-            return Err(match is_number {
-                true => error.at(node.span, "").help("write the number without quotes"),
-                false => error.at(node.span, "formulas are not known yet").help("write a number instead"),
-            });
-        }
-        None => return Err(wrong_type(node, &Kind::Number(bound))),
-    };
+    let Some(number) = node.as_number() else { return Err(wrong_type(node, &Kind::Number(bound))) };
     if !number.is_finite() {
         let message = format!("expected a finite number{}, found {}", bound.in_words(), figure(number));
         return Err(Diagnostic::error("not-finite", message).at(node.span, ""));
@@ -70,7 +58,6 @@ pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnosti
             let message = format!("expected a whole number from {low} to {high}, found {number}");
             Err(Diagnostic::error("out-of-range", message).at(node.span, ""))
         }
-        Value::String(_) => number(node, Bound::Any).map(|_| low),
         Value::Float(_) => {
             let message = format!("expected a whole number from {low} to {high}, found a decimal number");
             Err(Diagnostic::error("wrong-type", message).at(node.span, "").help("write it without a point"))
@@ -158,9 +145,9 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
 
 /// The numbers of a color that someone gave from 0 to 255.
 fn bytes(items: &[Node]) -> Option<[u8; 3]> {
-    let byte = |node: &Node| match Number::of(node) {
+    let byte = |node: &Node| match node.as_number() {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within 0 and 255")]
-        Some(Number::Literal(number)) if (0.0..=255.0).contains(&number) => Some(number.round() as u8),
+        Some(number) if (0.0..=255.0).contains(&number) => Some(number.round() as u8),
         _ => None,
     };
     match items {

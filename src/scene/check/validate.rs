@@ -3,7 +3,7 @@
 
 use super::{Context, read, sdl, suggest};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::grammar::{Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
+use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
 
@@ -165,8 +165,16 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
             None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
         },
+        Kind::Variables => match node.as_table() {
+            Some(inner) => {
+                for Entry { node, .. } in &inner.entries {
+                    value(node, &Kind::Number(Bound::Any), None, path, context);
+                }
+            }
+            None => context.diagnostics.push(read::wrong_type(node, kind)),
+        },
         Kind::Named(spec) => named(node, spec, entry, context),
-        Kind::Either(kinds) => match kinds.iter().find(|kind| fits(node, kind)) {
+        Kind::Either(kinds) => match kinds.iter().find(|kind| kind.takes(&node.value)) {
             Some(kind) => value(node, kind, entry, path, context),
             None => context.diagnostics.push(read::wrong_type(node, kind)),
         },
@@ -283,28 +291,6 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
         true => error,
         false => error.help(format!("names of the library need no table: {}", quoted(&library))),
     });
-}
-
-/// Whether a value is of the TOML type that a kind is written in.
-fn fits(node: &Node, kind: &Kind) -> bool {
-    match kind {
-        Kind::Text
-        | Kind::Sdl
-        | Kind::Identifier
-        | Kind::Include
-        | Kind::Asset
-        | Kind::Choice(_)
-        | Kind::Reference(_) => {
-            matches!(node.value, Value::String(_))
-        }
-        Kind::Boolean => matches!(node.value, Value::Boolean(_)),
-        Kind::Number(_) => matches!(node.value, Value::Integer(_) | Value::Float(_) | Value::String(_)),
-        Kind::Integer(..) => matches!(node.value, Value::Integer(_)),
-        Kind::Numbers(..) | Kind::Direction(_) | Kind::List { .. } => matches!(node.value, Value::Array(_)),
-        Kind::Color => matches!(node.value, Value::Array(_) | Value::String(_)),
-        Kind::Table(_) | Kind::Named(_) => matches!(node.value, Value::Table(_)),
-        Kind::Either(kinds) => kinds.iter().any(|kind| fits(node, kind)),
-    }
 }
 
 fn keep<T>(result: Result<T, Diagnostic>, context: &mut Context<'_>) {

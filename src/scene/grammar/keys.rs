@@ -4,7 +4,7 @@
 
 use super::Kind::{
     Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
-    Numbers, Reference, Sdl, Table, Text,
+    Numbers, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
 use super::shapes::SHAPE;
@@ -42,6 +42,20 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new("title", Text, "What the scene shows; it stands at the head of every script")
             .default("none")
             .also(&["name"]),
+        Key::new(
+            "seed",
+            Integer(0, 4_294_967_295),
+            "What the random numbers of formulas follow from: another seed, other numbers",
+        )
+        .default("0")
+        .also(&["random_seed"]),
+        Key::new("variables", Variables, "Numbers by name, for formulas").default("none").also(&[
+            "variable",
+            "vars",
+            "constants",
+            "parameters",
+            "let",
+        ]),
         Key::new(
             "simulation",
             Table(&SIMULATION),

@@ -1,6 +1,7 @@
 //! What the value of a key may be.
 
 use super::TableSpec;
+use crate::scene::source::Value;
 
 /// What the value of a key may be.
 #[derive(Debug)]
@@ -44,6 +45,8 @@ pub enum Kind {
     Table(&'static TableSpec),
     /// Tables of the given sort, each with a name of its own: `[body.ball]`.
     Named(&'static TableSpec),
+    /// A table of numbers, each with a name of its own.
+    Variables,
     /// One of several kinds, told apart by the type that TOML gives the value.
     Either(&'static [Kind]),
 }
@@ -124,6 +127,26 @@ impl Kind {
         }
     }
 
+    /// Whether a value is of the TOML type that the kind is written in, or a formula where it is a number.
+    pub fn takes(&self, value: &Value) -> bool {
+        match self {
+            Kind::Text
+            | Kind::Sdl
+            | Kind::Identifier
+            | Kind::Include
+            | Kind::Asset
+            | Kind::Choice(_)
+            | Kind::Reference(_) => matches!(value, Value::String(_)),
+            Kind::Boolean => matches!(value, Value::Boolean(_)),
+            Kind::Number(_) => matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_)),
+            Kind::Integer(..) => matches!(value, Value::Integer(_) | Value::String(_)),
+            Kind::Numbers(..) | Kind::Direction(_) | Kind::List { .. } => matches!(value, Value::Array(_)),
+            Kind::Color => matches!(value, Value::Array(_) | Value::String(_)),
+            Kind::Table(_) | Kind::Named(_) | Kind::Variables => matches!(value, Value::Table(_)),
+            Kind::Either(kinds) => kinds.iter().any(|kind| kind.takes(value)),
+        }
+    }
+
     /// What is expected, in words: `a number greater than 0`.
     pub fn in_words(&self) -> String {
         match self {
@@ -155,6 +178,7 @@ impl Kind {
             Kind::List { of, min, .. } => format!("a list of at least {min} values, each {}", of.in_words()),
             Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),
+            Kind::Variables => "a table of numbers with names".to_owned(),
             Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(" or "),
         }
     }

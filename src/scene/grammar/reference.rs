@@ -3,18 +3,59 @@
 use std::fmt::Write as _;
 
 use super::{Key, Kind, Rule, SCENE, TableSpec, quoted};
+use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 
 /// All keys of the scene language, as Markdown.
 pub fn reference() -> String {
     let text = String::from(
         "# The scene language, key by key\n\n\
          This page is made from the description of the keys that also reads and checks scenes; the test\n\
-         `tests/reference.rs` keeps it so. Coordinates are right-handed: x right, y up, z towards the viewer.\n",
+         `tests/reference.rs` keeps it so. Coordinates are right-handed: x right, y up, z towards the viewer.\n\n\
+         Wherever a number stands, a string with a [formula](#formulas) can stand: `radius = \"2*r\"`.\n",
     );
     let mut page = Page { text, sections: Vec::new() };
     page.section("", &SCENE);
+    page.formulas();
     page.text
 }
+
+/// What there is to say of formulas before their functions are listed.
+const FORMULAS: &str = "
+## Formulas
+
+```toml
+[variables]
+r = 2.5
+speed = \"sqrt(2*9.81*height)\"   # in any order
+height = \"4*r\"
+
+[body.ball]
+shape.sphere.radius = \"r\"
+location = [\"r*cos(rad(30))\", \"r*sin(rad(30))\", \"uniform(-1, 1)\"]
+velocity = [\"if(r > 2, speed, 0)\", 0, 0]
+```
+
+A formula is made of numbers, the names of `[variables]`, constants, functions and parentheses, and of these operators, from
+those that bind least to those that bind most:
+
+| operators | meaning |
+| --- | --- |
+| `or` | 1 where one of the two is not 0, else 0 |
+| `and` | 1 where neither of the two is 0, else 0 |
+| `not x` | 1 where x is 0, else 0 |
+| `<` `<=` `>` `>=` `==` `!=` | 1 where it holds, else 0 |
+| `x + y` `x - y` | sum, difference |
+| `x * y` `x / y` `x % y` | product, quotient, and the rest, with the sign of y: `-1 % 4` is 3 |
+| `-x` `+x` | signs: `-x^2` is -(x^2) |
+| `x ^ y` | power, from the right: `2^3^2` is 2^9 |
+
+A key that wants a whole number wants a formula with a whole value. A division by zero, and any other step that gives no finite
+number, is an error at its place; of `if`, `and` and `or` only what is needed is computed. `jabuka compile --set variables.r=3`
+gives a variable another value.
+
+Random numbers follow from the `seed` of the scene and the place where they stand, such as `body.ball.location[2]`: they are the
+same on every run and machine, and another body changes none of them.
+";
 
 /// The page as far as it is written.
 struct Page {
@@ -45,6 +86,17 @@ impl Page {
         table.keys.iter().for_each(|key| self.row(key));
         for key in table.keys {
             self.inner(path, key.name, &key.kind);
+        }
+    }
+
+    fn formulas(&mut self) {
+        let _ = write!(self.text, "{FORMULAS}\n| constant | meaning |\n| --- | --- |\n");
+        for (name, _, meaning) in CONSTANTS {
+            let _ = writeln!(self.text, "| `{name}` | {meaning} |");
+        }
+        self.text.push_str("\n| function | meaning |\n| --- | --- |\n");
+        for function in FUNCTIONS {
+            let _ = writeln!(self.text, "| `{}` | {} |", function.usage(), function.meaning);
         }
     }
 

@@ -77,7 +77,9 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         Kind::Text | Kind::Sdl | Kind::Reference(_) => object(json!({ "type": "string" })),
         Kind::Boolean => object(json!({ "type": "boolean" })),
         Kind::Number(bound) => number(*bound),
-        Kind::Integer(low, high) => object(json!({ "type": "integer", "minimum": low, "maximum": high })),
+        Kind::Integer(low, high) => {
+            object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
+        }
         Kind::Numbers(count, bound) => list(number(*bound), *count, *count),
         Kind::Direction(count) => {
             let mut numbers = list(number(Bound::Any), *count, *count);
@@ -102,6 +104,11 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         Kind::List { of, min, max } => list(self::kind(of), *min, *max),
         Kind::Table(spec) => table(spec),
         Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec) })),
+        Kind::Variables => object(json!({
+            "type": "object",
+            "propertyNames": { "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" },
+            "additionalProperties": number(Bound::Any),
+        })),
         Kind::Either(kinds) => {
             let kinds: Vec<_> = kinds.iter().map(self::kind).collect();
             object(json!({ "anyOf": kinds }))
@@ -109,16 +116,17 @@ fn kind(kind: &Kind) -> Map<String, Value> {
     }
 }
 
+/// A number within a bound, or a formula: what is said of numbers, strings need not heed.
 fn number(bound: Bound) -> Map<String, Value> {
-    object(match bound {
-        Bound::Any => json!({ "type": "number" }),
-        Bound::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
-        Bound::NonNegative => json!({ "type": "number", "minimum": 0 }),
-        Bound::Between(low, high) => {
-            json!({ "type": "number", "exclusiveMinimum": low, "exclusiveMaximum": high })
-        }
-        Bound::From(low, high) => json!({ "type": "number", "minimum": low, "maximum": high }),
-    })
+    let mut number = object(match bound {
+        Bound::Any => json!({}),
+        Bound::Positive => json!({ "exclusiveMinimum": 0 }),
+        Bound::NonNegative => json!({ "minimum": 0 }),
+        Bound::Between(low, high) => json!({ "exclusiveMinimum": low, "exclusiveMaximum": high }),
+        Bound::From(low, high) => json!({ "minimum": low, "maximum": high }),
+    });
+    number.insert("type".to_owned(), json!(["number", "string"]));
+    number
 }
 
 fn list(of: Map<String, Value>, min: usize, max: usize) -> Map<String, Value> {

@@ -86,6 +86,19 @@ impl Node {
         }
     }
 
+    /// The number that the value is, if it is one.
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "a scene's whole numbers are small; TOML's own floats round too"
+    )]
+    pub fn as_number(&self) -> Option<f64> {
+        match self.value {
+            Value::Integer(number) => Some(number as f64),
+            Value::Float(number) => Some(number),
+            _ => None,
+        }
+    }
+
     /// What the value is, in words: `a string`.
     pub fn in_words(&self) -> &'static str {
         match &self.value {

@@ -1,0 +1,160 @@
+//! `[variables]`: numbers by name, in any order.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::{Expander, place};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::expression::{Formula, Scope};
+use crate::scene::source::{Table, Value};
+
+/// A variable that is given by a formula.
+struct Variable {
+    name: String,
+    /// Where its value stands.
+    span: Span,
+    formula: Formula,
+    /// The variables that it needs, each by its number, and where it does.
+    needs: Vec<(usize, Range<usize>)>,
+    state: State,
+}
+
+/// How far a variable is.
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    Untouched,
+    /// Something that it needs is being looked at.
+    Begun,
+    Done,
+}
+
+impl Expander<'_> {
+    /// Evaluates the variables, makes them known to all formulas, and puts their values into the table.
+    pub(super) fn variables(&mut self, table: &mut Table) {
+        let mut variables = self.read(table);
+        self.connect(&mut variables);
+        for start in 0..variables.len() {
+            self.visit(start, &mut variables);
+        }
+        for entry in &mut table.entries {
+            if matches!(entry.node.value, Value::String(_)) {
+                let value = self.scope.value(&entry.name.text).filter(|value| !value.is_nan());
+                entry.node.value = value.map_or(Value::Invalid, Value::Float);
+            }
+        }
+    }
+
+    /// Makes the names known, and the values of those that are numbers; the formulas are returned.
+    fn read(&mut self, table: &Table) -> Vec<Variable> {
+        let mut variables = Vec::new();
+        for entry in &table.entries {
+            let name = entry.name.text.clone();
+            if let Err(why) = Scope::is_free(&name) {
+                let message = format!("`{}` cannot be the name of a variable", name.escape_debug());
+                let error = Diagnostic::error("bad-variable-name", message);
+                self.diagnostics.push(error.at(entry.name.span, why));
+                continue;
+            }
+            let span = entry.node.span;
+            let value = match &entry.node.value {
+                Value::String(text) => match self.keep(Formula::parse(text), text, span) {
+                    Some(formula) => {
+                        let (needs, state) = (Vec::new(), State::Untouched);
+                        variables.push(Variable { name: name.clone(), span, formula, needs, state });
+                        // Its name is known from the beginning, so that others are not taken for it.
+                        Some(f64::NAN)
+                    }
+                    None => None,
+                },
+                // What else is wrong with a number, the validation says.
+                _ => entry.node.as_number().filter(|number| number.is_finite()),
+            };
+            if value.is_none() {
+                self.broken.insert(name.clone());
+            }
+            self.scope.constant(name, value.unwrap_or(f64::NAN));
+        }
+        variables
+    }
+
+    fn connect(&mut self, variables: &mut [Variable]) {
+        let numbers: HashMap<String, usize> =
+            variables.iter().enumerate().map(|(number, variable)| (variable.name.clone(), number)).collect();
+        for variable in variables {
+            let needs = variable.formula.names();
+            variable.needs = needs.filter_map(|(name, range)| Some((*numbers.get(name)?, range))).collect();
+        }
+    }
+
+    /// Evaluates a variable after those that it needs. A chain of them may be long, so nothing recurses.
+    fn visit(&mut self, start: usize, variables: &mut [Variable]) {
+        // Each with how many of its needs have been seen to.
+        let mut way = vec![(start, 0)];
+        while let Some((current, seen)) = way.last_mut() {
+            let variable = &mut variables[*current];
+            if variable.state == State::Done {
+                way.pop();
+                continue;
+            }
+            variable.state = State::Begun;
+            if let Some(&(next, _)) = variable.needs.get(*seen) {
+                *seen += 1;
+                match variables[next].state {
+                    State::Untouched => way.push((next, 0)),
+                    State::Begun => self.cycle(&way, next, variables),
+                    State::Done => {}
+                }
+                continue;
+            }
+            variable.state = State::Done;
+            let (name, span) = (variable.name.clone(), variable.span);
+            let value = if self.broken.contains(&name) {
+                None
+            } else {
+                let mut value = None;
+                let formula = &variable.formula;
+                self.below("variables", |this| {
+                    this.below(&name, |this| value = this.value_of(formula, span));
+                });
+                value
+            };
+            match value {
+                Some(value) => self.scope.constant(name, value),
+                None => _ = self.broken.insert(name),
+            }
+            way.pop();
+        }
+    }
+
+    /// Says that the variables of the way from `first` to its end need each other.
+    fn cycle(&mut self, way: &[(usize, usize)], first: usize, variables: &[Variable]) {
+        /// So many variables of a cycle are shown.
+        const SHOWN: usize = 6;
+        let begin = way.iter().position(|(variable, _)| *variable == first).unwrap_or(0);
+        let cycle = &way[begin..];
+        if cycle.iter().any(|(variable, _)| self.broken.contains(&variables[*variable].name)) {
+            // Other ways around through the same ones are the same mistake, as far as anyone can tell.
+            return;
+        }
+        let name = |variable: usize| format!("`{}`", variables[variable].name);
+        let mut names: Vec<String> = cycle.iter().take(SHOWN).map(|(variable, _)| name(*variable)).collect();
+        if cycle.len() > SHOWN {
+            names.push("…".to_owned());
+        }
+        names.push(name(first));
+        let message = match cycle.len() {
+            1 => format!("the variable {} needs itself", name(first)),
+            _ => format!("variables need each other: {}", names.join(" → ")),
+        };
+        let mut error = Diagnostic::error("cyclic-variables", message);
+        for (variable, seen) in cycle.iter().take(SHOWN) {
+            let Variable { span, formula, needs, .. } = &variables[*variable];
+            let (next, range) = &needs[seen - 1];
+            let place = place::in_string(self.raw(*span), formula.text(), range, *span);
+            let next = if next == variable { "itself".to_owned() } else { name(*next) };
+            error = error.at(place, format!("{} needs {next}", name(*variable)));
+        }
+        self.diagnostics.push(error);
+        self.broken.extend(cycle.iter().map(|(variable, _)| variables[*variable].name.clone()));
+    }
+}

@@ -1,0 +1,325 @@
+//! The tree of a resolved formula → a program.
+
+use super::error::{ExpressionError, syntax};
+use super::operation::{Binary, Unary, whole_exponent};
+use super::parser::Id;
+use super::program::{Instruction as I, MAX_STACK, Program};
+use super::resolve::{Resolved, Value};
+
+impl Resolved {
+    /// Makes a program.
+    ///
+    /// # Errors
+    /// Where the formula is nested too deeply.
+    pub fn compile(self) -> Result<Program, ExpressionError> {
+        let mut emitter = Emitter {
+            needs: needs(&self),
+            resolved: &self,
+            code: Vec::new(),
+            // The operations that are still to come, the next one last: a long sum is deep, and nothing recurses.
+            tasks: vec![Task::Value { id: self.root, depth: 0, to: 0 }],
+            jumps: Vec::new(),
+            deepest: 0,
+        };
+        while let Some(task) = emitter.tasks.pop() {
+            emitter.take(task);
+        }
+        let (code, deepest) = (emitter.code, emitter.deepest);
+        if deepest >= MAX_STACK {
+            let range = self.nodes[self.root].range.clone();
+            let error = syntax(range, "the formula is nested too deeply");
+            return Err(error.help("give parts of it names in `[variables]`"));
+        }
+        Ok(Program::new(code, deepest + 1, self))
+    }
+}
+
+/// What is still to be emitted.
+#[derive(Clone, Copy)]
+enum Task {
+    /// What leaves the value of a part in the accumulator. `depth` places of the stack are taken, and what is in the
+    /// accumulator is to be saved at `to`.
+    Value {
+        id: Id,
+        depth: usize,
+        to: usize,
+    },
+    Instruction(I),
+    /// Behind a condition: to the other branch where it does not hold.
+    Then,
+    /// Behind the first branch: past the other.
+    Otherwise,
+    /// Behind both.
+    End,
+}
+
+/// An operand that an instruction can have with it.
+#[derive(Clone, Copy)]
+enum Leaf {
+    V(u32),
+    C(f64),
+}
+
+struct Emitter<'a> {
+    /// For each part, how many places of the stack it needs.
+    needs: Vec<usize>,
+    resolved: &'a Resolved,
+    code: Vec<I>,
+    tasks: Vec<Task>,
+    /// Jumps whose aim is not known yet.
+    jumps: Vec<usize>,
+    deepest: usize,
+}
+
+/// For each part, how many places of the stack its value needs, if of two operands the one that needs more comes first
+/// (Sethi and Ullman).
+fn needs(resolved: &Resolved) -> Vec<usize> {
+    let mut needs: Vec<usize> = Vec::with_capacity(resolved.nodes.len());
+    for node in &resolved.nodes {
+        let need = match node.value {
+            Value::Constant(_) | Value::Slot(_) => 0,
+            Value::Unary(_, a) => needs[a],
+            Value::Binary(_, a, b) => {
+                let (a, b) = (needs[a], needs[b]);
+                a.max(b).max(a.min(b) + 1)
+            }
+            Value::Ternary(_, a, b, c) => needs[a].max(needs[b] + 1).max(needs[c] + 2),
+            Value::If(a, b, c) => needs[a].max(needs[b]).max(needs[c]),
+        };
+        needs.push(need);
+    }
+    needs
+}
+
+impl Emitter<'_> {
+    #[allow(clippy::cast_possible_truncation, reason = "a formula is at most ten thousand bytes long")]
+    fn take(&mut self, task: Task) {
+        match task {
+            Task::Value { id, depth, to } => self.value(id, depth, to),
+            Task::Instruction(instruction) => self.code.push(instruction),
+            Task::Then => {
+                self.jumps.push(self.code.len());
+                self.code.push(I::JumpIfZero { to: 0 });
+            }
+            Task::Otherwise => {
+                let next = self.code.len() as u32 + 1;
+                self.aim(I::JumpIfZero { to: next });
+                self.jumps.push(self.code.len());
+                self.code.push(I::Jump { to: 0 });
+            }
+            Task::End => self.aim(I::Jump { to: self.code.len() as u32 }),
+        }
+    }
+
+    /// Puts the last jump in its place.
+    fn aim(&mut self, jump: I) {
+        if let Some(place) = self.jumps.pop() {
+            self.code[place] = jump;
+        }
+    }
+
+    /// Puts tasks in front of the others, in the order in which they are to be done.
+    fn next<const N: usize>(&mut self, tasks: [Task; N]) {
+        self.tasks.extend(tasks.into_iter().rev());
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "there are far fewer inputs than 2^32")]
+    fn leaf(&self, id: Id) -> Option<Leaf> {
+        match self.resolved.nodes[id].value {
+            Value::Slot(slot) => Some(Leaf::V(slot as u32)),
+            Value::Constant(value) => Some(Leaf::C(value)),
+            _ => None,
+        }
+    }
+
+    /// The leaves of a product of an input with an input or a constant.
+    fn product(&self, id: Id) -> Option<(u32, Leaf)> {
+        let Value::Binary(Binary::Multiply, a, b) = self.resolved.nodes[id].value else { return None };
+        match (self.leaf(a)?, self.leaf(b)?) {
+            (Leaf::V(v), leaf) | (leaf, Leaf::V(v)) => Some((v, leaf)),
+            _ => None,
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
+    fn value(&mut self, id: Id, depth: usize, to: usize) {
+        self.deepest = self.deepest.max(depth).max(to);
+        let (save, at) = (to as u8, depth as u8);
+        match self.resolved.nodes[id].value {
+            Value::Constant(c) => self.code.push(I::LoadC { to: save, c }),
+            Value::Slot(_) => {
+                if let Some(Leaf::V(v)) = self.leaf(id) {
+                    self.code.push(I::LoadV { to: save, v });
+                }
+            }
+            Value::Unary(operation, a) => self.unary(operation, a, depth, to),
+            Value::Binary(operation, a, b) => {
+                if !self.arithmetic(operation, a, b, depth, to) {
+                    self.binary(operation, a, b, depth, to);
+                }
+            }
+            Value::Ternary(operation, a, b, c) => self.next([
+                Task::Value { id: a, depth, to },
+                Task::Value { id: b, depth: depth + 1, to: depth },
+                Task::Value { id: c, depth: depth + 2, to: depth + 1 },
+                Task::Instruction(I::Call3 { at, f: operation.function() }),
+            ]),
+            Value::If(a, b, c) => self.next([
+                Task::Value { id: a, depth, to },
+                Task::Then,
+                Task::Value { id: b, depth, to: depth },
+                Task::Otherwise,
+                Task::Value { id: c, depth, to: depth },
+                Task::End,
+            ]),
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
+    fn unary(&mut self, operation: Unary, a: Id, depth: usize, to: usize) {
+        let f = operation.function();
+        let instruction = match (operation, self.leaf(a)) {
+            (Unary::Negate, _) => I::Negate,
+            (Unary::Square, _) => I::Square,
+            (Unary::Cube, _) => I::Cube,
+            (Unary::Sqrt, _) => I::Sqrt,
+            (_, Some(Leaf::V(v))) => {
+                self.code.push(I::CallV { to: to as u8, v, f });
+                return;
+            }
+            _ => I::Call { f },
+        };
+        self.next([Task::Value { id: a, depth, to }, Task::Instruction(instruction)]);
+    }
+
+    /// Any operation on two values, of which the one that needs more of the stack comes first.
+    #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
+    fn binary(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) {
+        let at = depth as u8;
+        if let (Binary::Power, Value::Constant(exponent)) = (operation, self.resolved.nodes[b].value)
+            && let Some(exponent) = whole_exponent(exponent)
+        {
+            let power = Task::Instruction(I::WholePower { exponent });
+            return self.next([Task::Value { id: a, depth, to }, power]);
+        }
+        let is_swapped = self.needs[b] > self.needs[a];
+        let f = operation.function();
+        let instruction = match (operation, is_swapped) {
+            (Binary::Add, _) => I::AddS { at },
+            (Binary::Multiply, _) => I::MulS { at },
+            (Binary::Subtract, false) => I::SubS { at },
+            (Binary::Subtract, true) => I::SubFromAcc { at },
+            (Binary::Divide, false) => I::DivS { at },
+            (Binary::Divide, true) => I::DivAcc { at },
+            (_, false) => I::Call2 { at, f },
+            (_, true) => I::Call2Swapped { at, f },
+        };
+        let (first, second) = if is_swapped { (b, a) } else { (a, b) };
+        self.next([
+            Task::Value { id: first, depth, to },
+            Task::Value { id: second, depth: depth + 1, to: depth },
+            Task::Instruction(instruction),
+        ]);
+    }
+
+    /// Arithmetic with an operand that its instruction can have with it; says whether it was such.
+    fn arithmetic(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) -> bool {
+        let (left, right) = (self.leaf(a), self.leaf(b));
+        if let Some(instruction) = both(operation, left, right, to) {
+            self.code.push(instruction);
+            return true;
+        }
+        let (first, instruction) = match operation {
+            Binary::Add | Binary::Subtract => {
+                let fused = |product: Option<(u32, Leaf)>| {
+                    Some(match (product?, operation) {
+                        ((v, Leaf::V(w)), Binary::Add) => I::AddMulVV { v, w },
+                        ((v, Leaf::V(w)), _) => I::SubMulVV { v, w },
+                        ((v, Leaf::C(c)), Binary::Add) => I::AddMulVC { v, c },
+                        ((v, Leaf::C(c)), _) => I::AddMulVC { v, c: -c },
+                    })
+                };
+                if let Some(horner) = self.horner(operation, a, b) {
+                    horner
+                } else if let Some(instruction) = fused(self.product(b)) {
+                    (a, instruction)
+                } else if let (Binary::Add, Some(instruction)) = (operation, fused(self.product(a))) {
+                    (b, instruction)
+                } else {
+                    match one(operation, a, b, left, right) {
+                        Some(found) => found,
+                        None => return false,
+                    }
+                }
+            }
+            _ => match one(operation, a, b, left, right) {
+                Some(found) => found,
+                None => return false,
+            },
+        };
+        self.next([Task::Value { id: first, depth, to }, Task::Instruction(instruction)]);
+        true
+    }
+
+    /// `x*v + c`, where x is no leaf.
+    fn horner(&self, operation: Binary, a: Id, b: Id) -> Option<(Id, I)> {
+        let (sum, c) = match (operation, self.leaf(a), self.leaf(b)) {
+            (Binary::Add, _, Some(Leaf::C(c))) => (a, c),
+            (Binary::Add, Some(Leaf::C(c)), _) => (b, c),
+            (Binary::Subtract, _, Some(Leaf::C(c))) => (a, -c),
+            _ => return None,
+        };
+        let Value::Binary(Binary::Multiply, x, y) = self.resolved.nodes[sum].value else { return None };
+        match (self.leaf(x), self.leaf(y)) {
+            (None, Some(Leaf::V(v))) => Some((x, I::MulVAddC { v, c })),
+            (Some(Leaf::V(v)), None) => Some((y, I::MulVAddC { v, c })),
+            _ => None,
+        }
+    }
+}
+
+/// The instruction for two operands that it has with it. To subtract a number is to add its negative.
+#[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
+fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -> Option<I> {
+    let to = to as u8;
+    Some(match (operation, left?, right?) {
+        (Binary::Add, Leaf::V(v), Leaf::V(w)) => I::AddVV { to, v, w },
+        (Binary::Add, Leaf::V(v), Leaf::C(c)) | (Binary::Add, Leaf::C(c), Leaf::V(v)) => {
+            I::AddVC { to, v, c }
+        }
+        (Binary::Subtract, Leaf::V(v), Leaf::V(w)) => I::SubVV { to, v, w },
+        (Binary::Subtract, Leaf::V(v), Leaf::C(c)) => I::AddVC { to, v, c: -c },
+        (Binary::Subtract, Leaf::C(c), Leaf::V(v)) => I::SubCV { to, v, c },
+        (Binary::Multiply, Leaf::V(v), Leaf::V(w)) => I::MulVV { to, v, w },
+        (Binary::Multiply, Leaf::V(v), Leaf::C(c)) | (Binary::Multiply, Leaf::C(c), Leaf::V(v)) => {
+            I::MulVC { to, v, c }
+        }
+        (Binary::Divide, Leaf::V(v), Leaf::V(w)) => I::DivVV { to, v, w },
+        (Binary::Divide, Leaf::V(v), Leaf::C(c)) => I::DivVC { to, v, c },
+        (Binary::Divide, Leaf::C(c), Leaf::V(v)) => I::DivCV { to, v, c },
+        _ => return None,
+    })
+}
+
+/// What is computed first, and the instruction that has the other operand with it.
+fn one(operation: Binary, a: Id, b: Id, left: Option<Leaf>, right: Option<Leaf>) -> Option<(Id, I)> {
+    Some(match (operation, left, right) {
+        (Binary::Add, _, Some(Leaf::V(v))) => (a, I::AddV { v }),
+        (Binary::Add, _, Some(Leaf::C(c))) => (a, I::AddC { c }),
+        (Binary::Add, Some(Leaf::V(v)), _) => (b, I::AddV { v }),
+        (Binary::Add, Some(Leaf::C(c)), _) => (b, I::AddC { c }),
+        (Binary::Subtract, _, Some(Leaf::V(v))) => (a, I::SubV { v }),
+        (Binary::Subtract, _, Some(Leaf::C(c))) => (a, I::AddC { c: -c }),
+        (Binary::Subtract, Some(Leaf::V(v)), _) => (b, I::VSub { v }),
+        (Binary::Subtract, Some(Leaf::C(c)), _) => (b, I::CSub { c }),
+        (Binary::Multiply, _, Some(Leaf::V(v))) => (a, I::MulV { v }),
+        (Binary::Multiply, _, Some(Leaf::C(c))) => (a, I::MulC { c }),
+        (Binary::Multiply, Some(Leaf::V(v)), _) => (b, I::MulV { v }),
+        (Binary::Multiply, Some(Leaf::C(c)), _) => (b, I::MulC { c }),
+        (Binary::Divide, _, Some(Leaf::V(v))) => (a, I::DivV { v }),
+        (Binary::Divide, _, Some(Leaf::C(c))) => (a, I::DivC { c }),
+        (Binary::Divide, Some(Leaf::V(v)), _) => (b, I::VDiv { v }),
+        (Binary::Divide, Some(Leaf::C(c)), _) => (b, I::CDiv { c }),
+        _ => return None,
+    })
+}

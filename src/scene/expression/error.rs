@@ -1,0 +1,50 @@
+//! What is wrong with a formula.
+
+use std::ops::Range;
+
+/// One mistake in a formula.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExpressionError {
+    /// The kind of mistake: `formula-syntax`.
+    pub code: &'static str,
+    /// The bytes of the formula that are wrong.
+    pub range: Range<usize>,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// What is said at the place; may be empty.
+    pub label: String,
+    /// How to mend it, if there is more to say.
+    pub help: Option<String>,
+}
+
+/// A mistake of the given kind.
+pub(super) fn error(code: &'static str, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
+    ExpressionError { code, range, message: message.into(), label: String::new(), help: None }
+}
+
+/// A mistake in how a formula is written.
+pub(super) fn syntax(range: Range<usize>, message: impl Into<String>) -> ExpressionError {
+    error("formula-syntax", range, message)
+}
+
+impl ExpressionError {
+    #[must_use]
+    pub(super) fn label(mut self, label: impl Into<String>) -> ExpressionError {
+        self.label = label.into();
+        self
+    }
+
+    #[must_use]
+    pub(super) fn help(mut self, help: impl Into<String>) -> ExpressionError {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+impl std::fmt::Display for ExpressionError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for ExpressionError {}

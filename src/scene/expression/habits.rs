@@ -1,0 +1,80 @@
+//! What people write in formulas from other programs' habits, and what it is here.
+
+use super::error::{ExpressionError, syntax};
+
+/// What stands at the start of a text and is no word of a formula.
+pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
+    const SYMBOLS: [(&str, &str); 24] = [
+        ("**", "the power is written `^`"),
+        ("<>", "write `!=` for «is not»"),
+        ("&&", "write `and`"),
+        ("&", "write `and`"),
+        ("||", "write `or`"),
+        ("|", "the absolute value is written `abs(x)`, and «or» `or`"),
+        ("!", "write `not`"),
+        ("=", "write `==` to compare; a formula sets nothing"),
+        ("?", "a choice is written `if(condition, then, otherwise)`"),
+        (":", "a choice is written `if(condition, then, otherwise)`"),
+        ("[", "write parentheses; a list is written outside of formulas"),
+        ("{", "write parentheses"),
+        (";", "write `,` between the values of a function"),
+        ("°", "write `rad(90)` for 90 degrees in radians"),
+        ("²", "write `^2`"),
+        ("³", "write `^3`"),
+        ("√", "write `sqrt(x)`"),
+        ("π", "write `pi`"),
+        ("τ", "write `tau`"),
+        ("−", "write the minus of the keyboard, `-`"),
+        ("–", "write the minus of the keyboard, `-`"),
+        ("×", "write `*`"),
+        ("·", "write `*`"),
+        ("÷", "write `/`"),
+    ];
+    if let Some((symbol, help)) = SYMBOLS.iter().find(|(symbol, _)| rest.starts_with(symbol)) {
+        let range = start..start + symbol.len();
+        return syntax(range, format!("`{symbol}` is no part of a formula")).label(*help);
+    }
+    // A name in another alphabet is one mistake, not one for each letter.
+    let first = rest.chars().next().map_or(0, char::len_utf8);
+    let letters: usize = rest.chars().take_while(|c| c.is_alphanumeric()).map(char::len_utf8).sum();
+    let word = &rest[..letters.max(first)];
+    let error =
+        syntax(start..start + word.len(), format!("`{}` is no part of a formula", word.escape_debug()));
+    if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
+}
+
+/// Whether a name may have been meant as a unit, which no number of a scene has with it.
+pub(super) fn is_unit(name: &str) -> bool {
+    const UNITS: [&str; 16] =
+        ["m", "cm", "mm", "km", "kg", "g", "s", "ms", "N", "J", "Hz", "deg", "degrees", "rad", "fps", "px"];
+    UNITS.contains(&name)
+}
+
+/// What a function of another program is called here.
+pub(super) fn function(name: &str) -> Option<&'static str> {
+    const FUNCTIONS: [(&str, &str); 22] = [
+        ("log", "write `ln` for the natural logarithm, `log10` or `log2`"),
+        ("pow", "write `x^y`"),
+        ("power", "write `x^y`"),
+        ("sqr", "write `x^2`"),
+        ("fabs", "write `abs`"),
+        ("arcsin", "write `asin`"),
+        ("arccos", "write `acos`"),
+        ("arctan", "write `atan`"),
+        ("arctan2", "write `atan2`"),
+        ("sgn", "write `sign`"),
+        ("int", "write `trunc` or `floor`"),
+        ("fmod", "write `mod`"),
+        ("ceiling", "write `ceil`"),
+        ("radians", "write `rad`"),
+        ("degrees", "write `deg`"),
+        ("rand", "write `uniform(0, 1)`"),
+        ("random", "write `uniform(0, 1)`"),
+        ("rnd", "write `uniform(0, 1)`"),
+        ("gauss", "write `normal(mean, deviation)`"),
+        ("randn", "write `normal(0, 1)`"),
+        ("length", "write `hypot`"),
+        ("norm", "write `hypot`"),
+    ];
+    FUNCTIONS.iter().find(|(other, _)| *other == name).map(|(_, help)| *help)
+}

@@ -1,0 +1,43 @@
+//! Formulas: the text of an expression → a small program that is evaluated millions of times.
+//!
+//! A formula takes three steps. [`Formula::parse`] reads the text, [`Formula::resolve`] looks its names up in a
+//! [`Scope`] and folds what is constant, and [`Resolved::compile`] makes a [`Program`] of it, for what is evaluated in an inner
+//! loop; [`Program::compile`] does all three. What is needed only once is had from [`Resolved::value`], which is
+//! strict: the first operation that leaves the numbers is an error at its place.
+//!
+//! ```
+//! use jabuka::scene::expression::{Program, Scope};
+//!
+//! let mut scope = Scope::default();
+//! scope.constant("k", 4.0);
+//! let x = scope.slot("x");
+//! assert_eq!(x, 0);
+//! let program = Program::compile("-k*x^2", &scope).expect("it is a formula");
+//! assert_eq!(program.eval(&[3.0]), -36.0);
+//! let error = Program::compile("1/x", &scope).expect("so is this").explain_non_finite(&[0.0]);
+//! assert_eq!(error.expect("nothing can be divided by 0").code, "division-by-zero");
+//! ```
+//!
+//! All functions are those of `libm` or exact, so values are the same bits on every platform.
+
+mod emit;
+mod error;
+mod explain;
+mod fold;
+mod function;
+mod habits;
+mod lexer;
+mod operation;
+mod parser;
+mod program;
+mod resolve;
+mod scope;
+#[cfg(test)]
+mod tests;
+
+pub use error::ExpressionError;
+pub use function::{CONSTANTS, FUNCTIONS, Function};
+pub use parser::{Formula, MAX_LENGTH};
+pub use program::Program;
+pub use resolve::{Draw, Resolved};
+pub use scope::Scope;

@@ -1,0 +1,232 @@
+//! The tree of a formula → a tree whose names are numbers or slots.
+
+use std::ops::Range;
+
+use super::error::{ExpressionError, error};
+use super::fold::Builder;
+use super::function::{Function, Work};
+use super::operation::{Binary, Ternary, Unary};
+use super::parser::{Formula, Id, Part};
+use super::scope::{Binding, Scope};
+
+/// A random number that a formula asks for with `uniform` or `normal`.
+///
+/// A formula has no randomness of its own: for each of these words that it has, in the order of the text, an evaluation is
+/// given one more number behind those for the names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Draw {
+    /// From 0 to 1, each as likely.
+    Uniform,
+    /// After the normal distribution around 0, with deviation 1.
+    Normal,
+}
+
+/// A formula whose names have been looked up.
+#[derive(Clone, Debug)]
+pub struct Resolved {
+    /// Operands stand before what is made of them; what nothing is made of any more may stand between.
+    pub(super) nodes: Vec<Node>,
+    pub(super) root: Id,
+    slots: usize,
+    draws: Vec<Draw>,
+}
+
+/// A part of a resolved formula, and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) value: Value,
+    pub(super) range: Range<usize>,
+}
+
+/// A part of a resolved formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value {
+    Constant(f64),
+    Slot(usize),
+    Unary(Unary, Id),
+    Binary(Binary, Id, Id),
+    Ternary(Ternary, Id, Id, Id),
+    /// The second where the first is not 0, and else the third; only one of the two is computed.
+    If(Id, Id, Id),
+}
+
+impl Formula {
+    /// Looks the names up.
+    ///
+    /// # Errors
+    /// Names that there are not, and random numbers where there can be none.
+    pub fn resolve(&self, scope: &Scope) -> Result<Resolved, Vec<ExpressionError>> {
+        let mut resolver =
+            Resolver { scope, builder: Builder::default(), draws: Vec::new(), errors: Vec::new() };
+        let mut ids: Vec<Id> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let id = resolver.node(self.text(), &node.part, &node.range, &ids);
+            ids.push(id);
+        }
+        if !resolver.errors.is_empty() {
+            return Err(resolver.errors);
+        }
+        Ok(Resolved {
+            nodes: resolver.builder.nodes,
+            root: ids.last().copied().unwrap_or(0),
+            slots: scope.slots(),
+            draws: resolver.draws,
+        })
+    }
+}
+
+impl Resolved {
+    /// The random numbers that an evaluation needs behind those for the names.
+    pub fn draws(&self) -> &[Draw] {
+        &self.draws
+    }
+
+    /// How many numbers an evaluation needs: one for each slot of the scope, then one for each draw.
+    pub fn inputs(&self) -> usize {
+        self.slots + self.draws.len()
+    }
+
+    /// The value, if it needs nothing to be given.
+    pub fn as_constant(&self) -> Option<f64> {
+        match self.nodes.get(self.root)?.value {
+            Value::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The same with the random numbers drawn once and for all, so that evaluations need only those for the names.
+    #[must_use]
+    pub fn with_draws(&self, drawn: &[f64]) -> Resolved {
+        let mut builder = Builder::default();
+        let mut ids: Vec<Id> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let range = node.range.clone();
+            let id = match node.value {
+                Value::Constant(value) => builder.constant(value, range),
+                Value::Slot(slot) => match slot.checked_sub(self.slots).and_then(|draw| drawn.get(draw)) {
+                    Some(value) => builder.constant(*value, range),
+                    None => builder.slot(slot, range),
+                },
+                Value::Unary(operation, a) => builder.unary(operation, ids[a], range),
+                Value::Binary(operation, a, b) => builder.binary(operation, ids[a], ids[b], range),
+                Value::Ternary(operation, a, b, c) => {
+                    builder.ternary(operation, [ids[a], ids[b], ids[c]], range)
+                }
+                Value::If(a, b, c) => builder.choice(ids[a], ids[b], ids[c], range),
+            };
+            ids.push(id);
+        }
+        let root = ids.get(self.root).copied().unwrap_or(0);
+        Resolved { nodes: builder.nodes, root, slots: self.slots, draws: Vec::new() }
+    }
+}
+
+struct Resolver<'a> {
+    scope: &'a Scope,
+    builder: Builder,
+    draws: Vec<Draw>,
+    errors: Vec<ExpressionError>,
+}
+
+impl Resolver<'_> {
+    /// The resolved part; `ids` are those of the parts before.
+    fn node(&mut self, text: &str, part: &Part, range: &Range<usize>, ids: &[Id]) -> Id {
+        let here = range.clone();
+        match part {
+            Part::Number(number) => self.builder.constant(*number, here),
+            Part::Name(name) => self.name(&text[name.clone()], here),
+            Part::Unary(operation, a) => self.builder.unary(*operation, ids[*a], here),
+            Part::Binary(operation, a, b) => self.builder.binary(*operation, ids[*a], ids[*b], here),
+            Part::And(a, b) => {
+                let (b, no) = (self.truth(ids[*b], range), self.builder.constant(0.0, here.clone()));
+                self.builder.choice(ids[*a], b, no, here)
+            }
+            Part::Or(a, b) => {
+                let (b, yes) = (self.truth(ids[*b], range), self.builder.constant(1.0, here.clone()));
+                self.builder.choice(ids[*a], yes, b, here)
+            }
+            Part::Call(function, values) => {
+                let values: Vec<Id> = values.iter().map(|value| ids[*value]).collect();
+                self.call(function, &values, range)
+            }
+        }
+    }
+
+    /// 1 where a value is not 0.
+    fn truth(&mut self, id: Id, range: &Range<usize>) -> Id {
+        let zero = self.builder.constant(0.0, range.clone());
+        self.builder.binary(Binary::NotEqual, id, zero, range.clone())
+    }
+
+    fn name(&mut self, name: &str, range: Range<usize>) -> Id {
+        match self.scope.get(name) {
+            Some(Binding::Constant(value)) => self.builder.constant(value, range),
+            Some(Binding::Slot(slot)) => self.builder.slot(slot, range),
+            None => {
+                self.errors.push(unknown(name, range.clone(), self.scope));
+                self.builder.constant(0.0, range)
+            }
+        }
+    }
+
+    fn call(&mut self, function: &Function, values: &[Id], range: &Range<usize>) -> Id {
+        let here = range.clone();
+        match (function.work, values) {
+            (Work::One(operation), &[a]) => self.builder.unary(operation, a, here),
+            (Work::Two(operation), &[a, b]) => self.builder.binary(operation, a, b, here),
+            (Work::Three(operation), &[a, b, c]) => self.builder.ternary(operation, [a, b, c], here),
+            (Work::Clamp, &[x, low, high]) => {
+                let above = self.builder.binary(Binary::Max, x, low, here.clone());
+                self.builder.binary(Binary::Min, above, high, here)
+            }
+            (Work::If, &[condition, then, otherwise]) => {
+                self.builder.choice(condition, then, otherwise, here)
+            }
+            (Work::Uniform, &[low, high]) => {
+                let draw = self.draw(Draw::Uniform, range);
+                self.builder.ternary(Ternary::Lerp, [low, high, draw], here)
+            }
+            (Work::Normal, &[mean, deviation]) => {
+                let draw = self.draw(Draw::Normal, range);
+                let off = self.builder.binary(Binary::Multiply, deviation, draw, here.clone());
+                self.builder.binary(Binary::Add, mean, off, here)
+            }
+            (Work::Chain(operation), [first, rest @ ..]) => rest
+                .iter()
+                .fold(*first, |so_far, next| self.builder.binary(operation, so_far, *next, range.clone())),
+            // The parser counts the values.
+            _ => self.builder.constant(0.0, here),
+        }
+    }
+
+    fn draw(&mut self, draw: Draw, range: &Range<usize>) -> Id {
+        if !self.scope.is_random() {
+            let message = "there are no random numbers here";
+            self.errors.push(error("formula-syntax", range.clone(), message));
+        }
+        self.draws.push(draw);
+        self.builder.slot(self.scope.slots() + self.draws.len() - 1, range.clone())
+    }
+}
+
+fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
+    if let Some(function) = Function::named(name) {
+        let message = format!("`{name}` is a function, and its values stand in parentheses");
+        return error("formula-syntax", range, message).label(format!("write `{}`", function.usage()));
+    }
+    let error = error("unknown-name", range, format!("there is no variable `{name}`"));
+    match name {
+        "t" => error.label("this number is set once, before the time begins"),
+        "inf" | "nan" => error.label("the numbers of a scene are finite"),
+        _ => {
+            let label = scope.suggest(name);
+            let is_near = label.starts_with("did you mean");
+            let error = error.label(label);
+            match is_near {
+                true => error,
+                false => error
+                    .help("where a number stands, a string is a formula, with the names of `[variables]`"),
+            }
+        }
+    }
+}

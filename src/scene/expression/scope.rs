@@ -1,0 +1,120 @@
+//! The names that a formula may use.
+
+use std::cell::Cell;
+use std::collections::HashMap;
+
+use super::function::{CONSTANTS, Function};
+use crate::diagnostic::nearest;
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Binding {
+    /// A number that is known when the formula is resolved.
+    Constant(f64),
+    /// The number in this slot when the formula is evaluated.
+    Slot(usize),
+}
+
+/// The names that a formula may use, besides the constants that every formula knows.
+#[derive(Clone, Debug)]
+pub struct Scope {
+    names: HashMap<String, Binding>,
+    slots: usize,
+    is_random: bool,
+    /// How many more names may be compared with unknown ones.
+    comparisons: Cell<usize>,
+}
+
+impl Default for Scope {
+    /// No names, and no `uniform` and `normal`.
+    fn default() -> Scope {
+        Scope { names: HashMap::new(), slots: 0, is_random: false, comparisons: Cell::new(200_000) }
+    }
+}
+
+impl Scope {
+    /// Lets formulas have random numbers: see [`Draw`](super::Draw).
+    #[must_use]
+    pub fn with_draws(mut self) -> Scope {
+        self.is_random = true;
+        self
+    }
+
+    /// Makes a name stand for a number that is known when the formula is resolved.
+    pub fn constant(&mut self, name: impl Into<String>, value: f64) {
+        self.names.insert(name.into(), Binding::Constant(value));
+    }
+
+    /// Makes a name stand for a number that is given at every evaluation, and says its place among those.
+    pub fn slot(&mut self, name: impl Into<String>) -> usize {
+        self.names.insert(name.into(), Binding::Slot(self.slots));
+        self.slots += 1;
+        self.slots - 1
+    }
+
+    /// How many numbers an evaluation needs for the names, before those for random draws.
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+
+    /// Whether a name can be given to something: letters, digits and `_`, no digit first, and no word of all formulas.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn is_free(name: &str) -> Result<(), &'static str> {
+        /// What `t` means is the same everywhere, also where it is not known.
+        const WORDS: [&str; 4] = ["and", "or", "not", "t"];
+        let mut bytes = name.bytes();
+        let starts_well = bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_');
+        if !starts_well || !bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
+            return Err("a name is made of the letters a to z, digits and `_`, with no digit first");
+        }
+        match name {
+            name if Function::named(name).is_some() => Err("this is a function of all formulas"),
+            name if super::function::constant(name).is_some() => Err("this is a constant of all formulas"),
+            "t" => Err("in formulas, `t` is the time"),
+            name if WORDS.contains(&name) => Err("this is a word of formulas"),
+            _ => Ok(()),
+        }
+    }
+
+    /// The number that a name stands for, if it stands for one that is known.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Binding::Constant(value) => Some(value),
+            Binding::Slot(_) => None,
+        }
+    }
+
+    pub(super) fn get(&self, name: &str) -> Option<Binding> {
+        self.names.get(name).copied().or_else(|| super::function::constant(name).map(Binding::Constant))
+    }
+
+    pub(super) fn is_random(&self) -> bool {
+        self.is_random
+    }
+
+    /// What to say of an unknown name: what was meant by it, or what there is.
+    pub(super) fn suggest(&self, name: &str) -> String {
+        if self.names.is_empty() {
+            return "the scene declares no variables".to_owned();
+        }
+        let Some(left) = self.comparisons.get().checked_sub(self.names.len()) else { return String::new() };
+        self.comparisons.set(left);
+        let mut names: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        // Always in the same order.
+        names.sort_unstable();
+        let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
+        // Of one letter, any other would be near.
+        let near = if name.len() == 1 {
+            all().find(|other| other.eq_ignore_ascii_case(name))
+        } else {
+            nearest(name, all())
+        };
+        match near {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.len() <= 12 => format!("there are `{}`", names.join("`, `")),
+            None => format!("none of the {} variables is called so", names.len()),
+        }
+    }
+}
