@@ -22,6 +22,7 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "integrators", place: "`integrator` of [simulation]", entries: integrators },
     Category { name: "shapes", place: "`shape` of [body.NAME]", entries: || variants(&["body", "shape"]) },
     Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
+    Category { name: "repeats", place: "`repeat` of [body.NAME]", entries: || variants(&["body", "repeat"]) },
     Category { name: "lights", place: "[light.NAME]", entries: || variants(&["light"]) },
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },

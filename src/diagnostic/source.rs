@@ -20,7 +20,7 @@ pub struct Sources(Vec<Source>);
 pub struct SourceId(usize);
 
 /// A range of bytes in one of the [`Sources`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     /// The text that the range lies in.
     pub source: SourceId,

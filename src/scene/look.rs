@@ -16,7 +16,7 @@ pub struct Material {
 }
 
 /// What a material is made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Look {
     /// One color all over.
     Plain {

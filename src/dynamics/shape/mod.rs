@@ -6,7 +6,7 @@ mod solids;
 #[cfg(test)]
 mod tests;
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 pub use compound::{Compound, Part};
 
@@ -153,6 +153,31 @@ impl Shape {
             // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
             Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
             Shape::Compound(ref compound) => return compound.support(direction),
+        })
+    }
+
+    /// The radius of a ball around the centre of mass that holds the whole shape, m. `None` for a plane.
+    ///
+    /// It is the smallest such ball, but for compounds, where it may be a little larger.
+    #[must_use]
+    pub fn bounding_radius(&self) -> Option<f64> {
+        Some(match *self {
+            Shape::Sphere { radius } => radius,
+            Shape::Box { size } => size.length() / 2.0,
+            Shape::RoundedBox { size, rounding } => (size / 2.0 - rounding).length() + rounding,
+            Shape::Cylinder { radius, height } => DVec2::new(radius, height / 2.0).length(),
+            Shape::Capsule { height, .. } => height / 2.0,
+            Shape::Cone { radius, top_radius, height } => {
+                let base = cone_base(radius, top_radius, height);
+                DVec2::new(radius, base).length().max(DVec2::new(top_radius, base + height).length())
+            }
+            Shape::Torus { radius, tube_radius } => radius + tube_radius,
+            Shape::Plane { .. } => return None,
+            Shape::Axes { length } => length * (1.0 + ARM_RADIUS),
+            Shape::Compound(ref compound) => {
+                let reach = |part: &Part| Some(part.location.length() + part.shape.bounding_radius()?);
+                compound.parts().iter().filter_map(reach).fold(0.0, f64::max)
+            }
         })
     }
 

@@ -8,7 +8,7 @@ use super::{Context, look, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, LibraryMaterial, Material};
+use crate::scene::{Body, LibraryMaterial, Look, Material};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -18,11 +18,18 @@ const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
     let tables = root.named("body");
     let mut palette = Palette::default();
+    // Copies are named at one and the same place.
+    let (mut last, mut copy) = (None, 0);
     let read = |(name, span, view): (&str, Span, View<'_>)| {
+        copy = if last == Some(span) { copy + 1 } else { 0 };
+        last = Some(span);
+        let before = context.diagnostics.len();
+        palette.copy(copy);
         let shape = shape::read(name, &view.table("shape"), context);
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
         let look = look::of_body(name, &view, &shape, context);
+        context.once(before, name, span);
         Body { name: name.to_owned(), shape, start, material, look }
     };
     tables.into_iter().map(read).collect()
@@ -168,6 +175,21 @@ fn euler(angles: DVec3) -> DQuat {
     turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
 }
 
+/// The number of a material of a body's own. Copies share it as far as they look the same.
+fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
+    /// So many of the latest materials are looked through.
+    const LATEST: usize = 16;
+    if let Some(original) = context.groups.original(name) {
+        let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);
+        let latest = materials.iter().enumerate().rev().take(LATEST).take_while(|(_, other)| of_copy(other));
+        if let Some((number, _)) = latest.into_iter().find(|(_, other)| other.look == look) {
+            return number;
+        }
+    }
+    materials.push(Material { name: name.to_owned(), look });
+    materials.len() - 1
+}
+
 /// The number of a body's material; bodies without one get one of the palette's, and axes have colors of their own.
 fn material(
     name: &str,
@@ -188,8 +210,7 @@ fn material(
     let usual = palette.next(shape);
     if let Some(table) = view.variant("material") {
         let look = super::material::look(&table, root, context);
-        materials.push(Material { name: name.to_owned(), look });
-        return Some(materials.len() - 1);
+        return Some(own_material(name, look, materials, context));
     }
     // An object in POV-Ray's own words brings its own textures along, which another one would cover.
     let has_own = view.table("shape").has("sdl");

@@ -7,6 +7,7 @@ mod camera;
 mod consequence;
 mod effect;
 mod force;
+pub(super) mod geometry;
 mod look;
 mod material;
 mod povray;
@@ -19,17 +20,17 @@ mod templates;
 mod validate;
 mod view;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use self::view::View;
-use super::expand;
+pub(super) use self::view::View;
+use super::expand::{self, Groups};
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, PovRay, Scene};
-use crate::diagnostic::{Diagnostic, Report, Severity, Sources};
+use crate::diagnostic::{Diagnostic, Report, Severity, Sources, Span};
 
 /// What a scene is made from.
 pub(super) struct Input<'a> {
@@ -48,12 +49,51 @@ struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
     names: Names,
+    /// The bodies that are copies of others.
+    groups: Groups,
+    /// What has been said of things that may have it from one and the same text: code and place.
+    told: HashSet<(&'static str, Span)>,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
+impl Context<'_> {
+    /// What a part of the check needs whose diagnostics are of no use.
+    fn silent() -> Context<'static> {
+        Context {
+            folder: None,
+            trust: false,
+            names: Names::default(),
+            groups: Groups::default(),
+            told: HashSet::new(),
+            comparisons: 0,
+            diagnostics: Vec::new(),
+        }
+    }
+
+    /// Of what has been said since there were `before` diagnostics, keeps what has not been said of another thing that has it from
+    /// the same text: all copies of a body have the same mistakes. `name` and `span` are those of the thing.
+    fn once(&mut self, before: usize, name: &str, span: Span) {
+        if self.diagnostics.len() == before {
+            return;
+        }
+        let is_later = self.groups.original(name).is_some()
+            && self.groups.ends(name).is_some_and(|[first, _]| first != name);
+        let mut said = self.diagnostics.split_off(before);
+        said.retain(|diagnostic| {
+            diagnostic.span().is_none_or(|span| !self.told.contains(&(diagnostic.code, span)))
+        });
+        self.told.extend(said.iter().filter_map(|diagnostic| Some((diagnostic.code, diagnostic.span()?))));
+        self.diagnostics.extend(said.into_iter().map(|diagnostic| match is_later {
+            true => diagnostic.at(span, format!("in `{name}`")),
+            false => diagnostic,
+        }));
+    }
+}
+
 /// The names that others may refer to, each with its number in the order of the file.
+#[derive(Default)]
 struct Names {
     bodies: HashMap<String, usize>,
     materials: HashMap<String, usize>,
@@ -94,14 +134,17 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         set.apply(&mut root, &mut sources, &mut diagnostics);
     }
 
+    let mut found = Vec::new();
+    let groups = expand::expand(&mut root, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,
         names: Names::of(&root),
+        groups,
+        told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
-        diagnostics: Vec::new(),
+        diagnostics: found,
     };
-    expand::expand(&mut root, &sources, &mut context.diagnostics);
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &mut context);
     let mut found = context.diagnostics;

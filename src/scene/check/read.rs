@@ -101,6 +101,16 @@ pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64;
     if errors.is_empty() { Ok(numbers) } else { Err(errors) }
 }
 
+/// So many formulas, or numbers in their place; every wrong one is an error of its own.
+pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>> {
+    let items = items(node, &Kind::Formulas(count), count, count).map_err(|error| vec![error])?;
+    let is_formula = |item: &&Node| matches!(item.value, Value::String(_) | Value::Invalid);
+    let errors =
+        items.iter().filter(|item| !is_formula(item)).filter_map(|item| number(item, Bound::Any).err());
+    let errors: Vec<Diagnostic> = errors.collect();
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
 /// A unit vector in the direction of numbers that are not all zero.
 pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Diagnostic>> {
     let numbers = numbers::<N>(node, Bound::Any)?;

@@ -137,6 +137,7 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         Kind::Integer(low, high) => keep(read::integer(node, *low, *high), context),
         Kind::Numbers(4, bound) => keep_all(read::numbers::<4>(node, *bound), context),
         Kind::Numbers(_, bound) => keep_all(read::numbers::<3>(node, *bound), context),
+        Kind::Formulas(count) => keep_all(read::formulas(node, *count), context),
         Kind::Direction(4) => keep_all(read::direction::<4>(node), context),
         Kind::Direction(_) => keep_all(read::direction::<3>(node), context),
         Kind::Color => keep_all(read::color(node), context),
@@ -209,10 +210,13 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
         return;
     };
     for entry in &tables.entries {
-        let path = format!("[{word}.{}]", as_key(&entry.name.text));
+        let shown = context.groups.original(&entry.name.text).unwrap_or(&entry.name.text);
+        let path = format!("[{word}.{}]", as_key(shown));
+        let before = context.diagnostics.len();
         match entry.node.as_table() {
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);
+                context.once(before, &entry.name.text, entry.name.span);
             }
             None if matches!(entry.node.value, Value::Invalid) => {}
             _ => {
@@ -272,11 +276,15 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
         Collection::Body => Vec::new(),
         Collection::Material => MATERIALS.iter().map(|material| material.name).collect(),
     };
-    if names.contains_key(word) || library.contains(&word) {
+    let is_body = collection == Collection::Body;
+    if names.contains_key(word) || library.contains(&word) || is_body && context.groups.may_hold(word) {
         return;
     }
     let noun = collection.key();
-    let label = if names.len() + library.len() > context.comparisons {
+    let copies = if is_body { context.groups.ends(word) } else { None };
+    let label = if let Some([first, last]) = copies {
+        format!("its copies are `{first}` to `{last}`")
+    } else if names.len() + library.len() > context.comparisons {
         String::new()
     } else {
         let mut known: Vec<&str> = names.keys().map(String::as_str).collect();

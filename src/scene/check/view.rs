@@ -11,13 +11,13 @@ use crate::scene::source::{Node, Table, Value};
 /// A table as its description knows it, to read values from. A value that is absent, or wrong (which the
 /// validation has said), reads as `None`.
 #[derive(Clone, Copy)]
-pub(super) struct View<'a> {
+pub(in crate::scene) struct View<'a> {
     spec: &'static TableSpec,
     table: Option<&'a Table>,
 }
 
 impl<'a> View<'a> {
-    pub(super) fn new(spec: &'static TableSpec, table: Option<&'a Table>) -> View<'a> {
+    pub(in crate::scene) fn new(spec: &'static TableSpec, table: Option<&'a Table>) -> View<'a> {
         View { spec, table }
     }
 
@@ -38,46 +38,46 @@ impl<'a> View<'a> {
     }
 
     /// Where the value of a key stands.
-    pub(super) fn span(&self, name: &str) -> Option<Span> {
+    pub(in crate::scene) fn span(&self, name: &str) -> Option<Span> {
         self.node(name).map(|node| node.span)
     }
 
     /// Where a key itself stands.
-    pub(super) fn key_span(&self, name: &str) -> Option<Span> {
+    pub(in crate::scene) fn key_span(&self, name: &str) -> Option<Span> {
         self.table?.get(name).map(|entry| entry.name.span)
     }
 
     /// Whether a key is there, whatever its value.
-    pub(super) fn has(&self, name: &str) -> bool {
+    pub(in crate::scene) fn has(&self, name: &str) -> bool {
         self.node(name).is_some()
     }
 
-    pub(super) fn number(&self, name: &str) -> Option<f64> {
+    pub(in crate::scene) fn number(&self, name: &str) -> Option<f64> {
         let Kind::Number(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Number(_)))? else {
             return None;
         };
         read::number(self.node(name)?, *bound).ok()
     }
 
-    pub(super) fn integer(&self, name: &str) -> Option<i64> {
+    pub(in crate::scene) fn integer(&self, name: &str) -> Option<i64> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::Integer(..)))?;
         let Kind::Integer(low, high) = kind else { return None };
         read::integer(self.node(name)?, *low, *high).ok()
     }
 
-    pub(super) fn vector(&self, name: &str) -> Option<DVec3> {
+    pub(in crate::scene) fn vector(&self, name: &str) -> Option<DVec3> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::Numbers(3, _)))?;
         let Kind::Numbers(_, bound) = kind else { return None };
         read::vector(self.node(name)?, *bound)
     }
 
     /// A direction as a unit vector.
-    pub(super) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
+    pub(in crate::scene) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         self.kind_of(name, |kind| matches!(kind, Kind::Direction(n) if *n == N))?;
         read::direction(self.node(name)?).ok()
     }
 
-    pub(super) fn boolean(&self, name: &str) -> Option<bool> {
+    pub(in crate::scene) fn boolean(&self, name: &str) -> Option<bool> {
         self.kind_of(name, |kind| matches!(kind, Kind::Boolean))?;
         match self.node(name)?.value {
             Value::Boolean(value) => Some(value),
@@ -85,24 +85,46 @@ impl<'a> View<'a> {
         }
     }
 
-    pub(super) fn color(&self, name: &str) -> Option<Color> {
+    pub(in crate::scene) fn color(&self, name: &str) -> Option<Color> {
         self.kind_of(name, |kind| matches!(kind, Kind::Color))?;
         read::color(self.node(name)?).ok()
     }
 
     /// A string of any kind.
-    pub(super) fn text(&self, name: &str) -> Option<&'a str> {
+    pub(in crate::scene) fn text(&self, name: &str) -> Option<&'a str> {
         self.node(name)?.as_str()
     }
 
     /// The items of a list.
-    pub(super) fn list(&self, name: &str) -> Option<&'a [Node]> {
+    pub(in crate::scene) fn list(&self, name: &str) -> Option<&'a [Node]> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { .. }))?;
         read::list(self.node(name)?, kind).ok()
     }
 
+    /// The whole numbers of a list; none where one of them is wrong.
+    pub(in crate::scene) fn integers(&self, name: &str) -> Option<Vec<i64>> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Integer(..), .. }))?;
+        let Kind::List { of: Kind::Integer(low, high), .. } = kind else { return None };
+        self.list(name)?.iter().map(|item| read::integer(item, *low, *high).ok()).collect()
+    }
+
+    /// The numbers of a list of any length; none where one of them is wrong.
+    pub(in crate::scene) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Number(_), .. }))?;
+        let Kind::List { of: Kind::Number(bound), .. } = kind else { return None };
+        let items = read::list(self.node(name)?, kind).ok()?;
+        items.iter().map(|item| read::number(item, *bound).ok()).collect()
+    }
+
+    /// The vectors of a list; none where one of them is wrong.
+    pub(in crate::scene) fn vectors(&self, name: &str) -> Option<Vec<DVec3>> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Numbers(3, _), .. }))?;
+        let Kind::List { of: Kind::Numbers(_, bound), .. } = kind else { return None };
+        self.list(name)?.iter().map(|item| read::vector(item, *bound)).collect()
+    }
+
     /// A table inside this one; an empty one where it is absent.
-    pub(super) fn table(&self, name: &str) -> View<'a> {
+    pub(in crate::scene) fn table(&self, name: &str) -> View<'a> {
         let spec = match self.kind_of(name, |kind| matches!(kind, Kind::Table(_))) {
             Some(Kind::Table(spec)) => *spec,
             _ => self.spec,
@@ -111,13 +133,13 @@ impl<'a> View<'a> {
     }
 
     /// A table inside this one, if the key is there and is a table.
-    pub(super) fn variant(&self, name: &str) -> Option<View<'a>> {
+    pub(in crate::scene) fn variant(&self, name: &str) -> Option<View<'a>> {
         let view = self.table(name);
         view.table.is_some().then_some(view)
     }
 
     /// The tables of a list of tables.
-    pub(super) fn tables(&self, name: &str) -> Vec<View<'a>> {
+    pub(in crate::scene) fn tables(&self, name: &str) -> Vec<View<'a>> {
         let Some(Kind::List { of: Kind::Table(spec), .. }) =
             self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Table(_), .. }))
         else {
@@ -128,7 +150,7 @@ impl<'a> View<'a> {
     }
 
     /// The tables with names under a key: name, where the name stands, table.
-    pub(super) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
+    pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
             return Vec::new();
         };

@@ -4,29 +4,37 @@
 //! keeps the place of the string, so that all that comes after sees numbers only. What has no value becomes
 //! [`Value::Invalid`], after it has been said why.
 
+mod groups;
 mod place;
 mod random;
+mod repeat;
 #[cfg(test)]
 mod tests;
 mod variables;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
+pub(super) use self::groups::Groups;
 use self::random::Stream;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
-use super::grammar::{Kind, SCENE, TableSpec};
+use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Node, Table, Value};
 use crate::diagnostic::{Diagnostic, Sources, Span};
 
-/// Replaces every formula of a scene by its value.
-pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<Diagnostic>) {
+/// Replaces every formula of a scene by its value, and every body that is repeated by its copies, which are returned.
+pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<Diagnostic>) -> Groups {
     let mut expander = Expander {
         sources,
         scope: Scope::default(),
         broken: HashSet::new(),
         seed: 0,
         path: String::new(),
+        copy: None,
+        copies: 0,
+        groups: Groups::default(),
+        variable_spans: HashMap::new(),
+        told: HashSet::new(),
         diagnostics,
     };
     if let Some(entry) = root.get_mut("seed") {
@@ -40,7 +48,13 @@ pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<
     if let Some(Value::Table(table)) = root.get_mut("variables").map(|entry| &mut entry.node.value) {
         expander.variables(table);
     }
+    if let Some(Value::Table(bodies)) = root.get_mut("body").map(|entry| &mut entry.node.value)
+        && let Some(Kind::Named(spec)) = SCENE.key("body").map(|key| &key.kind)
+    {
+        expander.repeat(bodies, spec);
+    }
     expander.table(root, &SCENE);
+    expander.groups
 }
 
 /// What is known while formulas are evaluated.
@@ -53,6 +67,15 @@ struct Expander<'a> {
     seed: u64,
     /// The path of the value that is looked at: `body.ball.location[1]`.
     path: String,
+    /// The name of the copy that is looked at, if it is one.
+    copy: Option<String>,
+    /// How many copies there are so far.
+    copies: usize,
+    groups: Groups,
+    /// Where the variables are named.
+    variable_spans: HashMap<String, Span>,
+    /// The formulas of which it has been said what is wrong: in all copies it is the same one.
+    told: HashSet<Span>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
@@ -66,7 +89,7 @@ impl Expander<'_> {
     }
 
     /// Does what is to be done with the value of a key.
-    fn below(&mut self, key: &str, work: impl FnOnce(&mut Self)) {
+    fn below<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
         let length = self.path.len();
         if length > 0 {
             self.path.push('.');
@@ -78,8 +101,9 @@ impl Expander<'_> {
             // A name with a dot in it is not the way to another table.
             let _ = write!(self.path, "{key:?}");
         }
-        work(self);
+        let done = work(self);
         self.path.truncate(length);
+        done
     }
 
     fn value(&mut self, node: &mut Node, kind: &'static Kind) {
@@ -89,7 +113,12 @@ impl Expander<'_> {
             (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color, Value::Array(_)) => {
                 self.items(node, Expander::number);
             }
-            (Kind::List { of, .. }, Value::Array(_)) => self.items(node, |this, item| this.value(item, of)),
+            (Kind::List { of, .. }, Value::Array(_)) => {
+                self.items(node, |this, item| this.value(item, of));
+                if let (true, Value::Array(items)) = (of.names(Collection::Body), &mut node.value) {
+                    self.groups.spread(items);
+                }
+            }
             (Kind::Table(spec), Value::Table(inner)) => self.table(inner, spec),
             (Kind::Named(spec), Value::Table(tables)) => {
                 for entry in &mut tables.entries {
@@ -142,9 +171,11 @@ impl Expander<'_> {
         if value.trunc() == value && value.abs() <= LARGEST {
             node.value = Value::Integer(value as i64);
         } else {
-            let message = format!("expected a whole number, found {value}");
+            let message = format!("expected a whole number, found {value}{}", self.in_copy());
             let error = Diagnostic::error("wrong-type", message).at(node.span, "the value of this formula");
-            self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
+            if self.told.insert(node.span) {
+                self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
+            }
             node.value = Value::Invalid;
         }
     }
@@ -162,7 +193,10 @@ impl Expander<'_> {
         }
         let resolved = self.keep(formula.resolve(&self.scope), formula.text(), span)?;
         let drawn = self.drawn(&resolved);
-        let value = resolved.value(&drawn).map_err(|error| vec![error]);
+        let value = resolved.value(&drawn).map_err(|mut error| {
+            error.message.push_str(&self.in_copy());
+            vec![error]
+        });
         self.keep(value, formula.text(), span)
     }
 
@@ -171,12 +205,22 @@ impl Expander<'_> {
         if resolved.draws().is_empty() {
             return Vec::new();
         }
-        let mut stream = Stream::new(self.seed, &self.path);
+        let mut stream = self.stream("");
         let draw = |draw: &Draw| match draw {
             Draw::Uniform => stream.uniform(),
             Draw::Normal => stream.normal(),
         };
         resolved.draws().iter().map(draw).collect()
+    }
+
+    /// The random numbers of the place that is looked at, or of one below it.
+    fn stream(&self, below: &str) -> Stream {
+        Stream::new(self.seed, &format!("{}{below}", self.path))
+    }
+
+    /// The copy that is looked at, to stand at the end of a message.
+    fn in_copy(&self) -> String {
+        self.copy.as_ref().map_or_else(String::new, |name| format!(", in `{name}`"))
     }
 
     /// Keeps what is wrong with a formula, at its place in the scene.
@@ -185,6 +229,9 @@ impl Expander<'_> {
             Ok(value) => return Some(value),
             Err(errors) => errors,
         };
+        if !self.told.insert(span) {
+            return None;
+        }
         for error in errors {
             let place = place::in_string(self.raw(span), text, &error.range, span);
             let diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);

@@ -55,6 +55,7 @@ impl Expander<'_> {
                 self.diagnostics.push(error.at(entry.name.span, why));
                 continue;
             }
+            self.variable_spans.insert(name.clone(), entry.name.span);
             let span = entry.node.span;
             let value = match &entry.node.value {
                 Value::String(text) => match self.keep(Formula::parse(text), text, span) {

@@ -113,6 +113,7 @@ impl Scope {
         };
         match near {
             Some(near) => format!("did you mean `{near}`?"),
+            None if names.len() == 1 => format!("there is only `{}`", names[0]),
             None if names.len() <= 12 => format!("there are `{}`", names.join("`, `")),
             None => format!("none of the {} variables is called so", names.len()),
         }

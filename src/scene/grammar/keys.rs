@@ -7,6 +7,7 @@ use super::Kind::{
     Numbers, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
+use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
@@ -174,6 +175,13 @@ static BODY: TableSpec = TableSpec {
         .default("a color of the palette, after its place in the file")
         .also(&["texture"]),
         Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
+        Key::new(
+            "repeat",
+            Either(&[COUNT, Table(&REPEAT)]),
+            "Many from one: a number of copies, or how they stand; their `location` is counted from where that puts them",
+        )
+        .default("one body")
+        .also(&["array", "copies", "instances", "clone", "duplicate"]),
     ],
 };
 

@@ -16,6 +16,8 @@ pub enum Kind {
     Integer(i64, i64),
     /// A list of so many numbers, each within a bound.
     Numbers(usize, Bound),
+    /// A list of so many formulas of a parameter, each a string or a number.
+    Formulas(usize),
     /// Three or four numbers that are not all zero: their direction counts, not their length.
     Direction(usize),
     /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
@@ -127,6 +129,15 @@ impl Kind {
         }
     }
 
+    /// Whether a value of this kind is, or may be, the name of one of these things.
+    pub fn names(&self, collection: Collection) -> bool {
+        match self {
+            Kind::Reference(named) => *named == collection,
+            Kind::Either(kinds) => kinds.iter().any(|kind| kind.names(collection)),
+            _ => false,
+        }
+    }
+
     /// Whether a value is of the TOML type that the kind is written in, or a formula where it is a number.
     pub fn takes(&self, value: &Value) -> bool {
         match self {
@@ -140,7 +151,9 @@ impl Kind {
             Kind::Boolean => matches!(value, Value::Boolean(_)),
             Kind::Number(_) => matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_)),
             Kind::Integer(..) => matches!(value, Value::Integer(_) | Value::String(_)),
-            Kind::Numbers(..) | Kind::Direction(_) | Kind::List { .. } => matches!(value, Value::Array(_)),
+            Kind::Numbers(..) | Kind::Formulas(_) | Kind::Direction(_) | Kind::List { .. } => {
+                matches!(value, Value::Array(_))
+            }
             Kind::Color => matches!(value, Value::Array(_) | Value::String(_)),
             Kind::Table(_) | Kind::Named(_) | Kind::Variables => matches!(value, Value::Table(_)),
             Kind::Either(kinds) => kinds.iter().any(|kind| kind.takes(value)),
@@ -158,6 +171,7 @@ impl Kind {
                 Bound::Any => format!("a list of {count} numbers"),
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
+            Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
             Kind::Color => {
                 "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name of CSS)".to_owned()

@@ -8,6 +8,7 @@ mod forces;
 mod keys;
 mod kind;
 mod reference;
+mod repeat;
 mod schema;
 mod shapes;
 
@@ -15,6 +16,7 @@ pub use keys::SCENE;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
 pub use reference::reference;
+pub use repeat::MAX_COPIES;
 pub use schema::schema;
 
 /// One key of a table.

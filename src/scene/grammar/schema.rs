@@ -81,6 +81,7 @@ fn kind(kind: &Kind) -> Map<String, Value> {
             object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
         }
         Kind::Numbers(count, bound) => list(number(*bound), *count, *count),
+        Kind::Formulas(count) => list(number(Bound::Any), *count, *count),
         Kind::Direction(count) => {
             let mut numbers = list(number(Bound::Any), *count, *count);
             numbers.insert("contains".to_owned(), json!({ "not": { "enum": [0] } }));

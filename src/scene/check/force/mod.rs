@@ -4,6 +4,8 @@ mod on;
 mod pairs;
 mod spring;
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 
 use super::Context;
@@ -25,10 +27,25 @@ struct Reader<'a, 'c> {
 pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Force> {
     let tables = root.named("force");
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let kind = Reader { name, span, bodies, context }.kind(&view)?;
+        let before = context.diagnostics.len();
+        let kind = Reader { name, span, bodies, context }.kind(&view);
+        once_a_name(before, span, context);
+        let kind = kind?;
         Some(Force { name: name.to_owned(), kind })
     };
     tables.into_iter().filter_map(read).collect()
+}
+
+/// Of what has been said since there were `before` diagnostics, keeps one of those of a kind about one name: that of a body with a
+/// `repeat` means all of its copies. What is said of the force as a whole, at `force`, stays.
+fn once_a_name(before: usize, force: Span, context: &mut Context<'_>) {
+    let mut told = HashSet::new();
+    let said = context.diagnostics.split_off(before);
+    let is_new = |diagnostic: &Diagnostic| match diagnostic.span() {
+        Some(span) if span != force => told.insert((diagnostic.code, span)),
+        _ => true,
+    };
+    context.diagnostics.extend(said.into_iter().filter(is_new));
 }
 
 impl Reader<'_, '_> {

@@ -1,0 +1,237 @@
+//! `repeat`: many bodies from one table.
+//!
+//! A copy has the name of its body with its index, `brick[3,0]`, and so numbers of its own: its random numbers follow from that
+//! name, and those of a copy that is added change none of the others'.
+
+mod curve;
+mod pattern;
+mod scatter;
+
+use std::fmt::Write as _;
+
+use glam::{DQuat, DVec3};
+
+use self::pattern::Pattern;
+use super::Expander;
+use super::groups::Group;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::check::{View, geometry};
+use crate::scene::grammar::{MAX_COPIES, TableSpec};
+use crate::scene::source::{Entry, Name, Node, Table, Value};
+
+/// What formulas call the index of a copy in each direction.
+pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
+
+/// A copy of a body, before it stands where it belongs.
+struct Copy {
+    name: String,
+    index: [usize; 3],
+    table: Table,
+}
+
+/// Where a pattern puts a copy, from the location of its body.
+pub(super) struct Place {
+    offset: DVec3,
+    turn: DQuat,
+}
+
+impl Expander<'_> {
+    /// Puts its copies in the place of every body that has a `repeat`.
+    pub(super) fn repeat(&mut self, bodies: &mut Table, spec: &'static TableSpec) {
+        if !bodies.entries.iter().any(has_repeat) {
+            return;
+        }
+        let mut all = Vec::with_capacity(bodies.entries.len());
+        for entry in std::mem::take(&mut bodies.entries) {
+            if has_repeat(&entry) {
+                let name = entry.name.text.clone();
+                self.below("body", |this| this.copies(entry, &name, spec, &mut all));
+            } else {
+                all.push(entry);
+            }
+        }
+        self.unique(&all);
+        bodies.entries = all;
+    }
+
+    /// Adds the copies of a body.
+    fn copies(&mut self, entry: Entry, name: &str, spec: &'static TableSpec, all: &mut Vec<Entry>) {
+        let Entry { name: Name { span: named, .. }, node: Node { span, value } } = entry;
+        let Value::Table(mut table) = value else { return };
+        let Some(place) = table.entries.iter().position(|entry| entry.name.text == "repeat") else { return };
+        let mut repeat = table.entries.remove(place);
+        if let Some(key) = spec.key("repeat") {
+            self.below(name, |this| this.below("repeat", |this| this.value(&mut repeat.node, &key.kind)));
+        }
+        let pattern = self.below(name, |this| this.below("repeat", |this| this.pattern(&repeat, spec)));
+        let counts = pattern.as_ref().map(Pattern::counts);
+        let counts = counts.filter(|counts| self.is_affordable(counts, name, &repeat));
+        let is_known = counts.is_some();
+        // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
+        let counts = counts.unwrap_or_else(|| vec![1]);
+        self.collisions(&counts, name, &repeat);
+        self.groups.add(name, Group { counts: counts.clone(), is_known });
+
+        let mut copies = Vec::new();
+        let scope = self.scope.clone();
+        for index in indices(&counts) {
+            let name = copy_name(name, &index[..counts.len()]);
+            for (letter, number) in INDICES.iter().zip(&index).take(counts.len()) {
+                #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
+                self.scope.constant(*letter, *number as f64);
+            }
+            let mut table = table.clone();
+            self.copy = Some(name.clone());
+            self.below(&name, |this| this.table(&mut table, spec));
+            self.copy = None;
+            copies.push(Copy { name, index, table });
+        }
+        self.scope = scope;
+        if let (Some(pattern), true) = (pattern, is_known) {
+            self.place(&pattern, &mut copies, name, &repeat, spec);
+        }
+        let node = |value| Node { span, value };
+        let first = all.len();
+        all.extend(copies.into_iter().map(|copy| Entry {
+            name: Name { span: named, text: copy.name },
+            node: node(Value::Table(copy.table)),
+        }));
+        // The validation still has to see it, once.
+        if let Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) = all.get_mut(first) {
+            table.entries.push(repeat);
+        }
+    }
+
+    /// Whether there is room for so many copies; it is said if there is none.
+    fn is_affordable(&mut self, counts: &[usize], name: &str, repeat: &Entry) -> bool {
+        let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
+        let number = counts.iter().fold(1usize, |product, count| product.saturating_mul(*count));
+        let all = self.copies.saturating_add(number);
+        if all <= most {
+            self.copies = all;
+            return true;
+        }
+        let message = format!("{all} bodies are too many: `repeat` makes at most {MAX_COPIES}");
+        let label = format!("{number} copies of `{name}`");
+        self.diagnostics.push(Diagnostic::error("too-many-copies", message).at(repeat.node.span, label));
+        false
+    }
+
+    /// Says which variables have the name of an index that the copies are told apart by.
+    fn collisions(&mut self, counts: &[usize], name: &str, repeat: &Entry) {
+        for letter in INDICES.into_iter().take(counts.len()) {
+            let Some(&variable) = self.variable_spans.get(letter) else { continue };
+            if !self.told.insert(variable) {
+                continue;
+            }
+            let message = format!("the variable `{letter}` has the name of an index");
+            let error = Diagnostic::error("index-name", message).at(variable, "give it another name");
+            let label = format!("`{letter}` counts the copies of `{name}`");
+            self.diagnostics.push(error.at(repeat.name.span, label));
+        }
+    }
+
+    /// Says which bodies are called as a copy is.
+    fn unique(&mut self, all: &[Entry]) {
+        let mut names = std::collections::HashMap::with_capacity(all.len());
+        for Entry { name: Name { span, text }, .. } in all {
+            if let Some(other) = names.insert(text, *span) {
+                let message = format!("two bodies are called `{text}`");
+                let (copy, own) = if other > *span { (*span, other) } else { (other, *span) };
+                let error = Diagnostic::error("same-name", message).at(own, "one is here");
+                self.diagnostics.push(error.at(copy, "a `repeat` makes the other"));
+            }
+        }
+    }
+
+    /// Moves and turns the copies to where the pattern has them.
+    fn place(
+        &mut self,
+        pattern: &Pattern,
+        copies: &mut [Copy],
+        name: &str,
+        repeat: &Entry,
+        spec: &'static TableSpec,
+    ) {
+        let places = match pattern {
+            Pattern::Count(_) => return,
+            Pattern::Scatter(scatter) => {
+                let sizes: Vec<_> =
+                    copies.iter().map(|copy| geometry::of(&copy.table, spec).radius).collect();
+                let stream = |n: usize| self.stream(&format!(".{:?}.repeat", copies[n].name));
+                match scatter.places(&sizes, stream) {
+                    Ok(places) => places,
+                    Err(full) => {
+                        self.diagnostics.push(full.diagnostic(name, copies.len(), repeat.node.span));
+                        return;
+                    }
+                }
+            }
+            pattern => copies.iter().map(|copy| pattern.place(copy.index)).collect(),
+        };
+        for (copy, Place { offset, turn }) in copies.iter_mut().zip(places) {
+            let has_turned = turn != DQuat::IDENTITY;
+            if has_turned && is_whole(&copy.table, "orientation") {
+                let turn = turn * geometry::of(&copy.table, spec).orientation;
+                let quaternion = numbers(&turn.normalize().to_array(), repeat.node.span);
+                let name = Name { span: repeat.name.span, text: "quaternion".to_owned() };
+                let table = Table { entries: vec![Entry { name, node: quaternion }] };
+                put(&mut copy.table, "orientation", Value::Table(table), repeat);
+            }
+            if is_whole(&copy.table, "location") {
+                let own = View::new(spec, Some(&copy.table)).vector("location");
+                let location = numbers(&(own.unwrap_or(DVec3::ZERO) + offset).to_array(), repeat.node.span);
+                if own.is_some() || copy.table.get("location").is_none() {
+                    put(&mut copy.table, "location", location.value, repeat);
+                }
+            }
+        }
+    }
+}
+
+/// Whether an entry is a table with the key.
+fn has_repeat(entry: &Entry) -> bool {
+    entry.node.as_table().is_some_and(|table| table.get("repeat").is_some())
+}
+
+/// Whether the value of a key has been evaluated, or is not there at all.
+fn is_whole(table: &Table, key: &str) -> bool {
+    table.get(key).is_none_or(|entry| !matches!(entry.node.value, Value::Invalid))
+}
+
+/// Puts a value in the place of that of a key, or adds it where there is none, as if it stood in the `repeat`.
+fn put(table: &mut Table, key: &str, value: Value, repeat: &Entry) {
+    match table.get_mut(key) {
+        Some(entry) => entry.node.value = value,
+        None => table.entries.push(Entry {
+            name: Name { span: repeat.name.span, text: key.to_owned() },
+            node: Node { span: repeat.node.span, value },
+        }),
+    }
+}
+
+/// A list of numbers.
+fn numbers(numbers: &[f64], span: Span) -> Node {
+    let node = |number: &f64| Node { span, value: Value::Float(*number) };
+    Node { span, value: Value::Array(numbers.iter().map(node).collect()) }
+}
+
+/// The name of a copy: `brick[3,0]`.
+pub(super) fn copy_name(name: &str, index: &[usize]) -> String {
+    let mut text = format!("{name}[");
+    for (direction, number) in index.iter().enumerate() {
+        let _ = write!(text, "{}{number}", if direction == 0 { "" } else { "," });
+    }
+    text.push(']');
+    text
+}
+
+/// All indices of a grid, the last direction running fastest. Directions that there are not are 0.
+pub(super) fn indices(counts: &[usize]) -> impl Iterator<Item = [usize; 3]> + use<> {
+    let count = |direction: usize| counts.get(direction).copied().unwrap_or(1);
+    let [ni, nj, nk] = [count(0), count(1), count(2)];
+    (0..ni).flat_map(move |i| (0..nj).flat_map(move |j| (0..nk).map(move |k| [i, j, k])))
+}
+
+#[cfg(test)]
+mod tests;

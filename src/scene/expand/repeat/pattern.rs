@@ -1,0 +1,150 @@
+//! How copies stand.
+
+use glam::{DQuat, DVec3};
+
+use super::Place;
+use super::curve::Curve;
+use super::scatter::Scatter;
+use crate::diagnostic::Diagnostic;
+use crate::scene::check::View;
+use crate::scene::expand::Expander;
+use crate::scene::grammar::TableSpec;
+use crate::scene::source::{Entry, Node, Table, Value};
+
+/// How copies stand.
+pub(super) enum Pattern {
+    /// So many, where their formulas have them.
+    Count(usize),
+    Grid {
+        counts: Vec<usize>,
+        spacing: DVec3,
+    },
+    Ring {
+        count: usize,
+        radius: f64,
+        axis: DVec3,
+        turned: bool,
+    },
+    Line {
+        count: usize,
+        from: DVec3,
+        to: DVec3,
+    },
+    Curve(Curve),
+    Scatter(Scatter),
+}
+
+/// Of a positive number of copies.
+fn number(count: i64) -> usize {
+    usize::try_from(count).unwrap_or(1)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "there are few enough copies")]
+pub(super) fn fraction(n: usize, of: usize) -> f64 {
+    if of == 0 { 0.0 } else { n as f64 / of as f64 }
+}
+
+impl Expander<'_> {
+    /// The pattern of a repeat; none where it is wrong, which the validation says, or has been said.
+    pub(super) fn pattern(&mut self, repeat: &Entry, spec: &'static TableSpec) -> Option<Pattern> {
+        let alone = Table { entries: vec![repeat.clone()] };
+        let body = View::new(spec, Some(&alone));
+        if matches!(repeat.node.value, Value::Integer(_)) {
+            return Some(Pattern::Count(number(body.integer("repeat")?)));
+        }
+        let view = body.variant("repeat")?;
+        if view.has("count") {
+            return Some(Pattern::Count(number(view.integer("count")?)));
+        }
+        if let Some(grid) = view.variant("grid") {
+            return self.grid(&grid);
+        }
+        if let Some(ring) = view.variant("ring") {
+            return Some(Pattern::Ring {
+                count: number(ring.integer("count")?),
+                radius: ring.number("radius")?,
+                axis: match ring.has("axis") {
+                    true => DVec3::from_array(ring.direction::<3>("axis")?),
+                    false => DVec3::Y,
+                },
+                turned: ring.boolean("turned").unwrap_or(true),
+            });
+        }
+        if let Some(line) = view.variant("line") {
+            let (count, to) = (number(line.integer("count")?), line.vector("to")?);
+            return Some(Pattern::Line { count, from: line.vector("from").unwrap_or(DVec3::ZERO), to });
+        }
+        if let Some(view) = view.variant("curve") {
+            let at = Curve::formulas(&repeat.node);
+            return self.curve(&view, at).map(Pattern::Curve);
+        }
+        Scatter::read(&view.variant("scatter")?).map(Pattern::Scatter)
+    }
+
+    fn grid(&mut self, view: &View<'_>) -> Option<Pattern> {
+        let counts = view.integers("count")?;
+        let counts: Vec<usize> = counts.into_iter().map(number).collect();
+        let spacing = match view.number("spacing") {
+            Some(spacing) => vec![spacing; counts.len()],
+            None if view.has("spacing") => view.numbers("spacing")?,
+            None => vec![0.0; counts.len()],
+        };
+        if spacing.len() != counts.len() {
+            let directions = match counts.len() {
+                1 => "1 direction".to_owned(),
+                more => format!("{more} directions"),
+            };
+            let message = format!("expected spacings of {directions}, found {}", spacing.len());
+            let error = Diagnostic::error("wrong-length", message).help("one number is for all directions");
+            let (spacing, count) = (view.span("spacing")?, view.span("count")?);
+            self.diagnostics.push(error.at(spacing, "").at(count, format!("the grid has {directions}")));
+            return None;
+        }
+        let along = |direction: usize| spacing.get(direction).copied().unwrap_or(0.0);
+        Some(Pattern::Grid { counts, spacing: DVec3::new(along(0), along(1), along(2)) })
+    }
+}
+
+impl Pattern {
+    /// The numbers of copies in each direction.
+    pub(super) fn counts(&self) -> Vec<usize> {
+        match self {
+            Pattern::Count(count) | Pattern::Ring { count, .. } | Pattern::Line { count, .. } => vec![*count],
+            Pattern::Grid { counts, .. } => counts.clone(),
+            Pattern::Curve(curve) => vec![curve.count()],
+            Pattern::Scatter(scatter) => vec![scatter.count],
+        }
+    }
+
+    /// Where a copy stands. (Those that are scattered are placed together.)
+    pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> Place {
+        let here = |offset: DVec3| Place { offset, turn: DQuat::IDENTITY };
+        match self {
+            Pattern::Count(_) | Pattern::Scatter(_) => here(DVec3::ZERO),
+            Pattern::Grid { spacing, .. } => {
+                #[allow(clippy::cast_precision_loss, reason = "there are few enough copies")]
+                let index = DVec3::new(i as f64, j as f64, k as f64);
+                here(index * *spacing)
+            }
+            Pattern::Ring { count, radius, axis, turned } => {
+                let angle = std::f64::consts::TAU * fraction(i, *count);
+                let across = if axis.x.abs() < 1.0 - 1e-9 { DVec3::X } else { DVec3::Y };
+                let first = (across - *axis * axis.dot(across)).normalize();
+                let second = axis.cross(first);
+                let offset = *radius * (first * libm::cos(angle) + second * libm::sin(angle));
+                let turn = if *turned { DQuat::from_axis_angle(*axis, angle) } else { DQuat::IDENTITY };
+                Place { offset, turn }
+            }
+            Pattern::Line { count, from, to } => here(from.lerp(*to, fraction(i, count.saturating_sub(1)))),
+            Pattern::Curve(curve) => curve.place(i),
+        }
+    }
+}
+
+impl Curve {
+    /// The node of `at` below that of a repeat.
+    fn formulas(repeat: &Node) -> Option<&Node> {
+        let curve = repeat.as_table()?.get("curve")?.node.as_table()?;
+        curve.get("at").map(|entry| &entry.node)
+    }
+}

@@ -1,0 +1,173 @@
+//! The keys of `repeat`.
+
+use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
+use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
+use super::{Bound, Key, Kind, Rule, TableSpec};
+
+/// More copies than this are not made of all bodies together: they would take more memory than a usual machine has.
+pub const MAX_COPIES: i64 = 1_000_000;
+
+/// A number of copies.
+pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);
+
+/// The key that says how many copies there are.
+const fn count() -> Key {
+    Key::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
+}
+
+pub(super) static REPEAT: TableSpec = TableSpec {
+    noun: "a repeat",
+    rule: Rule::ExactlyOne(&["count", "grid", "ring", "line", "curve", "scatter"]),
+    keys: &[
+        Key::new(
+            "count",
+            COUNT,
+            "So many copies, `ball[0]`, `ball[1]`, …, which formulas of `i` tell apart; `repeat = 9` is short for it",
+        )
+        .also(&["n", "number", "copies", "times"]),
+        Key::new("grid", Table(&GRID), "Copies in rows, layers and columns: `brick[3,0]`, in formulas `i`, `j`, `k`")
+            .also(&["array", "lattice"]),
+        Key::new("ring", Table(&RING), "Copies on a circle around `location`").also(&["circle", "around"]),
+        Key::new("line", Table(&LINE), "Copies evenly on a straight line, one at either end").also(&["row"]),
+        Key::new("curve", Table(&CURVE), "Copies evenly along a curve").also(&["path", "spline", "spiral"]),
+        Key::new(
+            "scatter",
+            Table(&SCATTER),
+            "Copies at random places in a volume around `location`; no two of them overlap",
+        )
+        .also(&["random", "fill"]),
+    ],
+};
+
+static GRID: TableSpec = TableSpec {
+    noun: "a grid",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("count", List { of: &COUNT, min: 1, max: 3 }, "The numbers of copies along x, y and z")
+            .required()
+            .also(&["counts", "size", "n"]),
+        Key::new(
+            "spacing",
+            Either(&[ANY, List { of: &ANY, min: 1, max: 3 }]),
+            "From one copy to the next along x, y and z; one number is for all; the first copy is at `location`",
+        )
+        .unit("m")
+        .default("0: formulas of `i`, `j` and `k` place them")
+        .also(&["distance", "step", "pitch"]),
+    ],
+};
+
+static RING: TableSpec = TableSpec {
+    noun: "a ring",
+    rule: Rule::Any,
+    keys: &[
+        count(),
+        Key::new("radius", POSITIVE, "The radius of the circle, from centre to centre").unit("m").required(),
+        Key::new(
+            "axis",
+            AXIS,
+            "What the circle is around, by the right-hand rule; the first copy is towards x, or towards y if x is the axis",
+        )
+        .default("[0, 1, 0]")
+        .also(&["normal"]),
+        Key::new("turned", Boolean, "Whether each copy is turned about the axis as far as it has come around")
+            .default("true")
+            .also(&["align", "rotate"]),
+    ],
+};
+
+static LINE: TableSpec = TableSpec {
+    noun: "a line",
+    rule: Rule::Any,
+    keys: &[
+        count(),
+        Key::new("from", VECTOR, "Where the first copy is, from `location`")
+            .unit("m")
+            .default("[0, 0, 0]")
+            .also(&["start"]),
+        Key::new("to", VECTOR, "Where the last copy is, from `location`").unit("m").required().also(&["end"]),
+    ],
+};
+
+static CURVE: TableSpec = TableSpec {
+    noun: "a curve",
+    rule: Rule::ExactlyOne(&["at", "points"]),
+    keys: &[
+        count(),
+        Key::new(
+            "at",
+            Formulas(3),
+            "The curve, from `location`, by formulas of `u`, which goes from 0 to 1; what its pace is does not matter",
+        )
+        .unit("m")
+        .also(&["formula", "xyz"]),
+        Key::new(
+            "points",
+            List { of: &VECTOR, min: 2, max: usize::MAX },
+            "Points that the curve goes through smoothly (Catmull and Rom's spline), from `location`",
+        )
+        .unit("m")
+        .also(&["through", "vertices"]),
+        Key::new("closed", Boolean, "Whether it ends where it begins, so that no copy stands on the first one")
+            .default("false")
+            .also(&["loop", "cyclic"]),
+        Key::new("turned", Boolean, "Whether each copy is turned with its x axis along the curve, and y upwards")
+            .default("true")
+            .also(&["align", "follow"]),
+    ],
+};
+
+static SCATTER: TableSpec = TableSpec {
+    noun: "a scatter",
+    rule: Rule::Any,
+    keys: &[
+        count(),
+        Key::new("within", Table(&VOLUME), "The volume, which holds each copy as a whole")
+            .required()
+            .also(&["in", "volume", "region"]),
+        Key::new("gap", NON_NEGATIVE, "The least distance between the balls around two copies")
+            .unit("m")
+            .default("0")
+            .also(&["distance", "spacing"]),
+        Key::new("turned", Boolean, "Whether each copy is turned at random, any way as likely")
+            .default("false")
+            .also(&["rotate"]),
+    ],
+};
+
+static VOLUME: TableSpec = TableSpec {
+    noun: "a volume",
+    rule: Rule::ExactlyOne(&["box", "sphere", "cylinder"]),
+    keys: &[
+        Key::new("box", Table(&BOX), "A box").also(&["cube", "cuboid"]),
+        Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
+        Key::new("cylinder", Table(&CYLINDER), "A cylinder around the y axis").also(&["disc", "disk"]),
+    ],
+};
+
+static BOX: TableSpec = TableSpec {
+    noun: "a box to scatter in",
+    rule: Rule::Any,
+    keys: &[Key::new(
+        "size",
+        Numbers(3, Bound::NonNegative),
+        "Its edges along x, y, z; where one is 0, all copies are at the same height there",
+    )
+    .unit("m")
+    .required()],
+};
+
+static SPHERE: TableSpec = TableSpec {
+    noun: "a ball to scatter in",
+    rule: Rule::Any,
+    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required()],
+};
+
+static CYLINDER: TableSpec = TableSpec {
+    noun: "a cylinder to scatter in",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "Its radius").unit("m").required(),
+        Key::new("height", NON_NEGATIVE, "Its height; 0 makes it a disc").unit("m").required(),
+    ],
+};

@@ -1,0 +1,100 @@
+//! Many from few: what short scenes of many bodies come to in scripts.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
+mod support;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use jabuka::{Run, Scene};
+
+/// The text of a scene of the gallery.
+fn text(name: &str) -> String {
+    std::fs::read_to_string(support::scene(name)).unwrap()
+}
+
+#[test]
+fn a_spiral_of_500_dominoes_is_at_most_25_lines() {
+    let text = text("dominoes");
+    assert!(text.lines().count() <= 25);
+    let scene = Scene::parse(&text).unwrap();
+    assert_eq!(scene.bodies.len(), 500);
+    let bottom = |body: &jabuka::scene::Body| {
+        let reach = body.shape.support(body.start.orientation, -glam::DVec3::Y).unwrap();
+        body.start.location.y - reach
+    };
+    for body in &scene.bodies {
+        assert!(bottom(body).abs() < 1e-12, "{} does not stand", body.name);
+    }
+    // Of the same distance along a curve, no two neighbours in a spiral are at more than that.
+    let gaps = scene.bodies.windows(2).map(|pair| pair[0].start.location.distance(pair[1].start.location));
+    let (least, most) = gaps.fold((f64::MAX, 0.0f64), |(least, most), gap| (least.min(gap), most.max(gap)));
+    assert!(least > 0.99 * most && most < 0.4, "{least} {most}");
+}
+
+#[test]
+fn a_thousand_scattered_balls_without_overlap_are_at_most_10_lines() {
+    let text = text("scattered_balls");
+    assert!(text.lines().count() <= 10);
+    let scene = Scene::parse(&text).unwrap();
+    assert_eq!(scene.bodies.len(), 1000);
+    for (n, one) in scene.bodies.iter().enumerate() {
+        for other in &scene.bodies[..n] {
+            let reach = one.shape.bounding_radius().unwrap() + other.shape.bounding_radius().unwrap();
+            let distance = one.start.location.distance(other.start.location);
+            assert!(distance >= reach, "{} overlaps {}", one.name, other.name);
+        }
+    }
+}
+
+/// The line of every body in a script, by its name; that of a union of bodies is none.
+fn lines(script: &str) -> BTreeMap<&str, &str> {
+    let bodies = script.lines().filter(|line| !line.starts_with("union {"));
+    bodies.filter_map(|line| Some((line.rsplit_once(" // ")?.1, line))).collect()
+}
+
+#[test]
+fn a_body_added_at_the_end_changes_no_line_of_another_in_any_script() {
+    for name in ["dominoes", "scattered_balls", "string_of_balls"] {
+        let before = text(name);
+        let added = "\n[body.added]\nshape.sphere.radius = \"uniform(0.1, 0.2)\"\nlocation = [0, 2, 0]\nfixed = true\n";
+        let after = format!("{before}{added}");
+        let [before, after] = [before, after].map(|text| {
+            let scene = Scene::parse(&text).unwrap();
+            let run = Run::new(&scene).unwrap();
+            run.frames().take(3).map(|frame| run.script(&frame.unwrap()).unwrap()).collect::<Vec<_>>()
+        });
+        for (before, after) in before.iter().zip(&after) {
+            let (before, mut after) = (lines(before), lines(after));
+            assert!(after.remove("added").is_some() && before.len() > 2, "{name}");
+            for (body, line) in before {
+                assert_eq!(Some(&line), after.get(body), "{name}");
+            }
+        }
+    }
+}
+
+/// A tenth of the time that is asked for is usual; the rest is for slow machines and builds.
+#[test]
+fn ten_thousand_bodies_with_formulas_have_their_first_script_soon() {
+    let mut text = String::from("simulation.duration = 0\n[variables]\nr = 0.2\nspacing = 1.5\n");
+    for n in 0..10_000 {
+        let (row, column) = (n / 100, n % 100);
+        write!(
+            text,
+            "\n[body.b{n}]\nshape.sphere.radius = \"r + 0.1*sin({n})\"\n\
+             location = [\"spacing*{row}\", \"uniform(0, 1)\", \"spacing*{column}\"]\nmass = \"4/3*pi*r^3\"\n"
+        )
+        .unwrap();
+    }
+    assert!(text.len() > 1_000_000, "{}", text.len());
+    let begin = Instant::now();
+    let scene = Scene::parse(&text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let script = run.script(&run.frames().next().unwrap().unwrap()).unwrap();
+    let took = begin.elapsed();
+    assert!(script.contains("// b9999\n"));
+    assert!(took < Duration::from_secs(3), "{took:?}");
+    println!("10,000 bodies with formulas: {took:?}");
+}
