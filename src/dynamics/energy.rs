@@ -83,9 +83,15 @@ impl Default for EnergyLedger {
     }
 }
 
+/// The bodies that move as forces make them: of others, the motion costs and gives nothing.
+fn free(model: &Model) -> impl Iterator<Item = usize> + '_ {
+    model.inverse_mass().iter().enumerate().filter(|(_, inverse)| **inverse != 0.0).map(|(i, _)| i)
+}
+
 fn kinetic(model: &Model, state: &State) -> f64 {
     let mut twice = 0.0;
-    for (i, &mass) in model.mass().iter().enumerate() {
+    for i in free(model) {
+        let mass = model.mass()[i];
         twice += mass * state.velocity[i].length_squared();
         twice += state.angular_momentum[i].dot(model.angular_velocity(i, state));
     }
@@ -94,8 +100,8 @@ fn kinetic(model: &Model, state: &State) -> f64 {
 
 fn momenta(model: &Model, state: &State) -> (DVec3, DVec3) {
     let (mut linear, mut angular) = (DVec3::ZERO, DVec3::ZERO);
-    for (i, &mass) in model.mass().iter().enumerate() {
-        let momentum = mass * state.velocity[i];
+    for i in free(model) {
+        let momentum = model.mass()[i] * state.velocity[i];
         linear += momentum;
         angular += state.location[i].cross(momentum) + state.angular_momentum[i];
     }

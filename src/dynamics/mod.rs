@@ -9,6 +9,7 @@
 //! | all that changes with time | [`State`] |
 //! | all that does not: masses, inertia, forces | [`Model`] |
 //! | what acts at one moment | [`Force`], [`Loads`] |
+//! | motion that is given | [`Motion`], its [`Pose`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
 //! | energy, momentum, drift | [`Balance`] |
 //! | all of it together, with a clock | [`World`] |
@@ -68,6 +69,7 @@ mod force;
 mod integrator;
 mod loads;
 mod model;
+mod motion;
 mod shape;
 mod state;
 mod world;
@@ -80,6 +82,7 @@ pub use force::{
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;
+pub use motion::{Motion, Pose};
 pub use shape::{Compound, Part, Shape, cone_base};
 pub use state::State;
 pub use world::World;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::{Force, Loads, Moment, RigidBody, State};
+use super::{Force, Loads, Moment, Motion, RigidBody, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -17,8 +17,10 @@ pub struct Model {
     inverse_inertia: Vec<DVec3>,
     principal_axes: Vec<DQuat>,
     movable: Vec<bool>,
-    /// The bodies that are not movable.
-    immovable: Vec<usize>,
+    /// The bodies that no load moves.
+    unmoved: Vec<usize>,
+    /// The motions that are given, and the bodies that follow them.
+    motions: Vec<(usize, Arc<dyn Motion>)>,
     force: Vec<DVec3>,
     torque: Vec<DVec3>,
     /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
@@ -75,7 +77,7 @@ impl Model {
         &self.principal_axes
     }
 
-    /// Whether each body can move: it is not fixed, and its mass is positive.
+    /// Whether each body can be elsewhere at another time: it is not fixed and its mass is positive, or its motion is given.
     #[must_use]
     pub fn movable(&self) -> &[bool] {
         &self.movable
@@ -118,7 +120,7 @@ impl Model {
         self.principal_axes.push(body.principal_axes);
         self.movable.push(movable);
         if !movable {
-            self.immovable.push(index);
+            self.unmoved.push(index);
         }
         self.force.push(body.force);
         self.torque.push(DVec3::ZERO);
@@ -136,6 +138,33 @@ impl Model {
         state.velocity.push(velocity);
         state.orientation.push(orientation);
         state.angular_momentum.push(angular_momentum);
+    }
+
+    /// From now on, a body follows a motion that is given. Its inverse mass is 0: nothing else moves it.
+    pub(super) fn drive(&mut self, body: usize, motion: Arc<dyn Motion>) {
+        if self.motions.iter().all(|(other, _)| *other != body) && !self.unmoved.contains(&body) {
+            self.unmoved.push(body);
+        }
+        self.motions.retain(|(other, _)| *other != body);
+        self.motions.push((body, motion));
+        self.movable[body] = true;
+        self.inverse_mass[body] = 0.0;
+        // By this its angular momentum says how it turns.
+        self.inverse_inertia[body] =
+            self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
+    }
+
+    /// Puts the bodies whose motion is given where they are at time `t`.
+    pub fn place(&self, t: f64, state: &mut State) {
+        for (i, motion) in &self.motions {
+            let pose = motion.at(t);
+            let orientation = (pose.orientation * self.principal_axes[*i]).normalize();
+            let in_body = orientation.conjugate() * pose.angular_velocity;
+            state.location[*i] = pose.location;
+            state.velocity[*i] = pose.velocity;
+            state.orientation[*i] = orientation;
+            state.angular_momentum[*i] = orientation * (self.inertia[*i] * in_body);
+        }
     }
 
     pub(super) fn push_force(&mut self, force: Arc<dyn Force>) {
@@ -168,7 +197,12 @@ impl Model {
         for force in &self.forces {
             force.apply(&moment, loads);
         }
-        for &i in &self.immovable {
+        for (i, _) in &self.motions {
+            // What guides the body bears the loads on it, and so does their work, with the opposite sign.
+            let turning = loads.torque[*i].dot(self.angular_velocity(*i, state));
+            loads.power -= loads.force[*i].dot(state.velocity[*i]) + turning;
+        }
+        for &i in &self.unmoved {
             loads.force[i] = DVec3::ZERO;
             loads.torque[i] = DVec3::ZERO;
         }

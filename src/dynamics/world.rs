@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::{
-    Balance, BodyId, Dynamics, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model, RigidBody,
-    State,
+    Balance, BodyId, Dynamics, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model, Motion,
+    RigidBody, State,
 };
 
 /// The longest timestep where none is set, s.
@@ -55,6 +55,14 @@ impl World {
         self.about_to_change();
         self.model.push(&body, &mut self.state);
         BodyId::new(self.model.len() - 1)
+    }
+
+    /// From now on, a body follows a motion that is given; it still acts on others. Its kinetic energy and its momentum
+    /// are not counted, and what guides it does work.
+    pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
+        self.about_to_change();
+        self.model.drive(body.index(), Arc::new(motion));
+        self.model.place(self.time, &mut self.state);
     }
 
     /// Adds a force, at any time.
@@ -117,6 +125,7 @@ impl World {
     fn step_from(&mut self, t: f64, dt: f64) {
         self.ledger.close(&self.model, t, &self.state);
         self.integrator.advance(&self.model, t, dt, &mut self.state);
+        self.model.place(t + dt, &mut self.state);
     }
 
     /// The number of bodies.
@@ -201,6 +210,8 @@ impl Dynamics for World {
             self.step_from(start + f64::from(k) * dt, dt);
         }
         self.time = t;
+        // Exactly there, and not where the sum of the steps has it.
+        self.model.place(t, &mut self.state);
     }
 
     fn state(&self) -> &State {

@@ -9,6 +9,7 @@ mod common;
 mod conservation;
 mod energy;
 mod gravitation;
+mod guided;
 mod order;
 mod rotation;
 mod same_bits;

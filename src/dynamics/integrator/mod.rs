@@ -15,7 +15,8 @@ use super::{Model, State};
 
 /// A method of integration. It advances a state; time belongs to the [`World`](super::World).
 pub trait Integrator: Send {
-    /// Advances `state` from time `t` by one step of `dt` seconds.
+    /// Advances `state` from time `t` by one step of `dt` seconds. Where it evaluates forces at a later time, it must first
+    /// [place](Model::place) the bodies whose motion is given; at the end of the step, the caller does.
     fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State);
 
     /// Told after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from

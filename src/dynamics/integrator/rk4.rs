@@ -27,14 +27,17 @@ impl Integrator for Rk4 {
         k1.measure(model, t, state);
         stage.clone_from(state);
         follow([(1.0, k1)], half, stage);
+        model.place(t + half, stage);
 
         k2.measure(model, t + half, stage);
         stage.clone_from(state);
         follow([(1.0, k2)], half, stage);
+        model.place(t + half, stage);
 
         k3.measure(model, t + half, stage);
         stage.clone_from(state);
         follow([(1.0, k3)], dt, stage);
+        model.place(t + dt, stage);
 
         k4.measure(model, t + dt, stage);
         follow([(1.0 / 6.0, k1), (1.0 / 3.0, k2), (1.0 / 3.0, k3), (1.0 / 6.0, k4)], dt, state);

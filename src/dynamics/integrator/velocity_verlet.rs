@@ -34,6 +34,7 @@ impl Integrator for VelocityVerlet {
 
         // The second half of the kick, with the old loads: this is the prediction.
         splitting::kick(model, &self.start, half, state);
+        model.place(t + dt, state);
         model.evaluate(t + dt, state, &mut self.end);
 
         // And now what the new loads would have made of it.

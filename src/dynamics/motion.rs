@@ -1,0 +1,22 @@
+//! Motion that is given, and not a consequence of forces.
+
+use glam::{DQuat, DVec3};
+
+/// Where a body is at one moment, and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// The location of the centre of mass, m.
+    pub location: DVec3,
+    /// Its velocity, m/s.
+    pub velocity: DVec3,
+    /// The orientation (`world_from_body`).
+    pub orientation: DQuat,
+    /// The angular velocity, world axes, rad/s.
+    pub angular_velocity: DVec3,
+}
+
+/// A motion that is given: where a body is at any time, whatever acts on it.
+pub trait Motion: Send + Sync {
+    /// The pose at time `t`, s; its velocities must be the derivatives of its place.
+    fn at(&self, t: f64) -> Pose;
+}
