@@ -94,6 +94,11 @@ impl Resolved {
         }
     }
 
+    /// Another tree for the same names.
+    pub(super) fn with_nodes(&self, nodes: Vec<Node>, root: Id) -> Resolved {
+        Resolved { nodes, root, slots: self.slots, draws: self.draws.clone() }
+    }
+
     /// The same with the random numbers drawn once and for all, so that evaluations need only those for the names.
     #[must_use]
     pub fn with_draws(&self, drawn: &[f64]) -> Resolved {

@@ -1,5 +1,6 @@
 //! What the language of formulas promises.
 
+mod derivatives;
 mod errors;
 mod properties;
 mod values;
