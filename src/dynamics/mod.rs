@@ -72,6 +72,7 @@ mod model;
 mod motion;
 mod shape;
 mod state;
+mod track;
 mod world;
 
 pub use body::{BodyId, RigidBody};
@@ -85,6 +86,7 @@ pub use model::Model;
 pub use motion::{Motion, Pose};
 pub use shape::{Compound, Part, Shape, cone_base};
 pub use state::State;
+pub use track::{Interpolation, Key, Track};
 pub use world::World;
 
 use glam::{DQuat, DVec3};

@@ -14,10 +14,12 @@ pub mod grammar;
 mod library;
 mod look;
 mod model;
+pub mod motion;
 mod palette;
 mod preset;
 pub mod sdl;
 pub mod source;
+pub mod timed;
 
 use std::path::{Path, PathBuf};
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::motion::BodyMotion;
 use crate::dynamics::{Method, RigidBody, Shape};
 
 /// How the world is advanced.
@@ -46,6 +47,8 @@ pub struct Body {
     pub shape: Shape,
     /// What it is at the start.
     pub start: RigidBody,
+    /// The motion that it follows, whatever acts on it.
+    pub motion: Option<BodyMotion>,
     /// The number of its material among the scene's; none for axes, which have colors of their own, and for
     /// an object in SDL that is given none.
     pub material: Option<usize>,

@@ -10,6 +10,7 @@ mod force;
 pub(super) mod geometry;
 mod look;
 mod material;
+mod motion;
 mod povray;
 mod read;
 mod sdl;
@@ -17,6 +18,7 @@ mod shape;
 mod simulation;
 mod suggest;
 mod templates;
+mod trajectory;
 mod validate;
 mod view;
 

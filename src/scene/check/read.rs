@@ -8,6 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::scene::Color;
 use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
+use crate::scene::timed::{Timed, TimedVector};
 
 /// The smallest magnitude beside zero: its square, and products of three, are still numbers.
 const SMALLEST: f64 = 1e-100;
@@ -99,6 +100,29 @@ pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64;
         }
     }
     if errors.is_empty() { Ok(numbers) } else { Err(errors) }
+}
+
+/// A number within a bound, or a formula of the time, whose values are looked at where the times are known.
+pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
+    match &node.value {
+        Value::Formula(formula) => Ok(Timed::Formula(formula.clone())),
+        Value::Integer(_) | Value::Float(_) => number(node, bound).map(Timed::Constant),
+        _ => Err(wrong_type(node, &Kind::Timed(bound))),
+    }
+}
+
+/// Three numbers within a bound, or formulas of the time; every wrong one is an error of its own.
+pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec<Diagnostic>> {
+    let items = items(node, &Kind::TimedNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
+    let mut errors = Vec::new();
+    let mut read = |item: &Node| {
+        timed(item, bound).unwrap_or_else(|error| {
+            errors.push(error);
+            Timed::Constant(0.0)
+        })
+    };
+    let vector = TimedVector([read(&items[0]), read(&items[1]), read(&items[2])]);
+    if errors.is_empty() { Ok(vector) } else { Err(errors) }
 }
 
 /// So many formulas, or numbers in their place; every wrong one is an error of its own.

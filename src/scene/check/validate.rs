@@ -134,6 +134,10 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         }
         Kind::Text | Kind::Boolean => {}
         Kind::Number(bound) => keep(read::number(node, *bound), context),
+        Kind::Timed(bound) => keep(read::timed(node, *bound), context),
+        Kind::TimedNumbers(_, bound) => keep_all(read::timed_vector(node, *bound), context),
+        Kind::File if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
+        Kind::File => keep(super::asset::asset(node, context.folder, context.trust), context),
         Kind::Integer(low, high) => keep(read::integer(node, *low, *high), context),
         Kind::Numbers(4, bound) => keep_all(read::numbers::<4>(node, *bound), context),
         Kind::Numbers(_, bound) => keep_all(read::numbers::<3>(node, *bound), context),

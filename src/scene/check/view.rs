@@ -7,6 +7,7 @@ use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::grammar::{Key, Kind, TableSpec};
 use crate::scene::source::{Node, Table, Value};
+use crate::scene::timed::{Timed, TimedVector};
 
 /// A table as its description knows it, to read values from. A value that is absent, or wrong (which the
 /// validation has said), reads as `None`.
@@ -69,6 +70,27 @@ impl<'a> View<'a> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::Numbers(3, _)))?;
         let Kind::Numbers(_, bound) = kind else { return None };
         read::vector(self.node(name)?, *bound)
+    }
+
+    /// A number that may change with time.
+    pub(super) fn timed(&self, name: &str) -> Option<Timed> {
+        let Kind::Timed(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Timed(_)))? else {
+            return None;
+        };
+        read::timed(self.node(name)?, *bound).ok()
+    }
+
+    /// A vector that may change with time.
+    pub(super) fn timed_vector(&self, name: &str) -> Option<TimedVector> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::TimedNumbers(3, _)))?;
+        let Kind::TimedNumbers(_, bound) = kind else { return None };
+        let node = self.node(name).filter(|node| matches!(node.value, Value::Array(_)))?;
+        read::timed_vector(node, *bound).ok()
+    }
+
+    /// The value of a key, as the text has it.
+    pub(super) fn raw(&self, name: &str) -> Option<&'a Node> {
+        self.node(name)
     }
 
     /// A direction as a unit vector.

@@ -14,12 +14,15 @@ mod variables;
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 pub(super) use self::groups::Groups;
+pub(super) use self::place::in_string;
 use self::random::Stream;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Node, Table, Value};
+use super::timed::TimeFormula;
 use crate::diagnostic::{Diagnostic, Sources, Span};
 
 /// Replaces every formula of a scene by its value, and every body that is repeated by its copies, which are returned.
@@ -109,6 +112,8 @@ impl Expander<'_> {
     fn value(&mut self, node: &mut Node, kind: &'static Kind) {
         match (kind, &mut node.value) {
             (Kind::Number(_), Value::String(_)) => self.number(node),
+            (Kind::Timed(_), Value::String(_)) => self.timed(node),
+            (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
             (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color, Value::Array(_)) => {
                 self.items(node, Expander::number);
@@ -156,6 +161,32 @@ impl Expander<'_> {
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
+    }
+
+    /// Like [`Expander::number`], where a formula may be one of the time: that is kept as a program.
+    fn timed(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        let Some(formula) = self.keep(Formula::parse(text), text, node.span) else {
+            node.value = Value::Invalid;
+            return;
+        };
+        if !formula.names().any(|(name, _)| name == "t") {
+            return self.number(node);
+        }
+        node.value = self.time_formula(&formula, node.span).map_or(Value::Invalid, Value::Formula);
+    }
+
+    fn time_formula(&mut self, formula: &Formula, span: Span) -> Option<Arc<TimeFormula>> {
+        if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
+            return None;
+        }
+        let mut scope = self.scope.clone();
+        scope.slot("t");
+        let resolved = self.keep(formula.resolve(&scope), formula.text(), span)?;
+        let resolved = resolved.with_draws(&self.drawn(&resolved));
+        let text = formula.text().to_owned();
+        let made = TimeFormula::new(text, resolved).map_err(|error| vec![error]);
+        self.keep(made, formula.text(), span).map(Arc::new)
     }
 
     /// Like [`Expander::number`], where only a whole number will do.

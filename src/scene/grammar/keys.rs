@@ -7,6 +7,7 @@ use super::Kind::{
     Numbers, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
+use super::motion::MOTION;
 use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
@@ -152,6 +153,9 @@ static BODY: TableSpec = TableSpec {
         )
         .default("not turned")
         .also(&["rotation", "rotate", "angle", "attitude"]),
+        Key::new("motion", Table(&MOTION), "A motion that is given: the body follows it, whatever acts on it")
+            .default("forces move it")
+            .also(&["path", "trajectory", "animation", "keyframes", "kinematic"]),
         Key::new("velocity", VECTOR, "Its velocity at the start")
             .unit("m/s")
             .default("[0, 0, 0]")
@@ -166,7 +170,7 @@ static BODY: TableSpec = TableSpec {
         Key::new("torque", VECTOR, "A constant torque, in world axes").unit("N·m").default("[0, 0, 0]"),
         Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
             .default("false")
-            .also(&["static", "anchored", "kinematic"]),
+            .also(&["static", "anchored"]),
         Key::new(
             "material",
             Either(&[Reference(Collection::Material), Table(&MATERIAL)]),

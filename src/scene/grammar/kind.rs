@@ -14,6 +14,10 @@ pub enum Kind {
     Number(Bound),
     /// A whole number in a range, both ends included.
     Integer(i64, i64),
+    /// A number within a bound, or a formula of the time.
+    Timed(Bound),
+    /// A list of so many numbers within a bound, or formulas of the time.
+    TimedNumbers(usize, Bound),
     /// A list of so many numbers, each within a bound.
     Numbers(usize, Bound),
     /// A list of so many formulas of a parameter, each a string or a number.
@@ -28,8 +32,10 @@ pub enum Kind {
     Identifier,
     /// The name of an include file.
     Include,
-    /// The path of a file beside the scene.
+    /// The path of a file beside the scene that its SDL reads.
     Asset,
+    /// The path of a file beside the scene that jabuka reads.
+    File,
     /// One of a list of words.
     Choice(fn() -> Vec<&'static str>),
     /// The name of something in the scene.
@@ -146,12 +152,20 @@ impl Kind {
             | Kind::Identifier
             | Kind::Include
             | Kind::Asset
+            | Kind::File
             | Kind::Choice(_)
             | Kind::Reference(_) => matches!(value, Value::String(_)),
             Kind::Boolean => matches!(value, Value::Boolean(_)),
             Kind::Number(_) => matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_)),
+            Kind::Timed(_) => {
+                matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Formula(_))
+            }
             Kind::Integer(..) => matches!(value, Value::Integer(_) | Value::String(_)),
-            Kind::Numbers(..) | Kind::Formulas(_) | Kind::Direction(_) | Kind::List { .. } => {
+            Kind::Numbers(..)
+            | Kind::TimedNumbers(..)
+            | Kind::Formulas(_)
+            | Kind::Direction(_)
+            | Kind::List { .. } => {
                 matches!(value, Value::Array(_))
             }
             Kind::Color => matches!(value, Value::Array(_) | Value::String(_)),
@@ -171,6 +185,8 @@ impl Kind {
                 Bound::Any => format!("a list of {count} numbers"),
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
+            Kind::Timed(bound) => format!("a number{} or a formula of `t`", bound.in_words()),
+            Kind::TimedNumbers(count, _) => format!("a list of {count} numbers or formulas of `t`"),
             Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
             Kind::Color => {
@@ -181,7 +197,7 @@ impl Kind {
                 "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
             }
             Kind::Include => "the name of an include file".to_owned(),
-            Kind::Asset => "the path of a file beside the scene".to_owned(),
+            Kind::Asset | Kind::File => "the path of a file beside the scene".to_owned(),
             Kind::Choice(words) => format!("one of {}", quoted(&words())),
             Kind::Reference(collection) => format!("the name of a {}", collection.key()),
             Kind::List { of, min, max } if min == max => {

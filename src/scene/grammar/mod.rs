@@ -7,6 +7,7 @@
 mod forces;
 mod keys;
 mod kind;
+mod motion;
 mod reference;
 mod repeat;
 mod schema;

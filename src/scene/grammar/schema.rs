@@ -80,7 +80,10 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         Kind::Integer(low, high) => {
             object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
         }
-        Kind::Numbers(count, bound) => list(number(*bound), *count, *count),
+        Kind::Timed(bound) => number(*bound),
+        Kind::Numbers(count, bound) | Kind::TimedNumbers(count, bound) => {
+            list(number(*bound), *count, *count)
+        }
         Kind::Formulas(count) => list(number(Bound::Any), *count, *count),
         Kind::Direction(count) => {
             let mut numbers = list(number(Bound::Any), *count, *count);
@@ -98,7 +101,7 @@ fn kind(kind: &Kind) -> Map<String, Value> {
         Kind::Identifier => {
             object(json!({ "type": "string", "pattern": "^[A-Za-z_][A-Za-z0-9_]*$", "maxLength": 255 }))
         }
-        Kind::Include | Kind::Asset => {
+        Kind::Include | Kind::Asset | Kind::File => {
             object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),

@@ -1,6 +1,9 @@
 //! The tree of a scene as written.
 
+use std::sync::Arc;
+
 use crate::diagnostic::Span;
+use crate::scene::timed::TimeFormula;
 
 /// A value and where it stands.
 #[derive(Clone, Debug)]
@@ -20,6 +23,8 @@ pub enum Value {
     Integer(i64),
     /// Any other number, also one that is not finite.
     Float(f64),
+    /// A formula of the time, in place of a string.
+    Formula(Arc<TimeFormula>),
     /// `true` or `false`.
     Boolean(bool),
     /// A date or a time, for which a scene has no use.
@@ -104,6 +109,7 @@ impl Node {
         match &self.value {
             Value::String(_) => "a string",
             Value::Integer(_) | Value::Float(_) => "a number",
+            Value::Formula(_) => "a formula",
             Value::Boolean(_) => "a boolean",
             Value::Datetime => "a date or time",
             Value::Array(_) => "a list",

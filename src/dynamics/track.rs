@@ -1,0 +1,254 @@
+//! A motion that is known at some times: keyframes, or the record of another simulation.
+
+use glam::{DQuat, DVec3};
+
+use super::{Motion, Pose};
+
+/// How the motion goes from one known place to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight and evenly: velocities jump.
+    Linear,
+    /// By cubic Hermite polynomials: velocities are continuous.
+    Cubic,
+}
+
+/// A place at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// The time, s.
+    pub time: f64,
+    /// The location of the centre of mass, m.
+    pub location: DVec3,
+    /// The orientation (`world_from_body`).
+    pub orientation: DQuat,
+    /// The velocity (m/s), where it is known.
+    pub velocity: Option<DVec3>,
+    /// The angular velocity (world axes, rad/s), where it is known.
+    pub angular_velocity: Option<DVec3>,
+}
+
+/// A motion through known places. Before the first and after the last, the body rests there.
+#[derive(Clone, Debug)]
+pub struct Track {
+    keys: Vec<Key>,
+    interpolation: Interpolation,
+    /// With cubic interpolation: the slope of location and orientation at each key.
+    slopes: Vec<(DVec3, DQuat)>,
+}
+
+impl Track {
+    /// The motion through some keys, whose times must rise.
+    ///
+    /// Where a key of a cubic track has no velocity, the slope is that of the parabola through it and its neighbours;
+    /// at both ends, `at_rest` says that it is 0, and not that of the first or last two keys.
+    #[must_use]
+    pub fn new(mut keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
+        // q and −q are the same orientation; neighbours are written so that the way between them is the short one.
+        for i in 1..keys.len() {
+            if keys[i].orientation.dot(keys[i - 1].orientation) < 0.0 {
+                keys[i].orientation = -keys[i].orientation;
+            }
+        }
+        let slope = |i| slope(&keys, i, at_rest);
+        let slopes = match interpolation {
+            Interpolation::Linear => Vec::new(),
+            Interpolation::Cubic => (0..keys.len()).map(slope).collect(),
+        };
+        Track { keys, interpolation, slopes }
+    }
+
+    /// The times of the first and the last key, s; none if there is no key.
+    #[must_use]
+    pub fn span(&self) -> Option<[f64; 2]> {
+        Some([self.keys.first()?.time, self.keys.last()?.time])
+    }
+}
+
+/// The slope of location and orientation at a key.
+fn slope(keys: &[Key], i: usize, at_rest: bool) -> (DVec3, DQuat) {
+    let (before, after) = (i.checked_sub(1).map(|i| &keys[i]), keys.get(i + 1));
+    let key = &keys[i];
+    let rise = |a: &Key, b: &Key| {
+        let part = 1.0 / (b.time - a.time);
+        ((b.location - a.location) * part, (b.orientation - a.orientation) * part)
+    };
+    let (location, orientation) = match (before, after) {
+        (Some(a), Some(b)) => {
+            // Of the parabola: each side counts by the length of the other.
+            let weight = (b.time - key.time) / (b.time - a.time);
+            let (left, right) = (rise(a, key), rise(key, b));
+            (left.0 * weight + right.0 * (1.0 - weight), left.1 * weight + right.1 * (1.0 - weight))
+        }
+        _ if at_rest => (DVec3::ZERO, DQuat::from_array([0.0; 4])),
+        (Some(a), None) => rise(a, key),
+        (None, Some(b)) => rise(key, b),
+        (None, None) => (DVec3::ZERO, DQuat::from_array([0.0; 4])),
+    };
+    let turning = key.angular_velocity.map(|omega| spin(omega) * key.orientation * 0.5);
+    (key.velocity.unwrap_or(location), turning.unwrap_or(orientation))
+}
+
+/// An angular velocity as a quaternion without real part.
+fn spin(omega: DVec3) -> DQuat {
+    DQuat::from_xyzw(omega.x, omega.y, omega.z, 0.0)
+}
+
+impl Motion for Track {
+    fn at(&self, t: f64) -> Pose {
+        let after = self.keys.partition_point(|key| key.time <= t);
+        let rest = |key: &Key| Pose {
+            location: key.location,
+            velocity: DVec3::ZERO,
+            orientation: key.orientation,
+            angular_velocity: DVec3::ZERO,
+        };
+        let (Some(a), Some(b)) = (after.checked_sub(1).map(|i| &self.keys[i]), self.keys.get(after)) else {
+            let end = if after == 0 { self.keys.first() } else { self.keys.last() };
+            // At the very end, the body still moves.
+            return match end {
+                Some(last) if after > 1 && last.time == t => self.between(after - 2, t),
+                Some(key) => rest(key),
+                None => Pose {
+                    location: DVec3::ZERO,
+                    velocity: DVec3::ZERO,
+                    orientation: DQuat::IDENTITY,
+                    angular_velocity: DVec3::ZERO,
+                },
+            };
+        };
+        debug_assert!(a.time <= t && t < b.time);
+        self.between(after - 1, t)
+    }
+}
+
+impl Track {
+    /// The pose between a key and the next.
+    fn between(&self, i: usize, t: f64) -> Pose {
+        let (a, b) = (&self.keys[i], &self.keys[i + 1]);
+        let duration = b.time - a.time;
+        let s = (t - a.time) / duration;
+        if self.interpolation == Interpolation::Linear {
+            let turn = b.orientation * a.orientation.conjugate();
+            let turn = if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis();
+            return Pose {
+                location: a.location.lerp(b.location, s),
+                velocity: (b.location - a.location) / duration,
+                orientation: (DQuat::from_scaled_axis(turn * s) * a.orientation).normalize(),
+                angular_velocity: turn / duration,
+            };
+        }
+        let (from, to) = (self.slopes[i], self.slopes[i + 1]);
+        let [h00, h10, h01, h11] = hermite(s).map(|h| h);
+        let [d00, d10, d01, d11] = hermite_slope(s).map(|d| d / duration);
+        let (m0, m1) = (from.0 * duration, to.0 * duration);
+        let (n0, n1) = (from.1 * duration, to.1 * duration);
+        let quaternion = a.orientation * h00 + n0 * h10 + b.orientation * h01 + n1 * h11;
+        let rate = a.orientation * d00 + n0 * d10 + b.orientation * d01 + n1 * d11;
+        let length = quaternion.length();
+        let orientation = quaternion * (1.0 / length);
+        // The part of the rate that turns; the rest lengthens, which the division by the length undoes.
+        let turning = rate * (1.0 / length) * orientation.conjugate();
+        Pose {
+            location: a.location * h00 + m0 * h10 + b.location * h01 + m1 * h11,
+            velocity: a.location * d00 + m0 * d10 + b.location * d01 + m1 * d11,
+            orientation,
+            angular_velocity: 2.0 * DVec3::new(turning.x, turning.y, turning.z),
+        }
+    }
+}
+
+/// The cubic Hermite polynomials: of the place at the beginning, the slope there, the place at the end, the slope there.
+fn hermite(s: f64) -> [f64; 4] {
+    let r = 1.0 - s;
+    [(1.0 + 2.0 * s) * r * r, s * r * r, s * s * (3.0 - 2.0 * s), -s * s * r]
+}
+
+/// Their derivatives.
+fn hermite_slope(s: f64) -> [f64; 4] {
+    let r = 1.0 - s;
+    [-6.0 * s * r, r * (1.0 - 3.0 * s), 6.0 * s * r, s * (3.0 * s - 2.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body on a circle that turns with it.
+    fn key(t: f64, known: bool) -> Key {
+        let (sin, cos) = libm::sincos(t);
+        Key {
+            time: t,
+            location: DVec3::new(cos, sin, 0.0),
+            orientation: DQuat::from_rotation_z(t),
+            velocity: known.then(|| DVec3::new(-sin, cos, 0.0)),
+            angular_velocity: known.then_some(DVec3::Z),
+        }
+    }
+
+    fn circle(interpolation: Interpolation, known: bool, step: f64) -> Track {
+        // More than a full turn, so that quaternions change their sign.
+        let keys = (0..).map(|i| f64::from(i) * step).take_while(|t| *t <= 8.0);
+        Track::new(keys.map(|t| key(t, known)).collect(), interpolation, false)
+    }
+
+    /// The largest error of the place, between keys in the middle of the track.
+    fn error(track: &Track) -> f64 {
+        let times = (0..1000).map(|i| 2.0 + f64::from(i) * 0.004);
+        let off = |t: f64| {
+            let (pose, exact) = (track.at(t), key(t, true));
+            let turned = (pose.orientation * exact.orientation.conjugate()).to_scaled_axis().length();
+            (pose.location - exact.location).length().max(turned.min(std::f64::consts::TAU - turned))
+        };
+        times.map(off).fold(0.0, f64::max)
+    }
+
+    /// Halving the step divides the error by 2ᵖ: p is 2 for lines, 3 for slopes of parabolas, 4 for known slopes.
+    #[test]
+    fn it_goes_through_its_keys_and_is_as_accurate_between_as_its_order_says() {
+        use Interpolation::{Cubic, Linear};
+        for (interpolation, known, order) in [(Linear, false, 2.0), (Cubic, false, 3.0), (Cubic, true, 4.0)] {
+            let track = circle(interpolation, known, 0.1);
+            for i in 0..=80 {
+                let (pose, exact) = (track.at(f64::from(i) * 0.1), key(f64::from(i) * 0.1, true));
+                assert!(pose.location.abs_diff_eq(exact.location, 1e-12));
+                assert!(pose.orientation.dot(exact.orientation).abs() > 1.0 - 1e-12);
+            }
+            let slope = libm::log2(error(&track) / error(&circle(interpolation, known, 0.05)));
+            assert!((slope - order).abs() < 0.2, "{interpolation:?} {known}: {slope}");
+        }
+    }
+
+    /// By difference quotients over 2e-6: off by rounding, 1e-16 / 1e-6.
+    #[test]
+    fn velocities_are_the_derivatives_of_the_place() {
+        const H: f64 = 1e-6;
+        for track in [circle(Interpolation::Linear, false, 0.3), circle(Interpolation::Cubic, false, 0.3)] {
+            for t in [0.1, 1.234, 3.3, 7.4] {
+                let (before, here, after) = (track.at(t - H), track.at(t), track.at(t + H));
+                let velocity = (after.location - before.location) / (2.0 * H);
+                assert!(velocity.abs_diff_eq(here.velocity, 1e-8), "{velocity} {}", here.velocity);
+                let turn = (after.orientation * before.orientation.conjugate()).to_scaled_axis() / (2.0 * H);
+                assert!(turn.abs_diff_eq(here.angular_velocity, 1e-8), "{turn} {}", here.angular_velocity);
+            }
+        }
+    }
+
+    #[test]
+    fn it_rests_before_and_after() {
+        let track = circle(Interpolation::Cubic, true, 0.5);
+        for (t, end) in [(-1.0, 0.0), (9.0, 8.0)] {
+            let pose = track.at(t);
+            assert_eq!((pose.velocity, pose.angular_velocity), (DVec3::ZERO, DVec3::ZERO));
+            assert_eq!(pose.location, key(end, true).location);
+        }
+        assert!(track.at(8.0).velocity.length() > 0.9, "at the end it still moves");
+        let one = Track::new(vec![key(1.0, false)], Interpolation::Cubic, true);
+        assert_eq!(one.at(1.0).location, key(1.0, false).location);
+        // At rest at both ends, a way between two keys is that of a smooth step.
+        let two = Track::new(vec![key(0.0, false), key(1.0, false)], Interpolation::Cubic, true);
+        assert_eq!((two.at(0.0).velocity, two.at(1.0).velocity), (DVec3::ZERO, DVec3::ZERO));
+        let middle = (key(0.0, false).location + key(1.0, false).location) / 2.0;
+        assert!(two.at(0.5).location.abs_diff_eq(middle, 1e-15));
+    }
+}

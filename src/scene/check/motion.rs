@@ -1,0 +1,146 @@
+//! `motion` of a body.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::trajectory::{self, Columns};
+use super::view::View;
+use super::{Context, asset, body};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::dynamics::{Interpolation, Key, Track};
+use crate::scene::Simulation;
+use crate::scene::expand::in_string;
+use crate::scene::motion::{BodyMotion, TimedOrientation};
+use crate::scene::source::{Node, Value};
+use crate::scene::timed::TimedVector;
+
+/// The motion of a body whose own place is given, if it has one.
+pub(super) fn read(
+    name: &str,
+    view: &View<'_>,
+    place: (DVec3, DQuat),
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) -> Option<BodyMotion> {
+    let motion = view.variant("motion")?;
+    if let Some(formula) = motion.variant("formula") {
+        return Some(by_formula(name, &formula, place, simulation, context));
+    }
+    if let Some(keyframes) = motion.variant("keyframes") {
+        return by_keyframes(name, &keyframes, place, context);
+    }
+    by_trajectory(name, &motion.variant("trajectory")?, context)
+}
+
+fn by_formula(
+    name: &str,
+    view: &View<'_>,
+    place: (DVec3, DQuat),
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) -> BodyMotion {
+    finite(view.raw("location"), simulation, context);
+    let orientation = if view.has("orientation") {
+        let table = view.table("orientation");
+        for node in [view.raw("orientation"), table.raw("euler"), table.raw("angle")] {
+            finite(node, simulation, context);
+        }
+        turning(name, view, context)
+    } else {
+        TimedOrientation::Constant(place.1)
+    };
+    BodyMotion::Formula {
+        location: view.timed_vector("location").unwrap_or_else(|| TimedVector::from(place.0)),
+        orientation,
+    }
+}
+
+fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrientation {
+    let table = view.table("orientation");
+    if let Some(angles) = view.timed_vector("orientation").or_else(|| table.timed_vector("euler")) {
+        return TimedOrientation::Euler(angles);
+    }
+    body::together(name, &table, context);
+    match (table.direction::<3>("axis"), table.timed("angle")) {
+        (Some(axis), Some(angle)) => TimedOrientation::Axis { axis: DVec3::from_array(axis), angle },
+        _ => TimedOrientation::Constant(DQuat::IDENTITY),
+    }
+}
+
+/// Reports the first frame at which a formula, or one of a list, has no value.
+pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut Context<'_>) {
+    match node.map(|node| &node.value) {
+        Some(Value::Array(items)) => items.iter().for_each(|item| finite(Some(item), simulation, context)),
+        Some(Value::Formula(formula)) => {
+            let span = node.map(|node| node.span);
+            let times = (0..simulation.frames()).map(|frame| simulation.time(frame));
+            let wrong = times.into_iter().find_map(|t| Some((t, formula.explain_non_finite(t)?)));
+            if let (Some((t, error)), Some(span)) = (wrong, span) {
+                let raw = context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+                let place = in_string(raw, &formula.text, &error.range, span);
+                let message = format!("{}, at t = {t} s", error.message);
+                let diagnostic = Diagnostic::error(error.code, message).at(place, error.label);
+                context.diagnostics.push(match error.help {
+                    Some(help) => diagnostic.help(help),
+                    None => diagnostic,
+                });
+            }
+        }
+        _ => {}
+    }
+}
+
+fn by_keyframes(
+    name: &str,
+    view: &View<'_>,
+    (location, orientation): (DVec3, DQuat),
+    context: &mut Context<'_>,
+) -> Option<BodyMotion> {
+    let mut keys: Vec<Key> = Vec::new();
+    let mut times: Vec<(f64, Span)> = Vec::new();
+    for frame in view.tables("at") {
+        let (Some(time), Some(span)) = (frame.number("time"), frame.span("time")) else { continue };
+        if let Some((before, other)) = times.last().filter(|(before, _)| *before >= time) {
+            let message = format!("a keyframe at {time} s stands after one at {before} s");
+            let error = Diagnostic::error("keyframe-order", message).at(span, "this is not later");
+            context.diagnostics.push(error.at(*other, "the one before"));
+            continue;
+        }
+        times.push((time, span));
+        let before = keys.last();
+        let turned = frame.has("orientation").then(|| body::orientation(name, &frame, context));
+        keys.push(Key {
+            time,
+            location: frame.vector("location").or(before.map(|key| key.location)).unwrap_or(location),
+            orientation: turned.or(before.map(|key| key.orientation)).unwrap_or(orientation),
+            velocity: None,
+            angular_velocity: None,
+        });
+    }
+    let interpolation = match view.text("interpolation") {
+        Some("linear") => Interpolation::Linear,
+        _ => Interpolation::Cubic,
+    };
+    (!keys.is_empty()).then(|| BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
+}
+
+fn by_trajectory(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<BodyMotion> {
+    let (node, span) = (view.raw("file")?, view.span("file")?);
+    // What is wrong with the path has been said.
+    let path = asset::asset(node, context.folder, context.trust).ok()?.path;
+    let columns = Columns::read(&view.table("columns"));
+    let shown = node.as_str().unwrap_or_default();
+    let recording = trajectory::read(&path, shown, &columns, span, context)?;
+    let wanted = view.text("body").unwrap_or(name);
+    let Some(keys) = recording.get(&Some(wanted.to_owned())).or_else(|| recording.get(&None)) else {
+        let at = view.span("body").unwrap_or(span);
+        context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
+        return None;
+    };
+    let interpolation = match view.text("interpolation") {
+        Some("linear") => Interpolation::Linear,
+        _ => Interpolation::Cubic,
+    };
+    Some(BodyMotion::Track(Arc::new(Track::new(keys.clone(), interpolation, false))))
+}

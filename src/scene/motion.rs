@@ -1,0 +1,60 @@
+//! Motion that is given: a body goes where the scene says, whatever acts on it.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::timed::{Timed, TimedVector};
+use crate::dynamics::Track;
+
+/// A motion that is given.
+#[derive(Clone, Debug)]
+pub enum BodyMotion {
+    /// By formulas of the time.
+    Formula {
+        /// The centre of mass, m.
+        location: TimedVector,
+        /// How the body is turned.
+        orientation: TimedOrientation,
+    },
+    /// Through known places.
+    Track(Arc<Track>),
+}
+
+/// An orientation that may change with time.
+#[derive(Clone, Debug)]
+pub enum TimedOrientation {
+    /// Turned about the world's x, then y, then z, degrees.
+    Euler(TimedVector),
+    /// Turned about an axis.
+    Axis {
+        /// The axis, a unit vector.
+        axis: DVec3,
+        /// By so much, degrees.
+        angle: Timed,
+    },
+    /// It does not change.
+    Constant(DQuat),
+}
+
+impl TimedOrientation {
+    /// The orientation at a time (s), and the angular velocity (world axes, rad/s).
+    pub fn at(&self, t: f64) -> (DQuat, DVec3) {
+        match self {
+            TimedOrientation::Constant(orientation) => (*orientation, DVec3::ZERO),
+            TimedOrientation::Axis { axis, angle } => {
+                let turn = DQuat::from_axis_angle(*axis, angle.at(t).to_radians());
+                (turn, *axis * angle.rate(t).to_radians())
+            }
+            TimedOrientation::Euler(angles) => {
+                let radians = |v: DVec3| v * (std::f64::consts::PI / 180.0);
+                let (angles, rates) = (radians(angles.at(t)), radians(angles.rate(t)));
+                let z = DQuat::from_rotation_z(angles.z);
+                let zy = z * DQuat::from_rotation_y(angles.y);
+                // Each turn is about an axis that the later ones turn too.
+                let spin = DVec3::Z * rates.z + z * (DVec3::Y * rates.y) + zy * (DVec3::X * rates.x);
+                (zy * DQuat::from_rotation_x(angles.x), spin)
+            }
+        }
+    }
+}

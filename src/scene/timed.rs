@@ -1,0 +1,91 @@
+//! Numbers that may change with time.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::expression::{ExpressionError, Program, Resolved};
+
+/// A number, or a formula of the time.
+#[derive(Clone, Debug)]
+pub enum Timed {
+    /// It is always the same.
+    Constant(f64),
+    /// It changes.
+    Formula(Arc<TimeFormula>),
+}
+
+/// A formula of the time `t`, and its derivative.
+#[derive(Debug)]
+pub struct TimeFormula {
+    /// What is written.
+    pub text: String,
+    value: Program,
+    rate: Program,
+}
+
+/// Three numbers, each of which may change with time.
+#[derive(Clone, Debug)]
+pub struct TimedVector(pub [Timed; 3]);
+
+impl TimeFormula {
+    /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
+    ///
+    /// # Errors
+    /// Where it is nested too deeply.
+    pub(super) fn new(text: String, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
+        let rate = resolved.derivative(0).compile()?;
+        Ok(TimeFormula { text, value: resolved.compile()?, rate })
+    }
+
+    /// Why it has no finite value at a time (s); none where it has.
+    pub fn explain_non_finite(&self, t: f64) -> Option<ExpressionError> {
+        self.value.explain_non_finite(&[t])
+    }
+}
+
+impl Timed {
+    /// The value at a time, s; it may not be finite.
+    pub fn at(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(value) => *value,
+            Timed::Formula(formula) => formula.value.eval(&[t]),
+        }
+    }
+
+    /// The derivative at a time, per second.
+    pub fn rate(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(_) => 0.0,
+            Timed::Formula(formula) => formula.rate.eval(&[t]),
+        }
+    }
+
+    /// Whether it changes with time.
+    pub fn changes(&self) -> bool {
+        matches!(self, Timed::Formula(_))
+    }
+}
+
+impl TimedVector {
+    /// The value at a time, s.
+    pub fn at(&self, t: f64) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|i: usize| self.0[i].at(t)))
+    }
+
+    /// The derivative at a time, per second.
+    pub fn rate(&self, t: f64) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|i: usize| self.0[i].rate(t)))
+    }
+
+    /// Whether any of it changes with time.
+    pub fn changes(&self) -> bool {
+        self.0.iter().any(Timed::changes)
+    }
+}
+
+impl From<DVec3> for TimedVector {
+    fn from(vector: DVec3) -> TimedVector {
+        TimedVector(vector.to_array().map(Timed::Constant))
+    }
+}
