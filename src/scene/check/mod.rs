@@ -26,7 +26,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 pub(super) use self::view::View;
-use super::expand::{self, Groups};
+use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, PovRay, Scene};
@@ -51,6 +51,8 @@ struct Context<'a> {
     names: Names,
     /// The bodies that are copies of others.
     groups: Groups,
+    /// Whether what is looked at is a part of a table, which needs none of its keys.
+    is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
     told: HashSet<(&'static str, Span)>,
     /// How many more names may be compared with unknown ones.
@@ -66,6 +68,7 @@ impl Context<'_> {
             trust: false,
             names: Names::default(),
             groups: Groups::default(),
+            is_partial: false,
             told: HashSet::new(),
             comparisons: 0,
             diagnostics: Vec::new(),
@@ -135,12 +138,13 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     }
 
     let mut found = Vec::new();
-    let groups = expand::expand(&mut root, &sources, &mut found);
+    let Expansion { groups, of_defaults } = expand::expand(&mut root, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,
         names: Names::of(&root),
         groups,
+        is_partial: false,
         told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
         diagnostics: found,
@@ -148,6 +152,10 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &mut context);
     let mut found = context.diagnostics;
+    // A default is for those on which it has an effect.
+    let of_default =
+        |diagnostic: &Diagnostic| diagnostic.span().is_some_and(|span| of_defaults.contains(&span));
+    found.retain(|diagnostic| diagnostic.code != "no-effect" || !of_default(diagnostic));
     consequence::drop(&mut found, &diagnostics[..unreadable], &sources);
     diagnostics.append(&mut found);
 

@@ -4,7 +4,7 @@
 
 use super::Kind::{
     Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
-    Numbers, Reference, Sdl, Table, Text, Variables,
+    Numbers, Partial, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
 use super::repeat::{COUNT, REPEAT};
@@ -75,6 +75,12 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
         Key::new(
+            "defaults",
+            Table(&DEFAULTS),
+            "What bodies, forces, materials and lights are like that do not say it themselves",
+        )
+        .also(&["default"]),
+        Key::new(
             "environment",
             Either(&[Choice(presets), Table(&ENVIRONMENT)]),
             "Ground, sky, fog and the usual lights: a name is short for `environment.preset`",
@@ -83,6 +89,21 @@ pub static SCENE: TableSpec = TableSpec {
         .also(&["world"]),
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
+    ],
+};
+
+static DEFAULTS: TableSpec = TableSpec {
+    noun: "the defaults",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("body", Partial(&BODY), "Of every `[body.NAME]`: what it says itself counts, key by key")
+            .default("none")
+            .also(&["bodies"]),
+        Key::new("force", Partial(&FORCE), "Of every `[force.NAME]`").default("none").also(&["forces"]),
+        Key::new("material", Partial(&MATERIAL), "Of every `[material.NAME]`")
+            .default("none")
+            .also(&["materials"]),
+        Key::new("light", Partial(&LIGHT), "Of every `[light.NAME]`").default("none").also(&["lights"]),
     ],
 };
 

@@ -120,6 +120,10 @@ impl Page {
                 None => "table".to_owned(),
             },
             Kind::Named(_) => "tables with names".to_owned(),
+            Kind::Partial(table) => match self.title(table) {
+                Some(title) => format!("any keys of {title}"),
+                None => "table".to_owned(),
+            },
             Kind::Either(kinds) => {
                 kinds.iter().map(|kind| self.in_short(kind)).collect::<Vec<_>>().join(", or ")
             }
