@@ -98,7 +98,13 @@ impl Scene {
             path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
         let name = path.file_stem().map_or_else(|| "scene".into(), std::ffi::OsStr::to_string_lossy);
         check::check(
-            &check::Input { name: &name, shown: &path.display().to_string(), folder, text: &text },
+            &check::Input {
+                name: &name,
+                shown: &path.display().to_string(),
+                path: Some(path),
+                folder,
+                text: &text,
+            },
             options,
         )
     }
@@ -116,6 +122,9 @@ impl Scene {
     /// # Errors
     /// All mistakes of the scene, each at its place.
     pub fn parse_with(text: &str, options: &Options) -> Result<Scene, Report> {
-        check::check(&check::Input { name: "scene", shown: "scene.toml", folder: None, text }, options)
+        check::check(
+            &check::Input { name: "scene", shown: "scene.toml", path: None, folder: None, text },
+            options,
+        )
     }
 }

@@ -38,6 +38,8 @@ pub(super) struct Input<'a> {
     pub(super) name: &'a str,
     /// How messages call its file.
     pub(super) shown: &'a str,
+    /// Its file, if it has one.
+    pub(super) path: Option<&'a Path>,
     /// The folder that its paths start from, if it has one.
     pub(super) folder: Option<&'a Path>,
     /// Its text.
@@ -128,7 +130,6 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
     let id = sources.add(input.shown, text);
     let mut tree = source::parse(text, id, &mut diagnostics);
-    let unreadable = diagnostics.len();
     let mut root = match &mut tree.value {
         source::Value::Table(table) => std::mem::take(table),
         _ => Table::default(),
@@ -136,6 +137,9 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     for set in &options.overrides {
         set.apply(&mut root, &mut sources, &mut diagnostics);
     }
+
+    let included = expand::include(&mut root, input.path, options.trust, &mut sources, &mut diagnostics);
+    let unreadable = diagnostics.len();
 
     let mut found = Vec::new();
     let Expansion { groups, of_defaults } = expand::expand(&mut root, &sources, &mut found);
@@ -150,7 +154,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         diagnostics: found,
     };
     validate::validate(&root, &mut context);
-    let scene = build(input, options, &root, &mut context);
+    let scene = build(input, options, &root, &included, &mut context);
     let mut found = context.diagnostics;
     // A default is for those on which it has an effect.
     let of_default =
@@ -168,7 +172,13 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
 }
 
 /// Makes the scene. Where a value is missing or wrong, which has been said, any other takes its place.
-fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Context<'_>) -> Scene {
+fn build(
+    input: &Input<'_>,
+    options: &Options,
+    root: &Table,
+    included: &[String],
+    context: &mut Context<'_>,
+) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
     let mut materials = material::read(&root, context);
@@ -191,7 +201,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),
-        digest: digest(input, options, &povray),
+        digest: digest(input, options, included, &povray),
         bodies,
         forces,
         materials,
@@ -201,7 +211,7 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
 }
 
 /// A digest of all texts that the scene was read from.
-fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
+fn digest(input: &Input<'_>, options: &Options, included: &[String], povray: &PovRay) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
         // The length keeps two texts from reading as one.
@@ -209,6 +219,7 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
         hash.update(text);
     };
     add(input.text);
+    included.iter().for_each(|text| add(text));
     options.overrides.iter().for_each(|set| add(set.as_str()));
     for template in &povray.templates {
         add(&template.name);

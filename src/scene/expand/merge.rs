@@ -19,7 +19,7 @@ pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
 }
 
 /// Whether a key of the other table cannot stand beside one of the table's own.
-fn is_replaced(name: &str, own: &Table, spec: &'static TableSpec) -> bool {
+pub(super) fn is_replaced(name: &str, own: &Table, spec: &'static TableSpec) -> bool {
     let groups = match &spec.rule {
         Rule::Any => &[][..],
         Rule::AtMostOne(groups) => *groups,

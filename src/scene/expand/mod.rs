@@ -6,6 +6,7 @@
 
 mod defaults;
 mod groups;
+mod include;
 mod merge;
 mod place;
 mod random;
@@ -18,6 +19,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
 pub(super) use self::groups::Groups;
+pub(super) use self::include::include;
 use self::random::Stream;
 use self::repeat::INDICES;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};

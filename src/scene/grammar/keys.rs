@@ -44,6 +44,13 @@ pub static SCENE: TableSpec = TableSpec {
             .default("none")
             .also(&["name"]),
         Key::new(
+            "include",
+            List { of: &Text, min: 0, max: usize::MAX },
+            "Scene files that belong to this one, as if they stood here; what this file says itself counts",
+        )
+        .default("[]")
+        .also(&["includes", "import"]),
+        Key::new(
             "seed",
             Integer(0, 4_294_967_295),
             "What the random numbers of formulas follow from: another seed, other numbers",
