@@ -1,14 +1,51 @@
-//! Makes a table of the files in `explanations/`, so that adding one is dropping a file there.
+//! Makes a table of the files in `explanations/`, so that adding one is dropping a file there; and a digest of all
+//! that the scripts depend on, by which jabuka knows those that it would write again.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{env, fs, io};
+
+use sha2::{Digest, Sha256};
+
+/// What the scripts of a scene depend on, beside the scene.
+const SOURCES: [&str; 3] = ["Cargo.lock", "src", "templates"];
 
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn main() -> io::Result<()> {
-    println!("cargo::rerun-if-changed=explanations");
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other(format!("{name} is not set")));
-    let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("explanations");
+    let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
+    println!("cargo::rerun-if-changed=explanations");
+    let table = explanations(&root.join("explanations"))?;
+    fs::write(Path::new(&variable("OUT_DIR")?).join("explanations.rs"), table)?;
+
+    let mut digest = Sha256::new();
+    for source in SOURCES {
+        println!("cargo::rerun-if-changed={source}");
+        add(&root.join(source), &mut digest)?;
+    }
+    let hex: String = digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+    println!("cargo::rustc-env=JABUKA_BUILD={hex}");
+    Ok(())
+}
+
+/// Adds a file, or all files of a folder in the order of their names, where it is there.
+fn add(path: &Path, digest: &mut Sha256) -> io::Result<()> {
+    if path.is_dir() {
+        let mut paths = fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+        paths.sort();
+        return paths.iter().try_for_each(|path| add(path, digest));
+    }
+    if path.is_file() {
+        let bytes = fs::read(path)?;
+        digest.update(path.file_name().unwrap_or_default().as_encoded_bytes());
+        digest.update((bytes.len() as u64).to_le_bytes());
+        digest.update(&bytes);
+    }
+    Ok(())
+}
+
+/// The table of all explanations, as Rust.
+fn explanations(folder: &Path) -> io::Result<String> {
     let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
     paths.sort();
@@ -20,5 +57,5 @@ fn main() -> io::Result<()> {
         let _ = writeln!(table, "    Explanation {{ code: {code:?}, text: include_str!({path:?}) }},");
     }
     table.push(']');
-    fs::write(Path::new(&variable("OUT_DIR")?).join("explanations.rs"), table)
+    Ok(table)
 }

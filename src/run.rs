@@ -157,6 +157,9 @@ impl<'a> Run<'a> {
     }
 }
 
+/// The kinds of all warnings of a run.
+pub(crate) const RUN_WARNINGS: [&str; 4] = ["crossing", "too-thin", "too-small", "energy-drift"];
+
 /// That the energy is wrong by more than anyone would draw knowingly.
 fn drift(drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;

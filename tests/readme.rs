@@ -42,6 +42,27 @@ fn every_command_prints_what_the_page_shows() {
     } else {
         assert_same(&untimed(&page), &untimed(&real));
     }
+    assert_same_film(&folder.path().join("figure_eight.gif"), &root().join("docs/figure_eight.gif"));
+}
+
+/// Asserts that the film that the page shows is the one that its command has made, however it is encoded.
+fn assert_same_film(made: &Path, shown: &Path) {
+    let pixels = |path: &Path| {
+        let decode = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"];
+        let output =
+            Command::new("ffmpeg").args(["-v", "error", "-nostdin", "-i"]).arg(path).args(decode).output();
+        output.unwrap().stdout
+    };
+    let (new, old) = (pixels(made), pixels(shown));
+    assert!(!new.is_empty(), "{} is no film", made.display());
+    let difference: u64 = new.iter().zip(&old).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    // The palette of a GIF leaves less than that undecided.
+    let same = new.len() == old.len() && difference < new.len() as u64;
+    if !same && std::env::var_os("JABUKA_UPDATE_DOCS").is_some() {
+        fs::copy(made, shown).unwrap();
+    } else {
+        assert!(same, "{} is another film than the README's command makes", shown.display());
+    }
 }
 
 /// Writes a scene to the file that its first line names: `# ball.toml`.
@@ -70,13 +91,22 @@ fn run_commands(folder: &Path, block: &str) -> String {
     commands.map(run).map(|text| text.trim_end().to_owned() + "\n").collect()
 }
 
-/// The lines of a page, without the seconds that a run took.
+/// The lines of a page, without the seconds that a run took, and what depends on them.
 fn untimed(page: &str) -> Vec<&str> {
-    let untimed = |line| match str::strip_suffix(line, " s").and_then(|line| line.rsplit_once(" in ")) {
+    page.lines().map(untimed_line).collect()
+}
+
+fn untimed_line(line: &str) -> &str {
+    const SLOWEST: &str = "slowest   ";
+    if line.starts_with(SLOWEST) { SLOWEST } else { unclocked(line) }
+}
+
+/// A line without the seconds at its end.
+fn unclocked(line: &str) -> &str {
+    match str::strip_suffix(line, " s").and_then(|line| line.rsplit_once(" in ")) {
         Some((what, seconds)) if seconds.parse::<f64>().is_ok() => what,
         _ => line,
-    };
-    page.lines().map(untimed).collect()
+    }
 }
 
 /// Asserts that two pages are equal, and says where they are not.

@@ -6,11 +6,11 @@ use clap::ValueEnum;
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, OutputError};
 use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
-use jabuka::render::{Quality, options};
 use jabuka::simulate::Selection;
 
+use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
-use super::scene_arguments::{SceneArguments, seen, survey};
+use super::run_arguments::{RunArguments, seen, survey};
 use super::{Failure, say};
 
 /// Write a folder that a cluster renders: scripts, and what sends them to Slurm or a render farm
@@ -26,13 +26,9 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    of_scene: SceneArguments,
-    /// The size of the images in pixels, instead of the scene's
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
-    /// How good the images are
-    #[arg(long, value_enum, default_value_t = Grade::Good)]
-    quality: Grade,
+    of_scene: RunArguments,
+    #[command(flatten)]
+    picture: PictureArguments,
     /// So many frames are one job of the cluster [default: 10, or more where there are very many]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     chunk: Option<u32>,
@@ -67,22 +63,6 @@ enum Engine {
     Openjd,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Grade {
-    /// For a look at the motion: no anti-aliasing
-    Draft,
-    /// As `povray animation.ini` renders them
-    Good,
-    /// For the film that is kept
-    Final,
-}
-
-fn parse_size(argument: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=100_000).contains(n));
-    let size = argument.split_once('x').and_then(|(width, height)| Some([number(width)?, number(height)?]));
-    size.ok_or_else(|| "write it as 1280x720".to_owned())
-}
-
 /// What goes into a line of a script.
 fn parse_line(argument: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || " ,.:/_+=%@-".contains(c);
@@ -98,7 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// A job from a scene, or one for every view.
 fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = arguments.of_scene.read(&arguments.scene)?;
+    let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
     let frames = scene.simulation.frames();
     let selection = arguments.of_scene.selection(frames)?;
     let folder = folder(arguments, &scene.name);
@@ -135,7 +115,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         batch::copy_scripts(from, &job.scripts()?)?;
         Ok(batch::size(from))
     };
-    let said = make(arguments, &folder(arguments, &name), arguments.of_scene.frames(), copy);
+    let said = make(arguments, &folder(arguments, &name), arguments.of_scene.frames.as_ref(), copy);
     say::result(&said.map_err(|error| failed(&error))?);
     Ok(())
 }
@@ -159,12 +139,7 @@ fn make(
 ) -> Result<String, OutputError> {
     let job = JobFolder::open(folder)?;
     let (size, transparent) = write(&job)?;
-    let quality = match arguments.quality {
-        Grade::Draft => Quality::Draft,
-        Grade::Good => Quality::Good,
-        Grade::Final => Quality::Final,
-    };
-    let options = options(arguments.size.unwrap_or(size), transparent, quality).join(" ");
+    let options = arguments.picture.options(size, transparent).join(" ");
     let settings = batch::settings(&folder.join(SCRIPTS), frames, options)?;
     let cpus = arguments.cpus.map(|cpus| cpus as usize);
     let chunk = batch::chunk(settings.frames.len(), cpus.unwrap_or(1));

@@ -9,7 +9,7 @@ use jabuka::output::{self, Folder};
 use jabuka::simulate::Selection;
 
 use super::progress::Progress;
-use super::scene_arguments::{SceneArguments, seen, survey};
+use super::run_arguments::{RunArguments, seen, survey};
 use super::{Failure, say, summary};
 
 /// Compile a scene into POV-Ray scripts, one per frame
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    of_scene: SceneArguments,
+    of_scene: RunArguments,
     /// Write nothing: compare the scripts with those in the folder, and fail where they differ
     #[arg(long)]
     check: bool,

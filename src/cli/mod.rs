@@ -10,13 +10,17 @@ mod interrupt;
 mod list;
 mod man;
 mod new;
+mod picture_arguments;
+mod povray_arguments;
 mod products;
 mod progress;
 mod render;
+mod run_arguments;
 mod say;
 mod scene_arguments;
 mod schema;
 mod status;
+mod still;
 mod summary;
 mod templates;
 
@@ -37,6 +41,7 @@ enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
     Render(render::Arguments),
+    Still(still::Arguments),
     Batch(batch::Arguments),
     Average(average::Arguments),
     Status(status::Arguments),
@@ -68,6 +73,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
+        Command::Still(arguments) => still::run(&arguments),
         Command::Average(arguments) => average::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Status(arguments) => status::run(&arguments),

@@ -4,17 +4,19 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use clap::ValueEnum;
+use jabuka::Scene;
 use jabuka::diagnostic::Report;
 use jabuka::output::{self, Folder, OutputError};
-use jabuka::render::{self, Event, Images, Job, Outcome, PovRay, Quality, RenderError, Sequence};
-use jabuka::scene::Override;
+use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
+use jabuka::scene::View;
 use jabuka::simulate::Selection;
 
+use super::picture_arguments::PictureArguments;
+use super::povray_arguments::PovRayArguments;
 use super::products::Products;
 use super::progress::Progress;
-use super::scene_arguments::{self, SceneArguments};
-use super::{Failure, interrupt, say};
+use super::run_arguments::{self, RunArguments};
+use super::{Failure, interrupt, say, summary};
 
 /// Render a scene, or a folder of scripts, into images and a film
 #[derive(clap::Args)]
@@ -25,12 +27,8 @@ pub(super) struct Arguments {
     /// The folder for the images [default: the folder `images` beside the scripts]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The size of the images in pixels, as in 1280x720 [default: that of the scene]
-    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
-    size: Option<[u32; 2]>,
-    /// How good the images are
-    #[arg(long, value_enum, default_value_t)]
-    quality: QualityName,
+    #[command(flatten)]
+    picture: PictureArguments,
     /// The number of POV-Rays at once [default: as many as keep the processors busy]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -43,23 +41,13 @@ pub(super) struct Arguments {
     /// Make one picture of evenly spaced frames with their times
     #[arg(long, value_name = "FILE.png")]
     pub(super) contact_sheet: Option<PathBuf>,
-    /// The program POV-Ray [default: povray]
-    #[arg(long, value_name = "PATH")]
-    povray: Option<PathBuf>,
-    /// How often a frame is tried again after POV-Ray was killed or hung
-    #[arg(long, value_name = "N", default_value_t = 2)]
-    retry: u32,
-    /// How long a frame may take, in seconds [default: far longer than others have taken]
-    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
-    time_limit: Option<u64>,
     /// Go on even where the first frames all fail
     #[arg(long)]
     keep_going: bool,
     #[command(flatten)]
-    scene: SceneArguments,
-    /// Further options for POV-Ray, as in -- +Q4 +AM2
-    #[arg(last = true, value_name = "POVRAY OPTIONS")]
-    options: Vec<String>,
+    scene: RunArguments,
+    #[command(flatten)]
+    povray: PovRayArguments,
 }
 
 impl Arguments {
@@ -68,44 +56,15 @@ impl Arguments {
     }
 }
 
-#[derive(Clone, Copy, Default, ValueEnum)]
-pub(super) enum QualityName {
-    /// For a look at the motion: no anti-aliasing
-    Draft,
-    /// As `povray animation.ini` renders it
-    #[default]
-    Good,
-    /// For the film that is kept: finer anti-aliasing
-    Final,
-}
-
-impl From<QualityName> for Quality {
-    fn from(name: QualityName) -> Quality {
-        match name {
-            QualityName::Draft => Quality::Draft,
-            QualityName::Good => Quality::Good,
-            QualityName::Final => Quality::Final,
-        }
-    }
-}
-
-pub(super) fn parse_size(argument: &str) -> Result<[u32; 2], String> {
-    let number = |text: &str| text.parse::<u32>().ok().filter(|n| (1..=65535).contains(n));
-    let size = argument.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([number(w)?, number(h)?]));
-    size.ok_or_else(|| "write it as WIDTHxHEIGHT, as in 1280x720".to_owned())
-}
-
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
     // What is not there is said before anything is done.
-    PovRay::locate(arguments.povray.as_deref()).map_err(|error| failed(&error))?;
+    arguments.povray.look().map_err(|error| failed(&error))?;
     let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
         return render_folder(arguments, &products, stop);
     }
-    let size =
-        arguments.size.map(|[width, height]| Override::new(format!("output.size=[{width}, {height}]")));
-    let scene = arguments.scene.read_with(&arguments.source, size.as_slice())?;
+    let scene = arguments.scene.read_with(&arguments.source, &arguments.picture.overrides())?;
     let frames = scene.simulation.frames();
     let selection = arguments.scene.selection(frames)?.every(arguments.every());
     let out = Path::new("out").join(&scene.name);
@@ -116,24 +75,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let message = "several views cannot share one folder of images, film or contact sheet: name one view";
         return Err(Failure::Usage(message.to_owned()));
     }
-    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
-    let run = scene_arguments::survey(&scene, &progress)?;
-    let mut folders = Vec::new();
-    for (view, folder) in &cameras {
-        let seen = scene_arguments::seen(&run, *view, &progress)?;
-        let run = seen.as_ref().unwrap_or(&run);
-        progress.phase("writing");
-        let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
-        output::write(run, &folder, &selection, &|| progress.step())
-            .map_err(|error| progress.failed(&error))?;
-        folders.push(folder);
-    }
-    progress.finish();
-    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    let folders = write_scripts(&scene, &selection, &cameras)?;
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
     let mut result = Ok(());
-    for folder in &folders {
-        match render_scripts(arguments, &products, folder.path(), Some(&selection), stop) {
+    for (folder, drift) in &folders {
+        match render_scripts(arguments, &products, folder.path(), Some(&selection), drift, stop) {
             Err(Failure::Interrupted) => return Err(Failure::Interrupted),
             other => result = result.and(other),
         }
@@ -141,9 +87,47 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     result
 }
 
+/// Writes the scripts of some cameras, if they are not there, and says what was noticed of the run. Returns the folders,
+/// and how right the run is.
+fn write_scripts(
+    scene: &Scene,
+    selection: &Selection,
+    cameras: &[(Option<&View>, PathBuf)],
+) -> Result<Vec<(Folder, String)>, Failure> {
+    let frames = scene.simulation.frames();
+    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let mut folders = Vec::new();
+    let mut run = None;
+    for (view, path) in cameras {
+        let folder = Folder::open(path).map_err(|error| progress.failed(&error))?;
+        let (warnings, drift);
+        if let Some(manifest) = output::up_to_date(scene, *view, selection, path) {
+            (warnings, drift) = (manifest.warnings(), manifest.head.drift);
+        } else {
+            let first = match run.take() {
+                Some(run) => run,
+                None => run_arguments::survey(scene, &progress)?,
+            };
+            let first = run.insert(first);
+            let seen = run_arguments::seen(first, *view, &progress)?;
+            let run = seen.as_ref().unwrap_or(first);
+            progress.phase("writing");
+            let step = || progress.step();
+            output::write(run, &folder, selection, &step).map_err(|error| progress.failed(&error))?;
+            (warnings, drift) = (run.warnings(), Some(run.survey().drift));
+        }
+        if folders.is_empty() {
+            say::report(&Report { diagnostics: warnings, ..Report::default() });
+        }
+        folders.push((folder, drift.map(summary::drift).unwrap_or_default()));
+    }
+    progress.finish();
+    Ok(folders)
+}
+
 /// Renders the scripts in a folder, as they are.
 fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
-    if !arguments.scene.suit_scripts() {
+    if arguments.scene.change_the_scene() {
         let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts of a folder are \
                        rendered as they are";
         return Err(Failure::Usage(message.to_owned()));
@@ -163,35 +147,27 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         (None, Some(_)) => Some(Selection::first(usize::MAX)),
     };
     let selection = selection.map(|selection| selection.every(arguments.every()));
-    render_scripts(arguments, products, &arguments.source, selection.as_ref(), stop)
+    render_scripts(arguments, products, &arguments.source, selection.as_ref(), "", stop)
 }
 
-/// Renders the selected scripts of a folder.
+/// Renders the selected scripts of a folder. What is known of them beside goes into the summary.
 fn render_scripts(
     arguments: &Arguments,
     products: &Products,
     folder: &Path,
     selection: Option<&Selection>,
+    known: &str,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let start = Instant::now();
     let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
     let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
     let images = Images::open(&images).map_err(|error| failed(&error))?;
-    let povray = PovRay::find(arguments.povray.as_deref(), &images.povray_memory());
-    let povray = povray.map_err(|error| failed(&error))?;
-    let size = arguments.size.unwrap_or(sequence.size);
-    let mut options = render::options(size, sequence.transparent, arguments.quality.into());
-    options.extend(arguments.options.iter().cloned());
+    let povray = arguments.povray.find(&images).map_err(|error| failed(&error))?;
     let job = Job {
-        sequence: &sequence,
-        images: &images,
-        povray: &povray,
-        options,
         jobs: arguments.jobs.map(usize::from),
-        retries: arguments.retry,
         keep_going: arguments.keep_going,
-        time_limit: arguments.time_limit.map(Duration::from_secs),
+        ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
     };
     let outcome = render(&job, stop)?;
     if outcome.stopped {
@@ -201,7 +177,7 @@ fn render_scripts(
         say::error(&format!("stopped: {there} of {frames} frames are there; {goes_on}\n"));
         return Err(Failure::Interrupted);
     }
-    say::result(&summary(&images, &sequence, &outcome, start.elapsed()));
+    say::result(&summed_up(&images, &sequence, known, &outcome, start.elapsed()));
     if !outcome.failed.is_empty() {
         if products.are_wanted() {
             say::error("no film and no contact sheet were made, since frames are missing\n");
@@ -212,7 +188,7 @@ fn render_scripts(
 }
 
 /// Renders, and says how it goes.
-fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
+pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
     /// So many failures are shown in full.
     const SHOWN: usize = 3;
     let mut progress = None;
@@ -253,16 +229,16 @@ fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
 }
 
 /// Says why nothing more is rendered.
-fn failed(error: &RenderError) -> Failure {
+pub(super) fn failed(error: &RenderError) -> Failure {
     say::report(&error.report());
     Failure::Errors
 }
 
 /// What was made, in a few lines.
-fn summary(images: &Images, sequence: &Sequence, outcome: &Outcome, took: Duration) -> String {
+fn summed_up(images: &Images, sequence: &Sequence, known: &str, outcome: &Outcome, took: Duration) -> String {
     let frames = sequence.scripts().len();
     let there = frames - outcome.failed.len();
-    let mut text = format!("{}: {there} of {frames} frames\n", images.folder().display());
+    let mut text = format!("{}: {there} of {frames} frames\n{known}", images.folder().display());
     let mut line = |name: &str, what: String| text.push_str(&format!("{name:10}{what}\n"));
     if outcome.up_to_date > 0 {
         line("as before", format!("{}, up to date", outcome.up_to_date));

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::time::Duration;
 
 use jabuka::Run;
-use jabuka::emit::INI;
 use jabuka::output::Written;
 
 /// What was written, and how right it is.
@@ -31,21 +30,26 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         "{folder}: {scripts} of {frames} frames{others}\n\
          bodies    {bodies}\n\
          timestep  {step} s, {steps} a frame, by {method}\n\
-         drift     {drift} of the largest kinetic energy\n\
+         {drift}\
          {unit}\
          {blur}\
          written   {bytes} in {seconds:.2} s\n\
-         render    cd {folder} && povray {INI}\n",
+         render    jabuka render {folder}\n",
         folder = folder.display(),
         scripts = written.scripts,
         bodies = scene.bodies.len(),
         step = short(survey.timestep),
         steps = survey.steps_per_frame,
         method = scene.simulation.method.name,
-        drift = percent(survey.drift),
+        drift = drift(survey.drift),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
+}
+
+/// How right a run is.
+pub(super) fn drift(drift: f64) -> String {
+    format!("drift     {} of the largest kinetic energy\n", percent(drift))
 }
 
 /// A number to four digits, without trailing zeros.

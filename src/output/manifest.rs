@@ -9,6 +9,9 @@ use sha2::{Digest, Sha256};
 
 use super::folder;
 use crate::Run;
+use crate::diagnostic::Diagnostic;
+use crate::run::RUN_WARNINGS;
+use crate::scene::{Scene, Shutter};
 
 /// The name of the manifest in its folder.
 pub const MANIFEST: &str = "manifest.json";
@@ -46,6 +49,11 @@ impl Manifest {
         let file: File = serde_json::from_reader(open(&folder.join(MANIFEST))?).ok()?;
         let ours = file.head.is_ours() && file.files.iter().all(Entry::is_inside);
         ours.then_some(Manifest { head: file.head, files: file.files })
+    }
+
+    /// What was noticed of the run whose scripts these are.
+    pub fn warnings(&self) -> Vec<Diagnostic> {
+        self.head.warnings.iter().filter_map(Warning::diagnostic).collect()
     }
 
     /// Whether all files are there that were to be written.
@@ -116,6 +124,35 @@ impl Entry {
     }
 }
 
+/// A warning of a run, as a manifest keeps it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Warning {
+    /// The kind of warning: `energy-drift`.
+    pub code: String,
+    /// What was noticed.
+    pub message: String,
+    /// What one might do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub help: Option<String>,
+}
+
+impl Warning {
+    fn of(diagnostic: Diagnostic) -> Warning {
+        let Diagnostic { code, message, help, .. } = diagnostic;
+        Warning { code: code.to_owned(), message, help }
+    }
+
+    /// The warning, to be said again; `None` where its kind is none that there is.
+    fn diagnostic(&self) -> Option<Diagnostic> {
+        let code = RUN_WARNINGS.iter().find(|code| **code == self.code)?;
+        let warning = Diagnostic::warning(code, self.message.clone());
+        Some(match &self.help {
+            Some(help) => warning.help(help.clone()),
+            None => warning,
+        })
+    }
+}
+
 /// How far a folder is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -136,6 +173,9 @@ pub struct Head {
     pub(super) generator: String,
     /// The version of that program.
     pub version: String,
+    /// A digest of its sources: another one may write other scripts of the same scene.
+    #[serde(default)]
+    pub build: String,
     /// How far the folder is.
     pub state: State,
     /// The name of the scene.
@@ -164,6 +204,12 @@ pub struct Head {
     /// And the number of moments in each of those scripts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
+    /// How far the energy drifts, as a part of the largest kinetic energy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drift: Option<f64>,
+    /// What was noticed of the run, and is no error.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
     /// While writing: the frames that are being written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<String>,
@@ -172,21 +218,30 @@ pub struct Head {
 impl Head {
     /// The head of a folder that holds all files of a run.
     pub(super) fn new(run: &Run<'_>) -> Head {
-        let scene = run.scene();
+        let head = Head::of(run.scene(), run.view(), run.shutter());
+        let warnings = run.warnings().into_iter().map(Warning::of).collect();
+        Head { drift: Some(run.survey().drift), warnings, ..head }
+    }
+
+    /// What is known without a run of the scene.
+    pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Head {
         Head {
             generator: GENERATOR.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            build: env!("JABUKA_BUILD").to_owned(),
             state: State::Complete,
             scene: scene.name.clone(),
-            view: run.view().map(str::to_owned),
+            view: view.map(str::to_owned),
             digest: scene.digest.clone(),
             frames: scene.simulation.frames(),
             frame_rate: scene.simulation.frame_rate,
             width: Some(scene.output.width),
             height: Some(scene.output.height),
             transparent: Some(scene.output.transparent),
-            shutter: run.shutter().map(|shutter| shutter.open),
-            samples: run.shutter().map(|shutter| shutter.samples),
+            shutter: shutter.map(|shutter| shutter.open),
+            samples: shutter.map(|shutter| shutter.samples),
+            drift: None,
+            warnings: Vec::new(),
             planned: None,
         }
     }
@@ -197,8 +252,8 @@ impl Head {
 
     /// Whether all files of a folder with this manifest are as jabuka would write them now.
     pub(super) fn is_of(&self, other: &Head) -> bool {
-        let what = |head: &Head| (head.version.clone(), head.view.clone(), head.digest.clone());
-        self.state != State::Clearing && what(self) == what(other)
+        let what = |head: &Head| [head.version.clone(), head.build.clone(), head.digest.clone()];
+        self.state != State::Clearing && what(self) == what(other) && self.view == other.view
     }
 }
 

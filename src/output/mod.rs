@@ -8,7 +8,9 @@ mod compare;
 mod error;
 mod folder;
 mod manifest;
+mod moment;
 mod tally;
+mod up_to_date;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
@@ -17,5 +19,7 @@ pub use folder::Folder;
 pub(crate) use folder::scripts;
 pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
+pub use moment::write_moment;
 use tally::Tally;
+pub use up_to_date::up_to_date;
 pub use write::{Written, write};

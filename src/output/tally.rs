@@ -1,5 +1,9 @@
 //! The digest and the length of what is written, without holding it.
 
+use std::fs::File;
+use std::io;
+use std::path::Path;
+
 use sha2::{Digest, Sha256};
 
 use super::Entry;
@@ -18,9 +22,27 @@ impl Tally {
         self.bytes += piece.len() as u64;
     }
 
+    /// The file at a path.
+    pub(super) fn of_file(path: &Path) -> io::Result<Tally> {
+        let mut tally = Tally::default();
+        io::copy(&mut File::open(path)?, &mut tally)?;
+        Ok(tally)
+    }
+
     /// The entry of the file that the pieces make.
     pub(super) fn entry(self, frame: Option<usize>, name: String) -> Entry {
         Entry { frame, name, bytes: self.bytes, sha256: self.hash.finalize().into() }
+    }
+}
+
+impl io::Write for Tally {
+    fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
+        self.add(piece);
+        Ok(piece.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

@@ -100,7 +100,7 @@ fn scripts(
 }
 
 /// Writes the script of an image with motion blur, moment by moment.
-fn put_blurred(
+pub(super) fn put_blurred(
     run: &Run<'_>,
     folder: &Folder,
     frame: &Frame,

@@ -90,6 +90,21 @@ impl Images {
         self.adopt(&temporary, name, record)
     }
 
+    /// Copies an image to another place, where it appears whole or not at all.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or not be written there.
+    pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
+        let file = target.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));
+        let copied = fs::copy(self.image(name), &temporary).and_then(|_| fs::rename(&temporary, target));
+        copied.map_err(|error| {
+            // What could not be written may not be there.
+            let _ = fs::remove_file(&temporary);
+            RenderError::io(target)(error)
+        })
+    }
+
     /// Notes why an image could not be rendered.
     pub(super) fn note_failure(&self, name: &str, why: &str) -> Result<(), RenderError> {
         let folder = self.hidden().join("failed");

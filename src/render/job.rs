@@ -1,14 +1,12 @@
 //! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
 
-use std::collections::hash_map::Entry;
-use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
+use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use super::exposure::Exposure;
+use super::making::Making;
 use super::order::coarse_to_fine;
-use super::pool::{Fate, Pool};
+use super::pool::Pool;
 use super::process::{Setup, Unit};
 use super::record::{Compare, Record, State};
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
@@ -25,6 +23,8 @@ pub struct Job<'a> {
     pub options: Vec<String>,
     /// The number of processes; none: as many as keep the processors busy.
     pub jobs: Option<usize>,
+    /// The threads that each process renders with.
+    pub threads: usize,
     /// How often a frame is tried again after POV-Ray has died of it.
     pub retries: u32,
     /// Whether to go on where all frames fail.
@@ -77,10 +77,10 @@ pub struct Outcome {
 }
 
 /// Frames of equal scripts: the first is rendered.
-struct Group {
+pub(super) struct Group {
     /// The numbers within the sequence.
-    members: Vec<usize>,
-    record: Record,
+    pub(super) members: Vec<usize>,
+    pub(super) record: Record,
 }
 
 impl Job<'_> {
@@ -143,16 +143,18 @@ impl Job<'_> {
         watch: &mut dyn FnMut(Event<'_>),
         stop: &AtomicBool,
     ) -> Result<(), RenderError> {
-        /// If so many fail and none succeeds, it is not the frames' fault.
-        const HOPELESS: usize = 8;
         let sequence = self.sequence;
         let scripts = sequence.scripts();
         let setup = Setup {
             povray: self.povray.path(),
             scripts: sequence.absolute(),
             options: &self.options,
-            end: (sequence.last, sequence.time(sequence.last)),
-            threads: 1,
+            last: sequence.last,
+            clock: match sequence.moment {
+                Some(time) => [time; 2],
+                None => [0.0, sequence.time(sequence.last)],
+            },
+            threads: self.threads,
         };
         let mut pool = Pool::new(setup, self.images, stop);
         pool.jobs = self.jobs;
@@ -170,64 +172,8 @@ impl Job<'_> {
             moments.unwrap_or_else(|| vec![unit])
         };
         let units: Vec<Unit> = coarse_to_fine(groups.len()).map(unit).flat_map(moments).collect();
-        // The folder of a process goes with it; images of moments wait here for the others of their frame.
-        let mut exposures: HashMap<usize, Exposure> = HashMap::new();
-        let mut failed = HashSet::new();
-        let mut done = |unit: Unit, fate: Fate| -> Result<(), RenderError> {
-            let group = &groups[unit.index];
-            let first = &scripts[group.members[0]];
-            let said = match fate {
-                Fate::Image(path, seconds) => {
-                    let mut exposed = None;
-                    if let Some(moment) = unit.moment {
-                        let of = sequence.moments.unwrap_or(1);
-                        let exposure = match exposures.entry(unit.index) {
-                            Entry::Occupied(begun) => begun.into_mut(),
-                            Entry::Vacant(new) => new.insert(Exposure::new(self.images, unit.index)?),
-                        };
-                        if !exposure.add(&path, moment, seconds, of)? {
-                            return Ok(());
-                        }
-                        exposed = exposures.remove(&unit.index);
-                    }
-                    let (path, seconds) = match &exposed {
-                        None => (path, seconds),
-                        Some(exposure) => (exposure.develop()?, exposure.seconds),
-                    };
-                    self.images.adopt(&path, &first.name, &group.record)?;
-                    outcome.rendered += 1;
-                    if outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
-                        outcome.slowest = Some((unit.frame, seconds));
-                    }
-                    watch(Event::Made { frame: first.frame, seconds: Some(seconds) });
-                    for &other in &group.members[1..] {
-                        self.images.copy(&first.name, &scripts[other].name, &group.record)?;
-                        outcome.copied += 1;
-                        watch(Event::Made { frame: scripts[other].frame, seconds: None });
-                    }
-                    return Ok(());
-                }
-                Fate::Broken(said) | Fate::Died(said) => said,
-            };
-            // Other moments of the frame may already be on their way.
-            exposures.remove(&unit.index);
-            if !failed.insert(unit.index) {
-                return Ok(());
-            }
-            for &member in &group.members {
-                let script = &scripts[member];
-                let path: PathBuf = sequence.folder().join(&script.file);
-                let fault = Fault::parse(script.frame, path, &said);
-                self.images.note_failure(&script.name, &fault.to_string())?;
-                watch(Event::Failed(&fault));
-                outcome.failed.push(fault);
-            }
-            if !self.keep_going && outcome.rendered == 0 && outcome.failed.len() >= HOPELESS {
-                return Err(RenderError::AllFail(outcome.failed.len()));
-            }
-            Ok(())
-        };
-        let finished = pool.run(units, &mut done)?;
+        let mut making = Making::new(self, groups, outcome, watch);
+        let finished = pool.run(units, &mut |unit, fate| making.take(&unit, fate))?;
         outcome.stopped = !finished;
         outcome.processes = pool.started();
         outcome.warnings = pool.warnings();

@@ -24,6 +24,7 @@ mod images;
 mod inputs;
 mod job;
 pub mod linear_light;
+mod making;
 mod options;
 mod order;
 mod picture;

@@ -37,8 +37,10 @@ pub(super) struct Setup<'a> {
     pub(super) scripts: &'a Path,
     /// The options that decide on pixels.
     pub(super) options: &'a [String],
-    /// The number of the last frame, and its time, s.
-    pub(super) end: (usize, f64),
+    /// The number of the last frame.
+    pub(super) last: usize,
+    /// What the clock of POV-Ray's says in the first frame and in the last, s.
+    pub(super) clock: [f64; 2],
     /// The threads that each process renders with.
     pub(super) threads: usize,
 }
@@ -92,12 +94,13 @@ impl Process {
         // The names of folders may contain what neither POV-Ray's command line nor its strings can.
         std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
         fs::write(folder.join("run.pov"), master(&units))?;
-        let (last, end) = setup.end;
+        let (last, [begin, end]) = (setup.last, setup.clock);
         let (names, range) = match units.as_slice() {
             [unit] if unit.asks_clock => {
                 let frame = unit.frame;
                 let digits = if last == 0 { 0 } else { last.to_string().len() };
-                let range = [format!("+KFI0 +KFF{last} +KI0 +KF{end}"), format!("+SF{frame} +EF{frame}")];
+                let range =
+                    [format!("+KFI0 +KFF{last} +KI{begin} +KF{end}"), format!("+SF{frame} +EF{frame}")];
                 (Names::Own(frame, digits), range.join(" "))
             }
             _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", units.len() - 1)),
@@ -107,9 +110,9 @@ impl Process {
             .current_dir(&folder)
             .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
             .args(["+Lscripts", "+Lscripts/assets"])
+            .arg(format!("+WT{}", setup.threads))
             .args(setup.options)
             .arg(if units.iter().any(|unit| unit.moment.is_some()) { "+FN16" } else { "+FN8" })
-            .arg(format!("+WT{}", setup.threads))
             .args(range.split(' '))
             .args(["+Irun.pov", "+Oimage.png"])
             .stdin(Stdio::null())

@@ -25,6 +25,8 @@ pub struct Sequence {
     pub transparent: bool,
     /// The number of moments of each frame, if frames are blurred.
     pub moments: Option<u32>,
+    /// Where its one script is of a moment that need not be that of a frame: its time, s.
+    pub moment: Option<f64>,
     /// Files that scripts read without including them.
     pub(super) assets: Vec<PathBuf>,
 }
@@ -84,6 +86,7 @@ impl Sequence {
             size: size.unwrap_or([1280, 720]),
             transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
             moments,
+            moment: None,
             assets: assets.map(|file| absolute.join(&file.name)).collect(),
             folder: folder.to_owned(),
             absolute,

@@ -184,7 +184,9 @@ impl Place {
             });
         }
         let found = output::scripts(&scripts).map_err(io::Error::other)?;
-        let frames = found.into_iter().map(|(frame, _)| frame).collect();
+        // A blurred frame has two scripts, and is one image.
+        let mut frames: Vec<usize> = found.into_iter().map(|(frame, _)| frame).collect();
+        frames.dedup();
         let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
         Ok(Place { scripts, images, frames, digits, options: None, files, film: None })
     }

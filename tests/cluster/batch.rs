@@ -8,6 +8,31 @@ use super::support::{compile, jabuka, stderr, stdout};
 const SLURM: [&str; 2] = ["--engine", "slurm"];
 
 #[test]
+fn a_scene_that_is_changed_keeps_the_images_that_are_up_to_date() {
+    // It turns where it stands: camera, lights and ground follow what the whole motion takes up, so a way that is longer
+    // would change every script.
+    let scene = |frames| {
+        scene(frames)
+            .replace("velocity = [1, 0, 0]", "angular_velocity = [0, 3, 0]\nmaterial.like = 'beach_ball'")
+    };
+    let job = Job::new(&scene(3), &SLURM);
+    assert!(job.chunk(&["0", "2"]).status.success());
+    // Longer, and the same up to there.
+    let longer = scene(5);
+    let output = job.batch(&longer, &SLURM);
+    assert!(stdout(&output).contains("\nimages    3 of 5 are there\n"), "{}", stdout(&output));
+    assert_eq!(job.missing(), "3-4");
+    // Another size is another image.
+    let output = job.batch(&longer, &[&SLURM[..], &["--size", "32x18"]].concat());
+    assert!(stdout(&output).contains("\nimages    0 of 5 are there\n"), "{}", stdout(&output));
+    assert_eq!(job.missing(), "0-4");
+    let output = job.batch(&longer, &[&SLURM[..], &["--quality", "draft", "--frames", "1-3"]].concat());
+    assert!(output.status.success());
+    assert_eq!(job.missing(), "1-3");
+    assert!(job.read("job.conf").contains("OPTIONS='+W65 +H37 -A +Q9'"));
+}
+
+#[test]
 fn the_lines_of_a_user_stay() {
     let job = Job::new(&scene(2), &[&SLURM[..], &["--partition", "long", "--cpus", "4"]].concat());
     let lines = job.read("render.sbatch");

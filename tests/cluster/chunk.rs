@@ -2,15 +2,16 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::process::Command;
+use std::process::{Child, Command};
 use std::time::Duration;
 
 use jabuka::render::{Files, Record};
 
-use super::job::{Job, scene};
-use super::support::{stderr, stdout};
+use super::job::{Job, film, names, scene, wait_until};
+use super::support::{jabuka, stderr, stdout};
 
 const SLURM: [&str; 2] = ["--engine", "slurm"];
+const LONG: Duration = Duration::from_secs(300);
 
 #[test]
 fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
@@ -128,6 +129,82 @@ fn a_frame_that_takes_too_long_is_given_up() {
 }
 
 #[test]
+fn what_is_stopped_in_the_middle_leaves_nothing_half() {
+    let job = Job::new(&scene(40), &SLURM);
+    // Some frames never end.
+    for frame in [5, 6] {
+        let endless = format!("// frame {frame}\n#version 3.7;\n#while (1) #declare X = {frame}; #end\n");
+        fs::write(job.join(format!("scripts/frame_{frame:04}.pov")), endless).unwrap();
+    }
+    for signal in ["TERM", "INT", "KILL"] {
+        let mut command = job.command("/usr/bin/env");
+        // What runs the tests in the background may have them ignore it, and bash cannot trap what it was told to ignore.
+        command.arg("--default-signal=INT").arg(job.join("render-chunk"));
+        let mut chunk = Running(command.args(["0", "39"]).env("PROCESSES", "3").spawn().unwrap());
+        // A third worker renders the others meanwhile.
+        wait_until("the frames that never end are being rendered", LONG, || {
+            let running = job.running();
+            running.contains(&5) && running.contains(&6)
+        });
+        let kill = Command::new("kill").args([&format!("-{signal}"), &chunk.0.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+        let code = chunk.0.wait().unwrap().code();
+        if signal == "KILL" {
+            // It could not tidy up. What it has left in the way of processes is ended by hand.
+            end_endless_frames(&job);
+        } else {
+            assert_eq!(code, Some(143));
+            assert_eq!(job.leftovers(), [""; 0], "after {signal}");
+        }
+        for image in job.images() {
+            let bytes = fs::read(job.join("images").join(&image)).unwrap();
+            assert!(bytes.ends_with(b"IEND\xae\x42\x60\x82"), "{image} is half");
+        }
+    }
+    // A marker that nobody touches is not taken for work for ever.
+    wait_until("workers end", LONG, || {
+        let markers = names(&job.join("images/.jabuka/running"));
+        let old = |marker: &String| {
+            let path = job.join("images/.jabuka/running").join(marker);
+            Command::new("touch").args(["-d", "4 minutes ago"]).arg(path).status().unwrap().success()
+        };
+        markers.iter().all(old) && job.status().0.contains("begun and not heard of for three minutes")
+    });
+}
+
+/// A chunk that is being rendered. Frames that never end would outlive a test that fails.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if matches!(self.0.try_wait(), Ok(None)) {
+            let _ = Command::new("kill").args(["-TERM", &self.0.id().to_string()]).status();
+            let _ = self.0.wait();
+        }
+    }
+}
+
+/// Ends the workers of a chunk that was killed, and their POV-Rays: all processes that work in the folder of the job.
+fn end_endless_frames(job: &Job) {
+    let folder = fs::canonicalize(job.path()).unwrap();
+    let send = |signal: &str| {
+        let mut found = false;
+        for entry in fs::read_dir("/proc").unwrap().flatten() {
+            let inside = fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd.starts_with(&folder));
+            if let Some(process) = entry.file_name().to_str().filter(|_| inside) {
+                found = true;
+                let _ = Command::new("kill").args([signal, process]).status();
+            }
+        }
+        found
+    };
+    // First all are stopped: a worker that sees its POV-Ray end would note a failure, and begin the next frame.
+    send("-STOP");
+    send("-STOP");
+    wait_until("all have ended", LONG, || !send("-KILL"));
+}
+
+#[test]
 fn two_machines_may_render_the_same_frames() {
     let job = Job::new(&scene(12), &SLURM);
     let spawn = || job.command("render-chunk").args(["0", "11"]).spawn().unwrap();
@@ -211,6 +288,27 @@ fn a_blurred_frame_is_the_average_of_its_moments() {
     assert_eq!(job.missing(), "");
 }
 
+#[test]
+fn a_scene_with_motion_blur_is_a_job_of_as_many_images_as_frames() {
+    let text = scene(3) + "[camera]\nshutter = 0.02\nsamples = 2\n";
+    let job = Job::new(&text, &[&SLURM[..], &["--chunk", "2"]].concat());
+    assert_eq!((job.missing().as_str(), stdout(&job.chunk(&["--chunks"]))), ("0-2", "2\n".to_owned()));
+    let output = job.command("submit").env("PATH", path_without_jabuka()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("the nodes need it for motion blur"), "{}", stderr(&output));
+
+    fs::write(job.join("local.conf"), format!("JABUKA={:?}\n", env!("CARGO_BIN_EXE_jabuka"))).unwrap();
+    let output = job.chunk(&["0-2"]);
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    assert!(job.command("render-video").status().unwrap().success());
+    assert_eq!(film(&job.join("film.mp4")).0, 3);
+    assert_eq!(job.status(), ("done     3 of 3\nfilm     made\n".to_owned(), true));
+    // As a folder of scripts and images, without the settings of a job.
+    let scripts = job.join("scripts");
+    let output = jabuka().arg("status").arg(scripts).output().unwrap();
+    assert!(stdout(&output).starts_with("done     0 of 3\n"), "{}", stdout(&output));
+}
+
 fn path_without_jabuka() -> String {
     let path = std::env::var("PATH").unwrap();
     path.split(':')
@@ -226,6 +324,13 @@ fn wrong_usage_is_said() {
         let output = job.chunk(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains("./render-chunk 7 31"), "{}", stderr(&output));
+    }
+    for name in ["render-chunk", "render-video", "submit"] {
+        let output = job.command(name).arg("--help").output().unwrap();
+        assert!(output.status.success() && stderr(&output).is_empty(), "{name}: {}", stderr(&output));
+        assert!(stdout(&output).contains(&format!("\n   ./{name} ")), "{}", stdout(&output));
+        let output = job.command(name).arg("--hlep").output().unwrap();
+        assert!(!output.status.success() && stderr(&output).contains("`--hlep`"), "{}", stderr(&output));
     }
     let output = job.chunk(&["7", "31"]);
     assert!(

@@ -75,6 +75,14 @@ impl Job {
         (stdout(&output), output.status.success())
     }
 
+    /// The frames that are being rendered, as `jabuka status` says it to programs.
+    pub(crate) fn running(&self) -> Vec<u64> {
+        let output = jabuka().args(["status", "--format", "json"]).arg(self.path()).output().unwrap();
+        let status: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        let running = status["running"].as_array().unwrap();
+        running.iter().map(|running| running["frame"].as_u64().unwrap()).collect()
+    }
+
     /// Replaces the line of the ball by one that POV-Ray does not take; returns its number.
     pub(crate) fn break_frame(&self, frame: usize) -> usize {
         let path = self.join(format!("scripts/frame_{frame:04}.pov"));

@@ -57,8 +57,15 @@ impl Slurm {
     }
 
     /// What is in the queue.
+    /// What is in the queue. An answer that does not come, on a machine that is busy, is no empty queue.
     fn queue(&self) -> String {
-        stdout(&self.command(Command::new("squeue").args(["--noheader", "--array"])))
+        let mut queue = String::new();
+        wait_until("Slurm says what is in the queue", LONG, || {
+            let output = self.command(Command::new("squeue").args(["--noheader", "--array"]));
+            queue = stdout(&output);
+            output.status.success()
+        });
+        queue
     }
 }
 
@@ -79,7 +86,7 @@ fn a_node_dies_on_the_way_and_the_film_is_made() {
     let mut slurm = Slurm::up();
     assert!(first_line(&slurm.submit(&job)).starts_with("sent 240 frames in 20 chunks: job "));
     let said = slurm.submit(&job);
-    assert!(said.ends_with("frames are in the queue already\nnothing was sent\n"), "{said}");
+    assert!(said.ends_with(" in the queue already\nnothing was sent\n"), "{said}");
 
     wait_until("some images are there", LONG, || job.images().len() >= 24);
     slurm.order("kill n1");
@@ -95,4 +102,48 @@ fn a_node_dies_on_the_way_and_the_film_is_made() {
     assert_eq!(job.leftovers(), [""; 0], "what the dead node has left is gone");
     let logs = super::job::names(&job.join("logs"));
     assert!(logs.len() >= 20, "every chunk has a log: {logs:?}");
+}
+
+#[test]
+fn a_broken_frame_is_named_and_after_its_repair_only_it_is_sent() {
+    let job = Job::new(&scene(20), &["--engine", "slurm", "--chunk", "6"]);
+    let mended = job.read("scripts/frame_0013.pov");
+    let line = job.break_frame(13);
+    let mut slurm = Slurm::up();
+    assert!(slurm.submit(&job).starts_with("sent 20 frames in 4 chunks: job "));
+    wait_until("the others are there and the queue is empty", LONG, || {
+        job.missing() == "13" && slurm.queue().is_empty()
+    });
+    let (said, complete) = job.status();
+    assert!(
+        !complete && said.starts_with("done     19 of 20\nfailed   1\n  frame 13: frame_0013.pov:"),
+        "{said}"
+    );
+    assert!(said.contains(&format!("frame_0013.pov:{line}: ")) && said.contains("(body `ball`)"), "{said}");
+    assert!(!job.join("film.mp4").exists(), "a film waits for all frames");
+
+    // Without a controller nothing is known, so nothing is sent. It saves what it knows within five seconds.
+    std::thread::sleep(Duration::from_secs(7));
+    slurm.order("down");
+    let output = slurm.command(job.command("submit").env("SLURM_CLIENT_TIMEOUT", "1"));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("nothing was sent"), "{}", stderr(&output));
+    slurm.order("up");
+    // Should it have died before it saved what happened last, it sends the jobs that have ended since again by itself, which
+    // does no harm but takes minutes. Until they have ended too, the frame is in the queue.
+    wait_until("the controller is back and the queue is empty", LONG, || slurm.queue().is_empty());
+    assert_eq!(job.missing(), "13", "it is not mended yet");
+
+    std::fs::write(job.join("scripts/frame_0013.pov"), mended).unwrap();
+    let said = slurm.submit(&job);
+    assert!(said.starts_with("sent 1 frame in 1 chunk: job "), "{said}");
+    wait_until("the film is made", LONG, || job.status().0.contains("film     made"));
+    assert_eq!(film(&job.join("film.mp4")).0, 20);
+
+    // The film alone is made again.
+    wait_until("the queue is empty", LONG, || slurm.queue().is_empty());
+    std::fs::remove_file(job.join("film.mp4")).unwrap();
+    let said = slurm.submit(&job);
+    assert!(said.starts_with("sent the film: job ") && said.lines().count() == 1, "{said}");
+    wait_until("the film is made again", LONG, || job.join("film.mp4").exists());
 }

@@ -13,4 +13,5 @@ mod memory;
 mod sameness;
 mod shutter;
 mod templates;
+mod up_to_date;
 mod views;

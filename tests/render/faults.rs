@@ -51,7 +51,9 @@ fn where_every_frame_fails_it_stops() {
     assert_tidy(&place.path("out/scene/images"));
     let output = place.run(&["render", "scene.toml", "--keep-going", "--frames", "0-11"]);
     assert!(
-        stdout(&output).starts_with("out/scene/images: 0 of 12 frames\nfailed    12\n"),
+        stdout(&output).starts_with(
+            "out/scene/images: 0 of 12 frames\ndrift     0 % of the largest kinetic energy\nfailed    12\n"
+        ),
         "{}",
         stdout(&output)
     );

@@ -121,9 +121,13 @@ pub fn settings(
     let head = output::read_manifest(&scripts.join(output::MANIFEST));
     let head = head.filter(|head| head.state == output::State::Complete);
     let head = head.ok_or_else(|| OutputError::NoFolder(scripts.to_owned()))?;
-    let found = output::scripts(scripts)?.into_iter().map(|(frame, _)| frame);
-    let frames: Vec<usize> =
-        found.filter(|frame| frames.is_none_or(|frames| frames.contains(*frame))).collect();
+    let mut frames: Vec<usize> = output::scripts(scripts)?
+        .into_iter()
+        .map(|(frame, _)| frame)
+        .filter(|frame| frames.is_none_or(|frames| frames.contains(*frame)))
+        .collect();
+    // A blurred frame has two scripts, and is one image.
+    frames.dedup();
     let blurred = fs::read_dir(scripts).map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
     let blurred = blurred.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("shutter_"));
     let last_frame = head.frames.saturating_sub(1);

@@ -1,0 +1,60 @@
+//! The arguments that say which POV-Ray renders, and what it may do.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use jabuka::render::{Images, Job, PovRay, RenderError, Sequence};
+
+use super::picture_arguments::PictureArguments;
+
+/// Which POV-Ray renders, and what it may do.
+#[derive(clap::Args)]
+pub(super) struct PovRayArguments {
+    /// The program POV-Ray [default: povray]
+    #[arg(long, value_name = "PATH")]
+    povray: Option<PathBuf>,
+    /// How often a frame is tried again after POV-Ray was killed or hung
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    retry: u32,
+    /// How long a frame may take, in seconds [default: far longer than others have taken]
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: Option<u64>,
+    /// Further options for POV-Ray, as in -- +Q4 +AM2
+    #[arg(last = true, value_name = "POVRAY OPTIONS")]
+    options: Vec<String>,
+}
+
+impl PovRayArguments {
+    /// Whether there is one, which is quickly told.
+    pub(super) fn look(&self) -> Result<(), RenderError> {
+        PovRay::locate(self.povray.as_deref()).map(drop)
+    }
+
+    /// The POV-Ray for a folder of images.
+    pub(super) fn find(&self, images: &Images) -> Result<PovRay, RenderError> {
+        PovRay::find(self.povray.as_deref(), &images.povray_memory())
+    }
+
+    /// What it is to render.
+    pub(super) fn job<'a>(
+        &self,
+        sequence: &'a Sequence,
+        images: &'a Images,
+        povray: &'a PovRay,
+        picture: &PictureArguments,
+    ) -> Job<'a> {
+        let mut options = picture.options(sequence.size, sequence.transparent);
+        options.extend(self.options.iter().cloned());
+        Job {
+            sequence,
+            images,
+            povray,
+            options,
+            jobs: None,
+            threads: 1,
+            retries: self.retry,
+            keep_going: false,
+            time_limit: self.time_limit.map(Duration::from_secs),
+        }
+    }
+}

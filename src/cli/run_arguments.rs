@@ -1,0 +1,108 @@
+//! The arguments by which a scene is changed and its run is cut: what `compile` and its kin have in common.
+
+use std::path::{Path, PathBuf};
+
+use jabuka::scene::{Override, View};
+use jabuka::simulate::Selection;
+use jabuka::{Run, Scene};
+
+use super::Failure;
+use super::progress::Progress;
+use super::scene_arguments::SceneArguments;
+
+/// What changes a scene, and which frames are taken, by which cameras.
+#[derive(clap::Args)]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Take only these frames, as in 0,50,90-100
+    #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
+    pub(super) frames: Option<Selection>,
+    /// Take this view instead of the main camera, or `all` cameras; may be repeated
+    #[arg(long, value_name = "NAME")]
+    view: Vec<String>,
+}
+
+impl RunArguments {
+    /// Reads the scene, and says its errors and warnings.
+    pub(super) fn read(&self, path: &Path) -> Result<Scene, Failure> {
+        self.read_with(path, &[])
+    }
+
+    /// Reads the scene with further values replaced.
+    pub(super) fn read_with(&self, path: &Path, overrides: &[Override]) -> Result<Scene, Failure> {
+        self.scene.read_with(path, overrides)
+    }
+
+    /// Whether something is said that only a scene has, not a folder of scripts.
+    pub(super) fn change_the_scene(&self) -> bool {
+        self.scene.change_the_scene() || !self.view.is_empty()
+    }
+
+    /// The frames that are asked for, of so many.
+    pub(super) fn selection(&self, frames: usize) -> Result<Selection, Failure> {
+        let Some(selection) = &self.frames else { return Ok(Selection::first(frames)) };
+        match selection.last() {
+            Some(last) if last >= frames => {
+                let message =
+                    format!("there is no frame {last}: the frames of this scene are 0 to {}", frames - 1);
+                Err(Failure::Usage(message))
+            }
+            _ => Ok(selection.clone()),
+        }
+    }
+
+    /// The cameras that are asked for, each with its folder: the given one, or one beside it. `None` is the main camera;
+    /// `chosen` says whether it was the user who gave the folder.
+    pub(super) fn cameras<'a>(
+        &self,
+        folder: &Path,
+        chosen: bool,
+        scene: &'a Scene,
+    ) -> Result<Vec<(Option<&'a View>, PathBuf)>, Failure> {
+        let beside = |view: &str| {
+            let mut path = folder.to_owned().into_os_string();
+            path.push(format!("-{view}"));
+            PathBuf::from(path)
+        };
+        if self.view.is_empty() {
+            return Ok(vec![(None, folder.to_owned())]);
+        }
+        if self.view.iter().any(|name| name == "all") {
+            let others = scene.views.iter().map(|view| (Some(view), beside(&view.name)));
+            return Ok(std::iter::once((None, folder.to_owned())).chain(others).collect());
+        }
+        // The folder that is given is that of the only view that is asked for.
+        let alone = self.view.len() == 1 && chosen;
+        let find = |name: &String| {
+            let folder = if alone { folder.to_owned() } else { beside(name) };
+            Ok((Some(view(scene, name)?), folder))
+        };
+        self.view.iter().map(find).collect()
+    }
+}
+
+/// The view of a name.
+pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure> {
+    scene.views.iter().find(|view| view.name == name).ok_or_else(|| {
+        let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
+        let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        Failure::Usage(format!("there is no view `{name}`: the views of this scene are {known}"))
+    })
+}
+
+/// Simulates a scene once, with a step of the progress for every frame.
+pub(super) fn survey<'a>(scene: &'a Scene, progress: &Progress) -> Result<Run<'a>, Failure> {
+    progress.phase("simulating");
+    Run::new_seeing(scene, |_| progress.step()).map_err(|error| progress.failed(&error.into()))
+}
+
+/// The run as a camera sees it; `None` is the main one, by which it was made.
+pub(super) fn seen<'a>(
+    run: &Run<'a>,
+    view: Option<&View>,
+    progress: &Progress,
+) -> Result<Option<Run<'a>>, Failure> {
+    let seen = view.map(|view| run.seen_by(view)).transpose();
+    seen.map_err(|error| progress.failed(&error.into()))
+}

@@ -1,0 +1,105 @@
+//! `jabuka still`: a moment of a scene → its image.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use jabuka::diagnostic::Report;
+use jabuka::output::{self, Folder};
+use jabuka::render::{Images, Job, Sequence};
+use jabuka::scene::View;
+use jabuka::{Run, Scene};
+
+use super::picture_arguments::PictureArguments;
+use super::povray_arguments::PovRayArguments;
+use super::progress::Progress;
+use super::render::{failed, render};
+use super::run_arguments;
+use super::scene_arguments::SceneArguments;
+use super::{Failure, interrupt, say};
+
+/// Render one moment of a scene
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// The moment, in seconds; it need not be that of a frame
+    #[arg(short, long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
+    time: f64,
+    /// The PNG to write
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+    #[command(flatten)]
+    picture: PictureArguments,
+    #[command(flatten)]
+    of_scene: SceneArguments,
+    /// Take this view instead of the main camera
+    #[arg(long, value_name = "NAME")]
+    view: Option<String>,
+    #[command(flatten)]
+    povray: PovRayArguments,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let stop = interrupt::watched();
+    let start = Instant::now();
+    if arguments.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
+        let message =
+            format!("an image is a PNG, and `{}` does not end in `.png`", arguments.output.display());
+        return Err(Failure::Usage(message));
+    }
+    arguments.povray.look().map_err(|error| failed(&error))?;
+    let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
+    let view = arguments.view.as_deref().map(|name| run_arguments::view(&scene, name)).transpose()?;
+    check_time(&scene, arguments.time)?;
+
+    let folder = write_script(arguments, &scene, view)?;
+    let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
+    sequence.moment = Some(arguments.time);
+    let images = Images::open(&folder.path().join("images")).map_err(|error| failed(&error))?;
+    let povray = arguments.povray.find(&images).map_err(|error| failed(&error))?;
+    let job = Job {
+        // One image has all processors to itself.
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
+    };
+    let outcome = render(&job, stop)?;
+    if outcome.stopped {
+        say::error("stopped: there is no image\n");
+        return Err(Failure::Interrupted);
+    }
+    if !outcome.failed.is_empty() {
+        return Err(Failure::Errors);
+    }
+    for script in sequence.scripts() {
+        images.copy_out(&script.name, &arguments.output).map_err(|error| failed(&error))?;
+    }
+    let (shown, took) = (arguments.output.display(), start.elapsed().as_secs_f64());
+    say::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
+    Ok(())
+}
+
+/// Writes the script of the moment into a folder of its own, which nobody else changes until it is rendered.
+fn write_script(arguments: &Arguments, scene: &Scene, view: Option<&View>) -> Result<Folder, Failure> {
+    let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
+    // No scene has this name, and none of its views.
+    let folder = Path::new("out").join(format!("{}.still{view_name}", scene.name));
+    let progress = Progress::new(scene.simulation.frames());
+    let run = run_arguments::survey(scene, &progress)?;
+    let seen = run_arguments::seen(&run, view, &progress)?;
+    let run: &Run<'_> = seen.as_ref().unwrap_or(&run);
+    let folder = Folder::open(&folder).map_err(|error| progress.failed(&error))?;
+    output::write_moment(run, &folder, arguments.time).map_err(|error| progress.failed(&error))?;
+    progress.finish();
+    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    Ok(folder)
+}
+
+/// That the run has such a moment.
+fn check_time(scene: &Scene, time: f64) -> Result<(), Failure> {
+    let simulation = &scene.simulation;
+    let end = simulation.duration.max(simulation.time(simulation.frames() - 1));
+    if (0.0..=end).contains(&time) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!("there is no moment {time} s: the run of this scene goes from 0 to {end} s")))
+}

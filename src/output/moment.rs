@@ -1,0 +1,41 @@
+//! The script of a single moment.
+
+use super::manifest::{self, Entry, Head, MANIFEST, State};
+use super::write::put_blurred;
+use super::{Folder, OutputError, assets};
+use crate::Run;
+use crate::emit::frame_name;
+use crate::simulate::Branch;
+
+/// Writes the script of any moment of a run, time in s, in place of all scripts that are in the folder, and tells the
+/// number of the frame at or before it, by which the script is named.
+///
+/// # Errors
+/// Where a file cannot be written, the run leaves the numbers before, or the script cannot be made.
+pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
+    let scene = run.scene();
+    let head = Head::new(run);
+    let begun = Head { state: State::Clearing, ..head.clone() };
+    folder.write_with(MANIFEST, |file| manifest::write(file, &begun, &[]))?;
+    folder.remove_scripts()?;
+
+    let mut branch = Branch::at(scene, time)?;
+    let frame = branch.frame()?;
+    let mut entries = Vec::new();
+    let mut put = |number: Option<usize>, name: String, text: &str| {
+        folder.write(&name, text.as_bytes())?;
+        entries.push(Entry::of(number, name, text.as_bytes()));
+        Ok::<(), OutputError>(())
+    };
+    for (name, text) in run.emitter().sequence(scene)? {
+        put(None, name.to_owned(), &text)?;
+    }
+    put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &run.script(&frame)?)?;
+    if let Some(shutter) = run.shutter() {
+        entries.push(put_blurred(run, folder, &frame, shutter, branch)?);
+    }
+    entries.extend(assets::copy(folder, &scene.povray.assets)?);
+    entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
+    folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
+    Ok(frame.index)
+}

@@ -1,0 +1,53 @@
+//! Whether a folder holds already what a scene would write.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use super::Tally;
+use super::manifest::{Entry, Head, Manifest};
+use crate::emit::{ASSETS, frame_name, shutter_name};
+use crate::scene::{Scene, View};
+use crate::simulate::Selection;
+
+/// The manifest of a folder that holds, to the byte, what this program would write there of these frames, so that
+/// the scene need not even be simulated. `None` where it does not, or where that cannot be told.
+pub fn up_to_date(
+    scene: &Scene,
+    view: Option<&View>,
+    selection: &Selection,
+    folder: &Path,
+) -> Option<Manifest> {
+    let manifest = Manifest::read(folder).filter(Manifest::is_complete)?;
+    let shutter = view.map_or(&scene.camera, |view| &view.camera).shutter;
+    let head = Head::of(scene, view.map(|view| view.name.as_str()), shutter);
+    if !manifest.head.is_of(&head) {
+        return None;
+    }
+    let listed: HashSet<&str> = manifest.files.iter().map(|entry| entry.name.as_str()).collect();
+    let frames = scene.simulation.frames();
+    let is_listed = |frame: usize| {
+        listed.contains(&*frame_name(frame, frames))
+            && (shutter.is_none() || listed.contains(&*shutter_name(frame, frames)))
+    };
+    let all = (0..frames).filter(|frame| selection.contains(*frame)).all(is_listed);
+    let as_written = |entry: &Entry| is_of(&folder.join(&entry.name), entry);
+    let unchanged = all && manifest.files.par_iter().all(as_written) && same_assets(scene, &manifest);
+    unchanged.then_some(manifest)
+}
+
+/// Whether the scene's assets are those that the folder has copies of: what is in them is not in the digest of the scene.
+fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
+    scene.povray.assets.iter().all(|asset| {
+        let name = format!("{ASSETS}/{}", asset.name);
+        manifest.files.iter().any(|entry| entry.name == name && is_of(&asset.path, entry))
+    })
+}
+
+/// Whether a file is the one that an entry says.
+fn is_of(path: &Path, entry: &Entry) -> bool {
+    let length = path.metadata().map(|metadata| metadata.len());
+    let tally = || Tally::of_file(path).map(|tally| tally.entry(entry.frame, entry.name.clone()));
+    length.is_ok_and(|length| length == entry.bytes) && tally().is_ok_and(|found| found == *entry)
+}
