@@ -4,6 +4,7 @@
 
 use crate::dynamics::METHODS;
 use crate::scene::color_names;
+use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::{Finish, MATERIALS, Preset};
 
@@ -27,6 +28,7 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
     Category { name: "environments", place: "`environment`", entries: environments },
+    Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
 ];
 
@@ -44,6 +46,13 @@ fn materials() -> Vec<(&'static str, String)> {
 
 fn environments() -> Vec<(&'static str, String)> {
     Preset::ALL.iter().map(|preset| (preset.name(), preset.meaning().to_owned())).collect()
+}
+
+/// The functions and constants of formulas.
+fn functions() -> Vec<(&'static str, String)> {
+    let functions = FUNCTIONS.iter().map(|f| (f.name, format!("`{}`: {}", f.usage(), f.meaning)));
+    let constants = CONSTANTS.iter().map(|(name, _, meaning)| (*name, (*meaning).to_owned()));
+    functions.chain(constants).collect()
 }
 
 /// What a table of which exactly one key is given can be, with the keys of each.

@@ -43,6 +43,7 @@ pub mod diagnostic;
 pub mod dynamics;
 pub mod emit;
 pub mod explain;
+pub mod export;
 pub mod output;
 pub mod render;
 mod run;

@@ -4,5 +4,13 @@
 // ${title | comment}
 <% endif %>
 ${common}
+<% if camera %>
+<% include "camera.inc" %>
+
+<% endif %>
+<% if lights is not none %>
+<% include "lights.inc" %>
+
+<% endif %>
 // the bodies
 ${bodies_sdl}

@@ -24,6 +24,10 @@ fn list_shows_what_there_is_to_choose_from() {
     ");
     let said = stdout(&jabuka().args(["list", "colors"]).output().unwrap());
     assert!(said.starts_with("aliceblue             #f0f8ff\n"), "{said}");
+    let said = stdout(&jabuka().args(["list", "functions"]).output().unwrap());
+    assert!(said.contains("`atan2(y, x)`") && said.lines().any(|line| line.starts_with("tau ")), "{said}");
+    let said = stdout(&jabuka().args(["list", "repeats"]).output().unwrap());
+    assert!(said.lines().any(|line| line.starts_with("scatter ")), "{said}");
     let said = stdout(&jabuka().arg("list").output().unwrap());
     assert_eq!(said.lines().count(), CATEGORIES.len());
 }

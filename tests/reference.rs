@@ -11,6 +11,18 @@ fn the_page_of_keys_is_up_to_date() {
 }
 
 #[test]
+fn the_examples_of_the_page_of_keys_are_scenes() {
+    let page = jabuka::scene::grammar::reference();
+    let examples: Vec<&str> =
+        page.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(examples.len(), 3);
+    for example in examples {
+        let scene = jabuka::Scene::parse(example).unwrap_or_else(|report| panic!("{report}"));
+        assert!(scene.warnings.diagnostics.is_empty(), "{}", scene.warnings);
+    }
+}
+
+#[test]
 fn the_page_of_materials_is_up_to_date() {
     let row = |m: &jabuka::scene::LibraryMaterial| {
         let color = m.color.map_or("its own".to_owned(), |color| format!("`#{color:06x}`"));

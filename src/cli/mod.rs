@@ -6,6 +6,7 @@ mod check;
 mod compile;
 mod completions;
 mod explain;
+mod export;
 mod interrupt;
 mod list;
 mod man;
@@ -44,6 +45,7 @@ enum Command {
     Still(still::Arguments),
     Batch(batch::Arguments),
     Average(average::Arguments),
+    Export(export::Arguments),
     Status(status::Arguments),
     Check(check::Arguments),
     Templates(templates::Arguments),
@@ -74,6 +76,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Compile(arguments) => compile::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Still(arguments) => still::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Average(arguments) => average::run(&arguments),
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Status(arguments) => status::run(&arguments),

@@ -1,13 +1,14 @@
 //! The camera: as given, or as it follows from the motion.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
-use crate::scene::{Blur, Camera, Output, Projection};
-use crate::simulate::Bounds;
+use crate::scene::{Blur, Body, Camera, Output, Projection};
+use crate::simulate::{Bounds, Frame};
 
 /// A camera that has its place, in metres.
+#[derive(Clone, Debug)]
 pub(super) struct Placed {
     pub(super) location: DVec3,
     pub(super) look_at: DVec3,
@@ -17,7 +18,7 @@ pub(super) struct Placed {
 }
 
 /// How a camera sees.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Lens {
     Perspective { angle: f64, field: Field },
     Orthographic { width: f64 },
@@ -61,6 +62,31 @@ impl Placed {
         Placed { location, look_at, lens, blur: camera.blur, output }
     }
 
+    /// The camera at a moment of a run whose first frame had `start` where the followed body is now at `here`.
+    fn moved(&self, camera: &Camera, size: f64, time: f64, [start, here]: [DVec3; 2]) -> Placed {
+        let motion = &camera.motion;
+        let mut location = motion.location.as_ref().map_or(self.location, |location| location.at(time));
+        let mut look_at = motion.look_at.as_ref().map_or(self.look_at, |look_at| look_at.at(time));
+        if let Some(follow) = motion.follow {
+            let away = if camera.location.is_some() { location - start } else { location - look_at };
+            let usual = if camera.location.is_some() { away.length() } else { 12.0 * size };
+            look_at = here;
+            location = here + away.normalize_or(DVec3::Z) * follow.distance.unwrap_or(usual);
+        }
+        if let Some(period) = motion.orbit {
+            let turn = DQuat::from_rotation_y(std::f64::consts::TAU * time / period);
+            location = look_at + turn * (location - look_at);
+        }
+        let lens = match (self.lens, &motion.angle) {
+            (Lens::Perspective { .. }, Some(angle)) => {
+                let angle = angle.at(time).clamp(0.1, 179.9);
+                Lens::Perspective { angle, field: Field::new(angle, self.output) }
+            }
+            (lens, _) => lens,
+        };
+        Placed { location, look_at, lens, blur: self.blur, output: self.output }
+    }
+
     /// How many pixels a ball is wide whose centre is so far from the camera, m.
     pub(super) fn pixels(&self, radius: f64, distance: f64) -> f64 {
         let width = f64::from(self.output.width);
@@ -87,6 +113,35 @@ impl Placed {
             focus: self.blur.map(|blur| (blur.focus.unwrap_or(self.look_at) / unit).to_array()),
             blur_samples: self.blur.map(|blur| blur.samples),
         }
+    }
+}
+
+/// A camera that is not the same in all frames.
+#[derive(Clone, Debug)]
+pub(super) struct Moving {
+    camera: Camera,
+    placed: Placed,
+    /// Of the body that it follows: its number, where it is at the start, and its size, m.
+    followed: Option<(usize, DVec3, f64)>,
+    unit: f64,
+}
+
+impl Moving {
+    /// A camera, if it moves.
+    pub(super) fn new(camera: &Camera, placed: Placed, bodies: &[Body], unit: f64) -> Option<Moving> {
+        let followed = camera.motion.follow.map(|follow| {
+            let body = &bodies[follow.body];
+            let size = body.drawn().support(DQuat::IDENTITY, DVec3::Y).unwrap_or(1.0);
+            (follow.body, body.start.location, size)
+        });
+        camera.motion.moves().then(|| Moving { camera: camera.clone(), placed, followed, unit })
+    }
+
+    /// The camera of a frame.
+    pub(super) fn text(&self, frame: &Frame) -> CameraText {
+        let (body, start, size) = self.followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+        let here = frame.bodies.get(body).map_or(start, |body| body.location);
+        self.placed.moved(&self.camera, size, frame.time, [start, here]).text(self.unit)
     }
 }
 

@@ -20,7 +20,7 @@ pub(super) struct Framing {
 }
 
 /// The field of view: the tangents of half its angles.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Field {
     pub(super) horizontal: f64,
     vertical: f64,

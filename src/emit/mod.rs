@@ -64,7 +64,14 @@ impl Emitter {
         };
         let with_bodies = templates.mention("bodies");
         Ok(Emitter {
-            constants: FrameConstants::new(scene, in_every_script, &materials, style, with_bodies),
+            constants: FrameConstants::new(
+                scene,
+                in_every_script,
+                stage.moving,
+                &materials,
+                style,
+                with_bodies,
+            ),
             shared,
             block: Block::new(scene, &materials, style),
             unit: stage.unit,

@@ -4,7 +4,7 @@
 use glam::{DQuat, DVec3};
 use serde::Serialize;
 
-use super::camera::{CameraText, Placed};
+use super::camera::{self, CameraText, Placed};
 use super::framing;
 use crate::scene::{Body, Camera, Color, Environment, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
@@ -18,9 +18,13 @@ pub(super) struct Stage {
     size: f64,
     /// The middle of that box.
     center: [f64; 3],
-    camera: CameraText,
-    /// The lights; none means the usual ones.
-    lights: Vec<LightText>,
+    /// The camera, if it is the same in all frames.
+    camera: Option<CameraText>,
+    /// The lights, if they are the same in all frames; an empty list means the usual ones.
+    lights: Option<Vec<LightText>>,
+    /// What is not the same in all frames.
+    #[serde(skip)]
+    pub(super) moving: Moving,
     ground: Option<GroundText>,
     /// The edge of a tile of a checkered plane.
     tile: f64,
@@ -45,7 +49,7 @@ pub(super) struct Stage {
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct LightText {
+pub(super) struct LightText {
     name: String,
     /// `point`, `area` or `sun`.
     kind: &'static str,
@@ -77,10 +81,10 @@ const NOTHING: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
 
 impl Stage {
     /// The surroundings of a scene whose run has been looked over.
-    pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Stage {
+    pub(super) fn new(scene: &Scene, given: &Camera, survey: &Survey) -> Stage {
         let exact = survey.bounds.unwrap_or(NOTHING);
         let bounds = framing::rounded_outward(exact);
-        let camera = Placed::new(camera, bounds, scene.output);
+        let camera = Placed::new(given, bounds, scene.output);
         let center = (bounds.min + bounds.max) / 2.0;
         let size = two_digits_up((bounds.max - bounds.min).length());
         let distance = camera.location.distance(center);
@@ -101,12 +105,22 @@ impl Stage {
             Sky::Gradient => SkyText { color: None },
             Sky::Plain(color) => SkyText { color: Some(color.0) },
         };
+        let lights = Lights { lights: scene.lights.clone(), center, reach: size.max(distance), unit };
+        let lights_move = scene.lights.iter().any(Light::moves);
+        let still = (!lights_move).then(|| lights.at(0.0));
+        let too_small = largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN);
+        let fixed = (!given.motion.moves()).then(|| camera.text(unit));
         Stage {
+            camera: fixed,
+            moving: Moving {
+                camera: camera::Moving::new(given, camera, &scene.bodies, unit),
+                lights: lights_move.then_some(lights),
+            },
+            too_small,
             unit,
             size: size / unit,
             center: (center / unit).to_array(),
-            camera: camera.text(unit),
-            lights: scene.lights.iter().map(|l| light(l, center, size.max(distance), unit)).collect(),
+            lights: still,
             ground,
             tile: tile(size) / unit,
             tiles_fade: 4.5 * size / unit,
@@ -117,7 +131,6 @@ impl Stage {
             sky,
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
-            too_small: largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
     }
@@ -139,12 +152,40 @@ fn two_digits_up(number: f64) -> f64 {
     (number / step - 1e-6).ceil() * step
 }
 
-fn light(light: &Light, center: DVec3, reach: f64, unit: f64) -> LightText {
-    let (kind, location, size) = match light.kind {
-        LightKind::Point { location } => ("point", location, None),
-        LightKind::Area { location, size } => ("area", location, Some(size)),
+/// What surrounds the bodies and is not the same in all frames.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Moving {
+    pub(super) camera: Option<camera::Moving>,
+    pub(super) lights: Option<Lights>,
+}
+
+/// Lights that move.
+#[derive(Clone, Debug)]
+pub(super) struct Lights {
+    lights: Vec<Light>,
+    center: DVec3,
+    reach: f64,
+    unit: f64,
+}
+
+impl Lights {
+    /// The lights at a time, s.
+    pub(super) fn at(&self, time: f64) -> Vec<LightText> {
+        self.lights.iter().map(|l| light(l, time, self.center, self.reach, self.unit)).collect()
+    }
+
+    /// What suns shine at.
+    pub(super) fn center(&self) -> [f64; 3] {
+        (self.center / self.unit).to_array()
+    }
+}
+
+fn light(light: &Light, time: f64, center: DVec3, reach: f64, unit: f64) -> LightText {
+    let (kind, location, size) = match &light.kind {
+        LightKind::Point { location } => ("point", location.at(time), None),
+        LightKind::Area { location, size } => ("area", location.at(time), Some(*size)),
         // Far enough to be outside of everything; its rays are parallel anyway.
-        LightKind::Sun { direction } => ("sun", center - direction * reach * 10.0, None),
+        LightKind::Sun { direction } => ("sun", center - *direction * reach * 10.0, None),
     };
     LightText {
         name: light.name.clone(),

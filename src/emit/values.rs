@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::materials::MaterialText;
 use super::names;
 use super::sdl::Style;
-use super::stage::Stage;
+use super::stage::{Moving, Stage};
 use crate::dynamics::Shape;
 use crate::scene::{Body, Include, Layout, Scene};
 use crate::simulate::{BodyFrame, Frame};
@@ -63,6 +63,8 @@ pub(super) struct FrameConstants {
     title: Value,
     frames: usize,
     common: Value,
+    /// The camera and the lights, if they move.
+    moving: Moving,
     style: Style,
     /// Made for templates that look at `bodies`; the built-in ones do not.
     bodies: Option<Vec<BodyConstants>>,
@@ -94,6 +96,7 @@ impl FrameConstants {
     pub(super) fn new(
         scene: &Scene,
         common: String,
+        moving: Moving,
         materials: &[MaterialText],
         style: Style,
         with_bodies: bool,
@@ -107,6 +110,7 @@ impl FrameConstants {
             title: Value::from(scene.title.clone()),
             frames: scene.simulation.frames(),
             common: Value::from(common),
+            moving,
             style,
             bodies: with_bodies.then(|| scene.bodies.iter().map(body).collect()),
         }
@@ -118,7 +122,13 @@ impl FrameConstants {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
         });
+        let camera = self.moving.camera.as_ref().map(|camera| Value::from(Serde(camera.text(frame))));
+        let lights = self.moving.lights.as_ref().map(|lights| Value::from(Serde(lights.at(frame.time))));
+        let center = self.moving.lights.as_ref().map(super::stage::Lights::center);
         context! {
+            camera,
+            lights,
+            center,
             frame => frame.index,
             time => frame.time,
             frames => self.frames,

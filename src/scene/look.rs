@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
+use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
 
 /// What bodies look like.
@@ -119,12 +120,49 @@ pub struct Camera {
     pub location: Option<DVec3>,
     /// The point in the middle of the picture, m.
     pub look_at: Option<DVec3>,
+    /// How it moves.
+    pub motion: CameraMotion,
     /// How it sees.
     pub projection: Projection,
     /// How it blurs what is not in focus.
     pub blur: Option<Blur>,
     /// How it blurs what moves.
     pub shutter: Option<Shutter>,
+}
+
+/// How a camera moves: what is not given stays as it is at the start.
+#[derive(Clone, Debug, Default)]
+pub struct CameraMotion {
+    /// Where it is, m.
+    pub location: Option<TimedVector>,
+    /// The point in the middle of the picture, m.
+    pub look_at: Option<TimedVector>,
+    /// The horizontal field of view in perspective, degrees.
+    pub angle: Option<Timed>,
+    /// The body that it goes along with.
+    pub follow: Option<Follow>,
+    /// The time of a turn about the vertical through what it looks at, s.
+    pub orbit: Option<f64>,
+}
+
+/// That a camera goes along with a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Follow {
+    /// The number of the body.
+    pub body: usize,
+    /// How far the camera stays from it, m; none: as at the start.
+    pub distance: Option<f64>,
+}
+
+impl CameraMotion {
+    /// Whether the camera is not the same in all frames.
+    pub fn moves(&self) -> bool {
+        self.location.is_some()
+            || self.look_at.is_some()
+            || self.angle.is_some()
+            || self.follow.is_some()
+            || self.orbit.is_some()
+    }
 }
 
 /// How a camera sees.
@@ -160,6 +198,16 @@ pub struct Shutter {
     pub open: f64,
     /// The number of moments.
     pub samples: u32,
+}
+
+impl Light {
+    /// Whether it is not the same in all frames.
+    pub fn moves(&self) -> bool {
+        match &self.kind {
+            LightKind::Point { location } | LightKind::Area { location, .. } => location.changes(),
+            LightKind::Sun { .. } => false,
+        }
+    }
 }
 
 impl Shutter {
@@ -200,12 +248,12 @@ pub enum LightKind {
     /// A lamp without size.
     Point {
         /// Where it is, m.
-        location: DVec3,
+        location: TimedVector,
     },
     /// A lamp with a size.
     Area {
         /// Where its centre is, m.
-        location: DVec3,
+        location: TimedVector,
         /// Its diameter, m.
         size: f64,
     },

@@ -27,8 +27,8 @@ pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
-    Asset, Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material,
-    Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
+    Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
+    LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use preset::Preset;
@@ -100,7 +100,13 @@ impl Scene {
             path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
         let name = path.file_stem().map_or_else(|| "scene".into(), std::ffi::OsStr::to_string_lossy);
         check::check(
-            &check::Input { name: &name, shown: &path.display().to_string(), folder, text: &text },
+            &check::Input {
+                name: &name,
+                shown: &path.display().to_string(),
+                path: Some(path),
+                folder,
+                text: &text,
+            },
             options,
         )
     }
@@ -118,6 +124,9 @@ impl Scene {
     /// # Errors
     /// All mistakes of the scene, each at its place.
     pub fn parse_with(text: &str, options: &Options) -> Result<Scene, Report> {
-        check::check(&check::Input { name: "scene", shown: "scene.toml", folder: None, text }, options)
+        check::check(
+            &check::Input { name: "scene", shown: "scene.toml", path: None, folder: None, text },
+            options,
+        )
     }
 }

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use crate::dynamics::{Motion, Track};
+
 use super::expression::{ExpressionError, Program, Resolved};
 
 /// A number, or a formula of the time.
@@ -24,9 +26,14 @@ pub struct TimeFormula {
     rate: Program,
 }
 
-/// Three numbers, each of which may change with time.
+/// Three numbers that may change with time.
 #[derive(Clone, Debug)]
-pub struct TimedVector(pub [Timed; 3]);
+pub enum TimedVector {
+    /// Each by itself.
+    Each([Timed; 3]),
+    /// The place on a track.
+    Track(Arc<Track>),
+}
 
 impl TimeFormula {
     /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
@@ -70,22 +77,31 @@ impl Timed {
 impl TimedVector {
     /// The value at a time, s.
     pub fn at(&self, t: f64) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|i: usize| self.0[i].at(t)))
+        match self {
+            TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].at(t))),
+            TimedVector::Track(track) => track.at(t).location,
+        }
     }
 
     /// The derivative at a time, per second.
     pub fn rate(&self, t: f64) -> DVec3 {
-        DVec3::from_array([0, 1, 2].map(|i: usize| self.0[i].rate(t)))
+        match self {
+            TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].rate(t))),
+            TimedVector::Track(track) => track.at(t).velocity,
+        }
     }
 
     /// Whether any of it changes with time.
     pub fn changes(&self) -> bool {
-        self.0.iter().any(Timed::changes)
+        match self {
+            TimedVector::Each(each) => each.iter().any(Timed::changes),
+            TimedVector::Track(_) => true,
+        }
     }
 }
 
 impl From<DVec3> for TimedVector {
     fn from(vector: DVec3) -> TimedVector {
-        TimedVector(vector.to_array().map(Timed::Constant))
+        TimedVector::Each(vector.to_array().map(Timed::Constant))
     }
 }

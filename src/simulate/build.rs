@@ -1,10 +1,14 @@
 //! Scene → world.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring, UniformGravity};
-use crate::dynamics::{BodyId, World};
-use crate::scene::{Force, ForceKind, Scene, SpringEnd};
+use crate::dynamics::{BodyId, Motion, Pose, Track, World};
+use crate::scene::motion::{BodyMotion, TimedOrientation};
+use crate::scene::timed::TimedVector;
+use crate::scene::{Body, Force, ForceKind, Scene, SpringEnd};
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
 /// is the same in both.
@@ -12,12 +16,46 @@ pub fn world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
     world.set_step(scene.simulation.step);
-    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| world.add(body.start)).collect();
+    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| add(&mut world, body)).collect();
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
     scene.forces.iter().for_each(|force| add_force(&mut world, force, &ids));
     world
+}
+
+fn add(world: &mut World, body: &Body) -> BodyId {
+    let id = world.add(body.start);
+    match &body.motion {
+        Some(BodyMotion::Track(track)) => world.drive(id, Shared(track.clone())),
+        Some(BodyMotion::Formula { location, orientation }) => {
+            world.drive(id, ByFormula { location: location.clone(), orientation: orientation.clone() });
+        }
+        None => {}
+    }
+    id
+}
+
+/// A motion that several worlds follow.
+struct Shared(Arc<Track>);
+
+impl Motion for Shared {
+    fn at(&self, t: f64) -> Pose {
+        self.0.at(t)
+    }
+}
+
+/// A motion by formulas of the time.
+struct ByFormula {
+    location: TimedVector,
+    orientation: TimedOrientation,
+}
+
+impl Motion for ByFormula {
+    fn at(&self, t: f64) -> Pose {
+        let (orientation, angular_velocity) = self.orientation.at(t);
+        Pose { location: self.location.at(t), velocity: self.location.rate(t), orientation, angular_velocity }
+    }
 }
 
 fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {

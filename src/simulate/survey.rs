@@ -158,8 +158,9 @@ impl Watched {
     /// The side on which a body begins, if it can move and does not touch the plane from the start.
     fn beginner(&self, scene: &Scene, body: &BodyFrame) -> Option<f64> {
         let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
-        let Body { shape, start, .. } = &scene.bodies[body.id];
-        (!start.fixed && self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
+        let Body { shape, start, motion, .. } = &scene.bodies[body.id];
+        (!start.fixed && motion.is_none() && self.gap(shape, body, side) >= -self.tolerance(body))
+            .then_some(side)
     }
 
     /// The distance between the plane and the nearest point of a body that should be on the given side, m.

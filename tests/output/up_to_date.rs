@@ -47,7 +47,7 @@ impl Place {
     fn scene(&self, set: Option<&str>) -> Scene {
         let overrides = set.map(|set| Override::new(set.to_owned())).into_iter().collect();
         let options = Options { overrides, ..Options::default() };
-        Scene::from_path_with(&self.path("scene.toml"), &options).unwrap()
+        Scene::from_path_with(self.path("scene.toml"), &options).unwrap()
     }
 
     fn write(&self, scene: &Scene, selection: &Selection) {
@@ -79,7 +79,8 @@ fn what_was_written_is_known_with_what_was_noticed() {
 #[test]
 fn what_is_not_there_or_not_as_it_was_is_not_up_to_date() {
     let all = Selection::first(11);
-    let changes: [(&str, &dyn Fn(&Place)); 7] = [
+    type Change<'a> = (&'a str, &'a dyn Fn(&Place));
+    let changes: [Change<'_>; 7] = [
         ("a script that is gone", &|place| fs::remove_file(place.path("out/frame_0004.pov")).unwrap()),
         ("a script of the same length", &|place| {
             let path = place.path("out/shutter_0004.pov");

@@ -4,18 +4,23 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, look, shape};
+use super::{Context, look, motion, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, LibraryMaterial, Look, Material};
+use crate::scene::{Body, LibraryMaterial, Look, Material, Simulation};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
 /// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
-pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut Context<'_>) -> Vec<Body> {
+pub(super) fn read(
+    root: &View<'_>,
+    simulation: &Simulation,
+    materials: &mut Vec<Material>,
+    context: &mut Context<'_>,
+) -> Vec<Body> {
     let tables = root.named("body");
     let mut palette = Palette::default();
     // Copies are named at one and the same place.
@@ -28,9 +33,10 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
         let shape = shape::read(name, &view.table("shape"), context);
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
+        let motion = motion::read(name, &view, (start.location, start.orientation), simulation, context);
         let look = look::of_body(name, &view, &shape, context);
         context.once(before, name, span);
-        Body { name: name.to_owned(), shape, start, material, look }
+        Body { name: name.to_owned(), shape, start, motion, material, look }
     };
     tables.into_iter().map(read).collect()
 }
@@ -66,6 +72,19 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
         let error =
             Diagnostic::error("plane-moves", format!("the plane `{name}` cannot move: a plane is endless"));
         context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, "a plane is always fixed")));
+    }
+    let motion = view.key_span("motion");
+    if let (true, Some(span)) = (plane, motion) {
+        let error =
+            Diagnostic::error("plane-moves", format!("the plane `{name}` cannot move: a plane is endless"));
+        context.diagnostics.push(error.at(span, "a plane is always fixed"));
+    }
+    if motion.is_some() {
+        for key in MOTION.into_iter().chain(PUSHING).filter(|key| view.has(key)) {
+            let warning = Diagnostic::warning("no-effect", format!("`{key}` of `{name}` has no effect"));
+            let why = "its motion is given";
+            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        }
     }
     let fixed = plane || given == Some(true);
     if fixed {
@@ -156,16 +175,21 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
     if let Some(quaternion) = table.direction::<4>("quaternion") {
         return DQuat::from_array(quaternion);
     }
+    together(name, &table, context);
+    match (table.direction::<3>("axis"), table.number("angle")) {
+        (Some(axis), Some(angle)) => DQuat::from_axis_angle(DVec3::from_array(axis), angle.to_radians()),
+        _ => DQuat::IDENTITY,
+    }
+}
+
+/// Reports an axis without an angle, and an angle without an axis.
+pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context<'_>) {
     for (key, other) in [("axis", "angle"), ("angle", "axis")] {
-        if let (Some(span), false) = (table.key_span(key), table.has(other)) {
+        if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
             let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
             let error = Diagnostic::error("missing-key", message).at(span, format!("needs `{other}`"));
             context.diagnostics.push(error);
         }
-    }
-    match (table.direction::<3>("axis"), table.number("angle")) {
-        (Some(axis), Some(angle)) => DQuat::from_axis_angle(DVec3::from_array(axis), angle.to_radians()),
-        _ => DQuat::IDENTITY,
     }
 }
 

@@ -1,10 +1,11 @@
 //! `[camera]` and `[view.NAME]`.
 
-use super::Context;
 use super::read::figure;
 use super::view::View as Keys;
+use super::{Context, motion};
 use crate::diagnostic::Diagnostic;
-use crate::scene::{Blur, Camera, Projection, Shutter, Simulation, View};
+use crate::scene::timed::{Timed, TimedVector};
+use crate::scene::{Blur, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
 /// What `--view` takes for all views, so no view can have this name.
 const ALL: &str = "all";
@@ -32,6 +33,29 @@ pub(super) fn views(root: &Keys<'_>, simulation: &Simulation, context: &mut Cont
 /// Reads a camera from tables, of which the first that has a key says it.
 fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_>) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
+    let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
+    for key in ["location", "look_at", "angle"] {
+        motion::finite(tables[0].raw(key), simulation, context);
+    }
+    let (location, look_at) = (timed("location"), timed("look_at"));
+    let angle = tables.iter().find_map(|keys| keys.timed("angle"));
+    let mut moving = CameraMotion {
+        location: location.clone().filter(TimedVector::changes),
+        look_at: look_at.clone().filter(TimedVector::changes),
+        angle: angle.clone().filter(Timed::changes),
+        follow: tables.iter().find_map(|keys| follow(keys, context)),
+        orbit: tables
+            .iter()
+            .find_map(|keys| keys.variant("orbit")?.number("period"))
+            .filter(|period| *period != 0.0),
+    };
+    let (mut location, mut look_at) = (location.map(|v| v.at(0.0)), look_at.map(|v| v.at(0.0)));
+    if let Some(keyframes) = tables.iter().find_map(|keys| keys.variant("keyframes")) {
+        let [places, aims] = motion::camera_keyframes(&keyframes, look_at, context);
+        location = places.as_ref().map(|track| track.at(0.0)).or(location);
+        look_at = aims.as_ref().map(|track| track.at(0.0)).or(look_at);
+        (moving.location, moving.look_at) = (places.or(moving.location), aims.or(moving.look_at));
+    }
     let number = |key: &str| tables.iter().find_map(|keys| keys.number(key));
     let orthographic =
         tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
@@ -45,12 +69,13 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
     let shutter_samples = tables.iter().find_map(|keys| keys.integer("samples"));
     let samples = tables.iter().find_map(|keys| keys.integer("blur_samples"));
     let camera = Camera {
-        location: vector("location"),
-        look_at: vector("look_at"),
+        location,
+        look_at,
+        motion: moving,
         projection: if orthographic {
             Projection::Orthographic { width: number("width") }
         } else {
-            Projection::Perspective { angle: number("angle").unwrap_or(40.0) }
+            Projection::Perspective { angle: angle.map_or(40.0, |angle| angle.at(0.0).clamp(0.1, 179.9)) }
         },
         blur: number("aperture").map(|aperture| Blur {
             aperture,
@@ -73,6 +98,13 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
         }
     }
     camera
+}
+
+/// The body that a camera follows.
+fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
+    let follow = keys.variant("follow")?;
+    let body = *context.names.bodies.get(follow.text("body")?)?;
+    Some(Follow { body, distance: follow.number("distance") })
 }
 
 /// The error of a shutter that is still open when the next image begins.

@@ -14,6 +14,10 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         // Bodies that are there, and wrong, may not count as such.
         found.retain(|diagnostic| diagnostic.code != "no-bodies");
     }
+    if unreadable.iter().any(|diagnostic| matches!(diagnostic.code, "cannot-include" | "cyclic-include")) {
+        // What is missing may be there.
+        found.retain(|diagnostic| !OF_LACK.contains(&diagnostic.code));
+    }
     let syntax: Vec<&Diagnostic> = unreadable.iter().filter(|d| is_syntax(d.code)).collect();
     if syntax.is_empty() {
         return;

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 
-use super::Context;
 use super::view::View;
+use super::{Context, motion};
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Shape;
 use crate::scene::{
-    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Sky,
+    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Simulation, Sky,
 };
 
 /// `look` of a body.
@@ -32,8 +32,11 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
     }
 }
 
-pub(super) fn lights(root: &View<'_>) -> Vec<Light> {
+pub(super) fn lights(root: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Vec<Light> {
     let read = |(name, _, view): (&str, _, View<'_>)| {
+        for key in ["point", "area"] {
+            motion::finite(view.table(key).raw("location"), simulation, context);
+        }
         Some(Light {
             name: name.to_owned(),
             kind: light_kind(&view)?,
@@ -47,10 +50,13 @@ pub(super) fn lights(root: &View<'_>) -> Vec<Light> {
 
 fn light_kind(view: &View<'_>) -> Option<LightKind> {
     if let Some(point) = view.variant("point") {
-        return Some(LightKind::Point { location: point.vector("location")? });
+        return Some(LightKind::Point { location: point.timed_vector("location")? });
     }
     if let Some(area) = view.variant("area") {
-        return Some(LightKind::Area { location: area.vector("location")?, size: area.number("size")? });
+        return Some(LightKind::Area {
+            location: area.timed_vector("location")?,
+            size: area.number("size")?,
+        });
     }
     let direction = view.variant("sun")?.direction::<3>("direction")?;
     Some(LightKind::Sun { direction: DVec3::from_array(direction) })

@@ -28,7 +28,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 pub(super) use self::view::View;
-use super::expand::{self, Groups};
+use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, PovRay, Scene};
@@ -40,6 +40,8 @@ pub(super) struct Input<'a> {
     pub(super) name: &'a str,
     /// How messages call its file.
     pub(super) shown: &'a str,
+    /// Its file, if it has one.
+    pub(super) path: Option<&'a Path>,
     /// The folder that its paths start from, if it has one.
     pub(super) folder: Option<&'a Path>,
     /// Its text.
@@ -53,11 +55,19 @@ struct Context<'a> {
     names: Names,
     /// The bodies that are copies of others.
     groups: Groups,
+    /// Whether what is looked at is a part of a table, which needs none of its keys.
+    is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
     told: HashSet<(&'static str, Span)>,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
     diagnostics: Vec<Diagnostic>,
+    /// The texts that the scene is read from.
+    sources: Sources,
+    /// Files with motions, each read once.
+    recordings: trajectory::Recordings,
+    /// The digests of other files that are read.
+    files: Vec<[u8; 32]>,
 }
 
 impl Context<'_> {
@@ -68,10 +78,19 @@ impl Context<'_> {
             trust: false,
             names: Names::default(),
             groups: Groups::default(),
+            is_partial: false,
             told: HashSet::new(),
             comparisons: 0,
             diagnostics: Vec::new(),
+            sources: Sources::default(),
+            recordings: trajectory::Recordings::new(),
+            files: Vec::new(),
         }
+    }
+
+    /// Notes what is in a file that is read.
+    fn add_file(&mut self, bytes: &[u8]) {
+        self.files.push(Sha256::digest(bytes).into());
     }
 
     /// Of what has been said since there were `before` diagnostics, keeps what has not been said of another thing that has it from
@@ -127,7 +146,6 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
     let id = sources.add(input.shown, text);
     let mut tree = source::parse(text, id, &mut diagnostics);
-    let unreadable = diagnostics.len();
     let mut root = match &mut tree.value {
         source::Value::Table(table) => std::mem::take(table),
         _ => Table::default(),
@@ -136,20 +154,31 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         set.apply(&mut root, &mut sources, &mut diagnostics);
     }
 
+    let included = expand::include(&mut root, input.path, options.trust, &mut sources, &mut diagnostics);
+    let unreadable = diagnostics.len();
+
     let mut found = Vec::new();
-    let groups = expand::expand(&mut root, &sources, &mut found);
+    let Expansion { groups, of_defaults } = expand::expand(&mut root, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,
         names: Names::of(&root),
         groups,
+        is_partial: false,
         told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
         diagnostics: found,
+        sources,
+        recordings: trajectory::Recordings::new(),
+        files: Vec::new(),
     };
     validate::validate(&root, &mut context);
-    let scene = build(input, options, &root, &mut context);
-    let mut found = context.diagnostics;
+    let scene = build(input, options, &root, &included, &mut context);
+    let (mut found, sources) = (context.diagnostics, context.sources);
+    // A default is for those on which it has an effect.
+    let of_default =
+        |diagnostic: &Diagnostic| diagnostic.span().is_some_and(|span| of_defaults.contains(&span));
+    found.retain(|diagnostic| diagnostic.code != "no-effect" || !of_default(diagnostic));
     consequence::drop(&mut found, &diagnostics[..unreadable], &sources);
     diagnostics.append(&mut found);
 
@@ -162,11 +191,17 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
 }
 
 /// Makes the scene. Where a value is missing or wrong, which has been said, any other takes its place.
-fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Context<'_>) -> Scene {
+fn build(
+    input: &Input<'_>,
+    options: &Options,
+    root: &Table,
+    included: &[String],
+    context: &mut Context<'_>,
+) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
     let mut materials = material::read(&root, context);
-    let bodies = body::read(&root, &mut materials, context);
+    let bodies = body::read(&root, &simulation, &mut materials, context);
     let forces = force::read(&root, &bodies, context);
     effect::check(&root, &bodies, &forces, context);
     if bodies.is_empty() {
@@ -181,11 +216,11 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         title: root.text("title").map(str::to_owned),
         camera: camera::read(&root, &simulation, context),
         views: camera::views(&root, &simulation, context),
+        lights: look::lights(&root, &simulation, context),
         simulation,
-        lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
         output: look::output(&root.table("output")),
-        digest: digest(input, options, &povray),
+        digest: digest(input, options, included, &povray, &context.files),
         bodies,
         forces,
         materials,
@@ -195,7 +230,13 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
 }
 
 /// A digest of all texts that the scene was read from.
-fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
+fn digest(
+    input: &Input<'_>,
+    options: &Options,
+    included: &[String],
+    povray: &PovRay,
+    files: &[[u8; 32]],
+) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
         // The length keeps two texts from reading as one.
@@ -203,6 +244,7 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
         hash.update(text);
     };
     add(input.text);
+    included.iter().for_each(|text| add(text));
     options.overrides.iter().for_each(|set| add(set.as_str()));
     for template in &povray.templates {
         add(&template.name);
@@ -216,5 +258,6 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
     }
     // What is in them is in no script.
     povray.assets.iter().for_each(|asset| add(&asset.name));
+    files.iter().for_each(|digest| hash.update(digest));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -98,16 +98,12 @@ fn by_keyframes(
     context: &mut Context<'_>,
 ) -> Option<BodyMotion> {
     let mut keys: Vec<Key> = Vec::new();
-    let mut times: Vec<(f64, Span)> = Vec::new();
+    let mut last: Option<(f64, Span)> = None;
     for frame in view.tables("at") {
         let (Some(time), Some(span)) = (frame.number("time"), frame.span("time")) else { continue };
-        if let Some((before, other)) = times.last().filter(|(before, _)| *before >= time) {
-            let message = format!("a keyframe at {time} s stands after one at {before} s");
-            let error = Diagnostic::error("keyframe-order", message).at(span, "this is not later");
-            context.diagnostics.push(error.at(*other, "the one before"));
+        if out_of_order(&mut last, time, span, context) {
             continue;
         }
-        times.push((time, span));
         let before = keys.last();
         let turned = frame.has("orientation").then(|| body::orientation(name, &frame, context));
         keys.push(Key {
@@ -118,11 +114,62 @@ fn by_keyframes(
             angular_velocity: None,
         });
     }
-    let interpolation = match view.text("interpolation") {
+    let interpolation = interpolation(view);
+    (!keys.is_empty()).then(|| BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
+}
+
+/// The tracks of a camera's location and of what it looks at, if that is said anywhere.
+pub(super) fn camera_keyframes(
+    view: &View<'_>,
+    look_at: Option<DVec3>,
+    context: &mut Context<'_>,
+) -> [Option<TimedVector>; 2] {
+    let (mut places, mut aims): (Vec<Key>, Vec<Key>) = (Vec::new(), Vec::new());
+    let mut last: Option<(f64, Span)> = None;
+    let mut aim = look_at;
+    for frame in view.tables("at") {
+        let (Some(time), Some(span), Some(location)) =
+            (frame.number("time"), frame.span("time"), frame.vector("location"))
+        else {
+            continue;
+        };
+        if out_of_order(&mut last, time, span, context) {
+            continue;
+        }
+        aim = frame.vector("look_at").or(aim);
+        let key = |location: DVec3| Key {
+            time,
+            location,
+            orientation: DQuat::IDENTITY,
+            velocity: None,
+            angular_velocity: None,
+        };
+        places.push(key(location));
+        aims.extend(aim.map(key));
+    }
+    [places, aims].map(|keys| {
+        let track = Track::new(keys, interpolation(view), true);
+        track.span().is_some().then(|| TimedVector::Track(Arc::new(track)))
+    })
+}
+
+/// Reports a keyframe that is not later than the one before.
+fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: &mut Context<'_>) -> bool {
+    if let Some((before, other)) = last.filter(|(before, _)| *before >= time) {
+        let message = format!("a keyframe at {time} s stands after one at {before} s");
+        let error = Diagnostic::error("keyframe-order", message).at(span, "this is not later");
+        context.diagnostics.push(error.at(other, "the one before"));
+        return true;
+    }
+    *last = Some((time, span));
+    false
+}
+
+fn interpolation(view: &View<'_>) -> Interpolation {
+    match view.text("interpolation") {
         Some("linear") => Interpolation::Linear,
         _ => Interpolation::Cubic,
-    };
-    (!keys.is_empty()).then(|| BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
+    }
 }
 
 fn by_trajectory(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<BodyMotion> {
@@ -138,9 +185,6 @@ fn by_trajectory(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Opti
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
-    let interpolation = match view.text("interpolation") {
-        Some("linear") => Interpolation::Linear,
-        _ => Interpolation::Cubic,
-    };
+    let interpolation = interpolation(view);
     Some(BodyMotion::Track(Arc::new(Track::new(keys.clone(), interpolation, false))))
 }

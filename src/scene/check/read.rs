@@ -121,7 +121,7 @@ pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec
             Timed::Constant(0.0)
         })
     };
-    let vector = TimedVector([read(&items[0]), read(&items[1]), read(&items[2])]);
+    let vector = TimedVector::Each([read(&items[0]), read(&items[1]), read(&items[2])]);
     if errors.is_empty() { Ok(vector) } else { Err(errors) }
 }
 

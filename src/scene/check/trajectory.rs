@@ -226,7 +226,9 @@ impl Reader<'_> {
     fn find(&self, header: &StringRecord, name: &str) -> Option<(usize, String)> {
         header.iter().enumerate().find_map(|(i, field)| {
             let (stem, unit) = unit_of(field);
-            (field.eq_ignore_ascii_case(name) || stem.eq_ignore_ascii_case(name))
+            // Both words are usual.
+            let is_time = name == "t" && stem.eq_ignore_ascii_case("time");
+            (is_time || field.eq_ignore_ascii_case(name) || stem.eq_ignore_ascii_case(name))
                 .then(|| (i, unit.to_owned()))
         })
     }
@@ -273,7 +275,8 @@ impl Reader<'_> {
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         let line = self.line(start);
         self.say("csv-column", format!("there is no column `{name}`"), line);
-        let near = nearest(name, names.iter().copied());
+        // Of one letter, any other would be near.
+        let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
             wrong.label = match near {
                 Some(near) => format!("did you mean `{near}`?"),

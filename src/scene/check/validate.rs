@@ -26,7 +26,8 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
             context.diagnostics.push(unknown_key(entry, way, spec, path));
         }
     }
-    for key in spec.keys.iter().filter(|key| key.required && table.get(key.name).is_none()) {
+    let is_whole = !context.is_partial;
+    for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
         if !meant.contains(&key.name) {
             context.diagnostics.push(missing_key(key, at, path));
         }
@@ -90,7 +91,7 @@ fn rule(
         }
         Rule::ExactlyOne(names) => match present(names).as_slice() {
             [_] => {}
-            [] if names.iter().any(|name| meant.contains(name)) => {}
+            [] if context.is_partial || names.iter().any(|name| meant.contains(name)) => {}
             [] => {
                 let message = format!("{} needs one of {}", spec.noun, quoted(names));
                 let error = Diagnostic::error("missing-key", message);
@@ -168,6 +169,16 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         },
         Kind::Table(spec) => match node.as_table() {
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
+            None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
+        },
+        Kind::Partial(spec) => match node.as_table() {
+            Some(inner) => {
+                let before = context.diagnostics.len();
+                context.is_partial = true;
+                table(inner, spec, at(node, entry), &inner_path(entry, path), context);
+                context.is_partial = false;
+                context.once(before, "", node.span);
+            }
             None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
         },
         Kind::Variables => match node.as_table() {

@@ -4,7 +4,10 @@
 //! keeps the place of the string, so that all that comes after sees numbers only. What has no value becomes
 //! [`Value::Invalid`], after it has been said why.
 
+mod defaults;
 mod groups;
+mod include;
+mod merge;
 mod place;
 mod random;
 mod repeat;
@@ -17,16 +20,19 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 pub(super) use self::groups::Groups;
+pub(super) use self::include::include;
 pub(super) use self::place::in_string;
 use self::random::Stream;
+use self::repeat::INDICES;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Node, Table, Value};
 use super::timed::TimeFormula;
 use crate::diagnostic::{Diagnostic, Sources, Span};
 
-/// Replaces every formula of a scene by its value, and every body that is repeated by its copies, which are returned.
-pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<Diagnostic>) -> Groups {
+/// Replaces every formula of a scene by its value, and every body that is repeated by its copies, after the defaults have
+/// been laid under everything.
+pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<Diagnostic>) -> Expansion {
     let mut expander = Expander {
         sources,
         scope: Scope::default(),
@@ -36,6 +42,8 @@ pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<
         copy: None,
         copies: 0,
         groups: Groups::default(),
+        of_defaults: HashSet::new(),
+        is_default: false,
         variable_spans: HashMap::new(),
         told: HashSet::new(),
         diagnostics,
@@ -51,13 +59,23 @@ pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<
     if let Some(Value::Table(table)) = root.get_mut("variables").map(|entry| &mut entry.node.value) {
         expander.variables(table);
     }
+    expander.defaults(root);
     if let Some(Value::Table(bodies)) = root.get_mut("body").map(|entry| &mut entry.node.value)
         && let Some(Kind::Named(spec)) = SCENE.key("body").map(|key| &key.kind)
     {
         expander.repeat(bodies, spec);
     }
     expander.table(root, &SCENE);
-    expander.groups
+    Expansion { groups: expander.groups, of_defaults: expander.of_defaults }
+}
+
+/// What is to be known of an expanded scene besides its values.
+#[derive(Default)]
+pub(super) struct Expansion {
+    /// The bodies that are copies.
+    pub(super) groups: Groups,
+    /// Where the keys and values of `[defaults]` stand.
+    pub(super) of_defaults: HashSet<Span>,
 }
 
 /// What is known while formulas are evaluated.
@@ -75,6 +93,9 @@ struct Expander<'a> {
     /// How many copies there are so far.
     copies: usize,
     groups: Groups,
+    of_defaults: HashSet<Span>,
+    /// Whether what is looked at are defaults: their formulas have values only where they are used.
+    is_default: bool,
     /// Where the variables are named.
     variable_spans: HashMap<String, Span>,
     /// The formulas of which it has been said what is wrong: in all copies it is the same one.
@@ -125,6 +146,11 @@ impl Expander<'_> {
                 }
             }
             (Kind::Table(spec), Value::Table(inner)) => self.table(inner, spec),
+            (Kind::Partial(spec), Value::Table(inner)) => {
+                self.is_default = true;
+                self.table(inner, spec);
+                self.is_default = false;
+            }
             (Kind::Named(spec), Value::Table(tables)) => {
                 for entry in &mut tables.entries {
                     if let Value::Table(inner) = &mut entry.node.value {
@@ -160,6 +186,11 @@ impl Expander<'_> {
     /// Replaces a formula by its value; what is no string stays as it is.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
+        if self.is_default {
+            self.look_over(text, node.span);
+            node.value = Value::Invalid;
+            return;
+        }
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
     }
 
@@ -208,6 +239,15 @@ impl Expander<'_> {
                 self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
             }
             node.value = Value::Invalid;
+        }
+    }
+
+    /// Says what is wrong with a formula whatever its indices are: nothing may have it for a value.
+    fn look_over(&mut self, text: &str, span: Span) {
+        let mut scope = self.scope.clone();
+        INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
+        if let Some(formula) = self.keep(Formula::parse(text), text, span) {
+            self.keep(formula.resolve(&scope), text, span);
         }
     }
 

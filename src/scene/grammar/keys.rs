@@ -4,10 +4,10 @@
 
 use super::Kind::{
     Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
-    Numbers, Reference, Sdl, Table, Text, Variables,
+    Numbers, Partial, Reference, Sdl, Table, Text, Timed, Variables,
 };
 use super::forces::FORCE;
-use super::motion::MOTION;
+use super::motion::{CAMERA_KEYFRAMES, FOLLOW, MOTION, ORBIT, TIMED_VECTOR};
 use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
@@ -45,6 +45,13 @@ pub static SCENE: TableSpec = TableSpec {
             .default("none")
             .also(&["name"]),
         Key::new(
+            "include",
+            List { of: &Text, min: 0, max: usize::MAX },
+            "Scene files that belong to this one, as if they stood here; what this file says itself counts",
+        )
+        .default("[]")
+        .also(&["includes", "import"]),
+        Key::new(
             "seed",
             Integer(0, 4_294_967_295),
             "What the random numbers of formulas follow from: another seed, other numbers",
@@ -76,6 +83,12 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
         Key::new(
+            "defaults",
+            Table(&DEFAULTS),
+            "What bodies, forces, materials and lights are like that do not say it themselves",
+        )
+        .also(&["default"]),
+        Key::new(
             "environment",
             Either(&[Choice(presets), Table(&ENVIRONMENT)]),
             "Ground, sky, fog and the usual lights: a name is short for `environment.preset`",
@@ -84,6 +97,21 @@ pub static SCENE: TableSpec = TableSpec {
         .also(&["world"]),
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
+    ],
+};
+
+static DEFAULTS: TableSpec = TableSpec {
+    noun: "the defaults",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("body", Partial(&BODY), "Of every `[body.NAME]`: what it says itself counts, key by key")
+            .default("none")
+            .also(&["bodies"]),
+        Key::new("force", Partial(&FORCE), "Of every `[force.NAME]`").default("none").also(&["forces"]),
+        Key::new("material", Partial(&MATERIAL), "Of every `[material.NAME]`")
+            .default("none")
+            .also(&["materials"]),
+        Key::new("light", Partial(&LIGHT), "Of every `[light.NAME]`").default("none").also(&["lights"]),
     ],
 };
 
@@ -123,7 +151,7 @@ static SIMULATION: TableSpec = TableSpec {
 
 static BODY: TableSpec = TableSpec {
     noun: "a body",
-    rule: Rule::AtMostOne(&[&["mass", "density"]]),
+    rule: Rule::AtMostOne(&[&["mass", "density"], &["fixed", "motion"]]),
     keys: &[
         Key::new("shape", Table(&SHAPE), "Its form, centred at its location, with its axis along y")
             .required(),
@@ -268,15 +296,32 @@ static CAMERA: TableSpec = TableSpec {
     noun: "the camera",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", VECTOR, "Where the camera is")
+        Key::new("location", TIMED_VECTOR, "Where the camera is; numbers, or formulas of `t`")
             .unit("m")
             .default("so that the whole motion is in the picture")
             .also(&["position", "pos", "eye", "from"]),
-        Key::new("look_at", VECTOR, "The point in the middle of the picture")
+        Key::new("look_at", TIMED_VECTOR, "The point in the middle of the picture; numbers, or formulas of `t`")
             .unit("m")
             .default("the middle of the motion")
             .also(&["target", "lookat", "to"]),
-        Key::new("angle", Number(Bound::Between(0.0, 180.0)), "The horizontal field of view, in perspective")
+        Key::new(
+            "keyframes",
+            Table(&CAMERA_KEYFRAMES),
+            "Places that it goes through at given times, in place of `location` and `look_at`",
+        )
+        .default("none")
+        .also(&["motion", "path"]),
+        Key::new("follow", Table(&FOLLOW), "A body that it goes along with")
+            .default("none")
+            .also(&["track", "tracking", "following"]),
+        Key::new("orbit", Table(&ORBIT), "That it goes around what it looks at, about the vertical")
+            .default("none")
+            .also(&["rotate", "turntable"]),
+        Key::new(
+            "angle",
+            Timed(Bound::Between(0.0, 180.0)),
+            "The horizontal field of view, in perspective; a number, or a formula of `t`",
+        )
             .unit("degrees")
             .default("40")
             .also(&["fov", "field_of_view"]),
@@ -356,14 +401,20 @@ static LIGHT: TableSpec = TableSpec {
 static POINT_LIGHT: TableSpec = TableSpec {
     noun: "a point light",
     rule: Rule::Any,
-    keys: &[Key::new("location", VECTOR, "Where it is").unit("m").required().also(&["position", "pos"])],
+    keys: &[Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+        .unit("m")
+        .required()
+        .also(&["position", "pos"])],
 };
 
 static AREA_LIGHT: TableSpec = TableSpec {
     noun: "an area light",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", VECTOR, "Where it is").unit("m").required().also(&["position", "pos"]),
+        Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+            .unit("m")
+            .required()
+            .also(&["position", "pos"]),
         Key::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
     ],
 };

@@ -53,6 +53,8 @@ pub enum Kind {
     Table(&'static TableSpec),
     /// Tables of the given sort, each with a name of its own: `[body.ball]`.
     Named(&'static TableSpec),
+    /// A table with any of the given keys, of which none must be there: it is only a part of a whole one.
+    Partial(&'static TableSpec),
     /// A table of numbers, each with a name of its own.
     Variables,
     /// One of several kinds, told apart by the type that TOML gives the value.
@@ -169,7 +171,9 @@ impl Kind {
                 matches!(value, Value::Array(_))
             }
             Kind::Color => matches!(value, Value::Array(_) | Value::String(_)),
-            Kind::Table(_) | Kind::Named(_) | Kind::Variables => matches!(value, Value::Table(_)),
+            Kind::Table(_) | Kind::Named(_) | Kind::Partial(_) | Kind::Variables => {
+                matches!(value, Value::Table(_))
+            }
             Kind::Either(kinds) => kinds.iter().any(|kind| kind.takes(value)),
         }
     }
@@ -208,6 +212,7 @@ impl Kind {
             Kind::List { of, min, .. } => format!("a list of at least {min} values, each {}", of.in_words()),
             Kind::Table(table) => format!("a table with the keys of {}", table.noun),
             Kind::Named(table) => format!("tables with names, each {}", table.noun),
+            Kind::Partial(table) => format!("a table with keys of {}", table.noun),
             Kind::Variables => "a table of numbers with names".to_owned(),
             Kind::Either(kinds) => kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join(" or "),
         }

@@ -16,6 +16,7 @@ pub fn reference() -> String {
     let mut page = Page { text, sections: Vec::new() };
     page.section("", &SCENE);
     page.formulas();
+    page.text.push_str(MANY);
     page.text
 }
 
@@ -55,6 +56,61 @@ gives a variable another value.
 
 Random numbers follow from the `seed` of the scene and the place where they stand, such as `body.ball.location[2]`: they are the
 same on every run and machine, and another body changes none of them.
+";
+
+/// What there is to say of scenes of many bodies and several files.
+const MANY: &str = "
+## Many from few
+
+```toml
+[body.domino]                     # domino[0] to domino[499]
+shape.box.size = [0.1, 0.8, 0.4]
+repeat.curve.count = 500
+repeat.curve.at = [\"(1 + 5*u)*cos(6*tau*u)\", 0, \"(1 + 5*u)*sin(6*tau*u)\"]
+
+[body.brick]                      # brick[0,0] to brick[7,3]
+shape.box.size = [1, 0.5, 0.5]
+location = [\"-4 + (j % 2)/2\", 0.25, -9]
+mass = \"1 + i/10\"
+repeat.grid = { count = [8, 4], spacing = [1.02, 0.52] }
+
+[body.ball]
+shape.sphere.radius = \"uniform(0.05, 0.15)\"
+location = [0, 5, 0]
+repeat.scatter = { count = 100, within.sphere.radius = 2 }
+
+[force.air.drag]
+linear = 0.1
+on = [\"ball\", \"brick[*,3]\", \"domino[0]\"]
+```
+
+A body with a `repeat` is as many bodies, which are called by its name and their index. Its formulas know the index: `i`, and in a
+grid also `j` and `k`. How the copies stand comes on top of their `location` and orientation. Where a list wants bodies, the
+name alone means all copies, and `*` all of a row; in `between`, a spring goes from each to the next.
+
+A copy has random numbers of its own, which another copy or another body does not change. Scattered copies are placed one
+after another, each at random until the ball around it overlaps none of those before it; other bodies are not looked at.
+
+```toml
+[defaults.body]
+shape.sphere.radius = 0.2
+material = \"brass\"
+
+[body.left]
+location = [-1, 0, 0]
+
+[body.right]
+location = [1, 0, 0]
+shape.box.size = [0.4, 0.4, 0.4]
+```
+
+`[defaults.body]` says what all bodies are like that do not say it themselves, key by key; what a body says also replaces what cannot
+stand beside it, as a box does a sphere. Formulas of the defaults are evaluated for each body.
+
+`include = [\"room.toml\", \"lamps/desk.toml\"]` is as if what these files say stood here, before all else. What this file says itself
+counts, also for `[defaults]`, which are those of all files together; where two included files disagree, this one has to decide. Their names
+start from the folder of the file that they stand in, and stay in that of the scene without `--trust`. Other paths, as those of
+`povray.assets`, start from the folder of the scene in every file.
 ";
 
 /// The page as far as it is written.
@@ -120,6 +176,10 @@ impl Page {
                 None => "table".to_owned(),
             },
             Kind::Named(_) => "tables with names".to_owned(),
+            Kind::Partial(table) => match self.title(table) {
+                Some(title) => format!("any keys of {title}"),
+                None => "table".to_owned(),
+            },
             Kind::Either(kinds) => {
                 kinds.iter().map(|kind| self.in_short(kind)).collect::<Vec<_>>().join(", or ")
             }

@@ -12,27 +12,72 @@ use crate::scene::color::NAMES;
 /// It knows everything that can be said of a key and its value alone. What goes together, and which names there are, only
 /// the check of a scene knows.
 pub fn schema() -> Value {
-    let mut schema = table(&SCENE);
+    let mut schema = table(&SCENE, Whole::No);
+    // What a table lacks may be in the defaults, or in an included file.
+    let by_itself =
+        json!({ "not": { "anyOf": [{ "required": ["defaults"] }, { "required": ["include"] }] } });
+    schema.insert("if".to_owned(), by_itself);
+    schema.insert("then".to_owned(), requirements(&SCENE).into());
     schema.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
     schema.insert("title".to_owned(), json!("A scene of jabuka"));
     schema.into()
 }
 
-fn table(spec: &TableSpec) -> Map<String, Value> {
-    let properties: Map<_, _> = spec.keys.iter().map(|key| (key.name.to_owned(), property(key))).collect();
+/// Whether a table has to have all that it needs.
+#[derive(Clone, Copy, PartialEq)]
+enum Whole {
+    Yes,
+    No,
+}
+
+/// That a table has what it needs, and those in it, and nothing else.
+fn requirements(spec: &TableSpec) -> Map<String, Value> {
+    let inner = |key: &Key| {
+        let required = match &key.kind {
+            Kind::Named(spec) => match requirements(spec) {
+                required if required.is_empty() => required,
+                required => object(json!({ "additionalProperties": required })),
+            },
+            kind => kind.table().map(requirements).unwrap_or_default(),
+        };
+        (!required.is_empty()).then(|| (key.name.to_owned(), Value::from(required)))
+    };
+    let properties: Map<_, _> = spec.keys.iter().filter_map(inner).collect();
+    let mut schema = Map::new();
+    if !properties.is_empty() {
+        schema.insert("properties".to_owned(), properties.into());
+    }
+    let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+    if !required.is_empty() {
+        schema.insert("required".to_owned(), json!(required));
+    }
+    if let Rule::ExactlyOne(names) = &spec.rule {
+        let one: Vec<_> = names.iter().map(|name| json!({ "required": [name] })).collect();
+        schema.insert("anyOf".to_owned(), one.into());
+    }
+    schema
+}
+
+fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
+    let properties: Map<_, _> =
+        spec.keys.iter().map(|key| (key.name.to_owned(), property(key, whole))).collect();
     let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
     let mut schema = object(json!({
         "type": "object",
         "properties": properties,
         "additionalProperties": false,
     }));
-    if !required.is_empty() {
+    if whole == Whole::Yes && !required.is_empty() {
         schema.insert("required".to_owned(), json!(required));
     }
     match &spec.rule {
         Rule::Any => {}
         Rule::AtMostOne(groups) => {
             let pairs: Vec<_> = groups.iter().flat_map(|names| pairs(names)).collect();
+            schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
+        }
+        Rule::ExactlyOne(names) if whole == Whole::No => {
+            let pairs: Vec<_> = pairs(names).collect();
             schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
         }
         Rule::ExactlyOne(names) => {
@@ -51,8 +96,8 @@ fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     names.iter().enumerate().flat_map(with)
 }
 
-fn property(key: &Key) -> Value {
-    let mut schema = kind(&key.kind);
+fn property(key: &Key, whole: Whole) -> Value {
+    let mut schema = kind(&key.kind, whole);
     let unit = if key.unit.is_empty() { String::new() } else { format!(", in {}", key.unit) };
     let default =
         if key.default.is_empty() { String::new() } else { format!(" Without it: {}.", key.default) };
@@ -72,7 +117,7 @@ fn default_value(key: &Key) -> Option<Value> {
     }
 }
 
-fn kind(kind: &Kind) -> Map<String, Value> {
+fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     match kind {
         Kind::Text | Kind::Sdl | Kind::Reference(_) => object(json!({ "type": "string" })),
         Kind::Boolean => object(json!({ "type": "boolean" })),
@@ -105,16 +150,18 @@ fn kind(kind: &Kind) -> Map<String, Value> {
             object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),
-        Kind::List { of, min, max } => list(self::kind(of), *min, *max),
-        Kind::Table(spec) => table(spec),
-        Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec) })),
+        // A list is as it is written.
+        Kind::List { of, min, max } => list(self::kind(of, Whole::Yes), *min, *max),
+        Kind::Table(spec) => table(spec, whole),
+        Kind::Partial(spec) => table(spec, Whole::No),
+        Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec, whole) })),
         Kind::Variables => object(json!({
             "type": "object",
             "propertyNames": { "pattern": "^[A-Za-z_][A-Za-z0-9_]*$" },
             "additionalProperties": number(Bound::Any),
         })),
         Kind::Either(kinds) => {
-            let kinds: Vec<_> = kinds.iter().map(self::kind).collect();
+            let kinds: Vec<_> = kinds.iter().map(|kind| self::kind(kind, whole)).collect();
             object(json!({ "anyOf": kinds }))
         }
     }

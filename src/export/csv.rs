@@ -1,0 +1,82 @@
+//! Frames → a table with a row for each time and body, which `motion.trajectory` reads.
+
+use std::io::{self, Write};
+
+use csv::WriterBuilder;
+
+use crate::scene::Scene;
+use crate::simulate::{Diverged, Frames, Selection};
+
+/// The columns, with their units.
+pub const HEADER: [&str; 15] = [
+    "t [s]",
+    "body",
+    "x [m]",
+    "y [m]",
+    "z [m]",
+    "qx",
+    "qy",
+    "qz",
+    "qw",
+    "vx [m/s]",
+    "vy [m/s]",
+    "vz [m/s]",
+    "wx [rad/s]",
+    "wy [rad/s]",
+    "wz [rad/s]",
+];
+
+/// Simulates a scene, and writes where all bodies are in some frames: centre of mass, orientation as a quaternion,
+/// velocity, and angular velocity in world axes. Every number is the shortest that reads back as the same bits.
+///
+/// # Errors
+/// Where it cannot be written, or the run leaves the numbers.
+pub fn write_csv(scene: &Scene, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
+    let mut csv = WriterBuilder::new().from_writer(out);
+    csv.write_record(HEADER).map_err(io::Error::from)?;
+    let left = selection.last().map_or(0, |last| last.saturating_add(1));
+    let mut rows = 0;
+    for frame in Frames::new(scene).take(left) {
+        let frame = frame?;
+        if !selection.contains(frame.index) {
+            continue;
+        }
+        for body in &frame.bodies {
+            csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
+            csv.write_field(&scene.bodies[body.id].name).map_err(io::Error::from)?;
+            let vectors =
+                [body.location.to_array(), body.velocity.to_array(), body.angular_velocity.to_array()];
+            let [location, velocity, angular] = vectors;
+            let numbers =
+                location.into_iter().chain(body.orientation.to_array()).chain(velocity).chain(angular);
+            for number in numbers {
+                csv.write_field(number.to_string()).map_err(io::Error::from)?;
+            }
+            csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
+            rows += 1;
+        }
+    }
+    csv.flush()?;
+    Ok(rows)
+}
+
+/// Why a run cannot be exported.
+#[derive(Debug)]
+pub enum ExportError {
+    /// It cannot be written.
+    Io(io::Error),
+    /// The run leaves the numbers.
+    Diverged(Diverged),
+}
+
+impl From<io::Error> for ExportError {
+    fn from(error: io::Error) -> ExportError {
+        ExportError::Io(error)
+    }
+}
+
+impl From<Diverged> for ExportError {
+    fn from(error: Diverged) -> ExportError {
+        ExportError::Diverged(error)
+    }
+}

@@ -1,0 +1,240 @@
+//! `include`: other files of the scene language, as if they stood in this one.
+//!
+//! What a file says itself counts more than what it includes; what two included files say of one key is an error, unless
+//! the file that includes them decides. A file that is included in several ways is there once.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+use super::merge::{is_replaced, merge};
+use crate::diagnostic::{Diagnostic, Sources, Span};
+use crate::scene::grammar::{Kind, SCENE, TableSpec};
+use crate::scene::source::{self, Entry, Node, Table, Value};
+
+/// So deep files may include others.
+const MAX_DEPTH: usize = 50;
+
+/// Lays everything that a scene includes under what it says itself. `path` is that of its file, if it has one. The texts of the
+/// included files are returned.
+pub(in crate::scene) fn include(
+    root: &mut Table,
+    path: Option<&Path>,
+    trust: bool,
+    sources: &mut Sources,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<String> {
+    let folder = path.map(folder_of);
+    let mut includer = Includer {
+        scene: folder.as_ref().and_then(|folder| folder.canonicalize().ok()),
+        trust,
+        way: path.and_then(|path| path.canonicalize().ok()).into_iter().collect(),
+        done: HashSet::new(),
+        texts: Vec::new(),
+        sources,
+        diagnostics,
+    };
+    if let Some(items) = root.get("include").and_then(|entry| names(&entry.node)) {
+        includer.files(root, &items, folder.as_deref());
+    }
+    includer.texts
+}
+
+/// The folder that the names in a file start from.
+fn folder_of(path: &Path) -> PathBuf {
+    let folder = path.parent().unwrap_or(path);
+    if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() }
+}
+
+/// The names of a list, if it is one of names.
+fn names(node: &Node) -> Option<Vec<(String, Span)>> {
+    let Value::Array(items) = &node.value else { return None };
+    items.iter().map(|item| Some((item.as_str()?.to_owned(), item.span))).collect()
+}
+
+struct Includer<'a> {
+    /// The folder of the scene, which its files do not leave without `--trust`.
+    scene: Option<PathBuf>,
+    trust: bool,
+    /// The files that include each other, from that of the scene to the one that is looked at.
+    way: Vec<PathBuf>,
+    done: HashSet<PathBuf>,
+    texts: Vec<String>,
+    sources: &'a mut Sources,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Includer<'_> {
+    /// Lays the named files under a table.
+    fn files(&mut self, own: &mut Table, items: &[(String, Span)], folder: Option<&Path>) {
+        let mut all = Table::default();
+        for (name, span) in items {
+            match self.file(name, *span, folder) {
+                Ok(Some(mut table)) => {
+                    self.conflicts(&all, &table, own, &SCENE);
+                    merge(&mut table, &all, &SCENE);
+                    all = table;
+                }
+                Ok(None) => {}
+                Err(error) => self.diagnostics.push(error),
+            }
+        }
+        merge(own, &all, &SCENE);
+    }
+
+    /// What a file says, with all that it includes; none if it has been included before.
+    fn file(&mut self, name: &str, span: Span, folder: Option<&Path>) -> Result<Option<Table>, Diagnostic> {
+        let cannot = |message: String| Diagnostic::error("cannot-include", message).at(span, "");
+        let Some(folder) = folder else {
+            return Err(cannot(format!(
+                "there is no `{name}`: a scene that is no file has nothing beside it"
+            )));
+        };
+        let path = folder.join(name);
+        let real = path.canonicalize().map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => {
+                let error = cannot(format!("there is no file `{name}`"));
+                match name.ends_with(".inc") {
+                    true => error.help("include files of POV-Ray's are named in `povray.include`"),
+                    false => error.help(
+                        "the names of included files start from the folder of the file that they stand in",
+                    ),
+                }
+            }
+            _ => cannot(format!("cannot read `{name}`: {error}")),
+        })?;
+        if !self.trust && self.scene.as_ref().is_none_or(|scene| !real.starts_with(scene)) {
+            let message = format!("`{name}` leads out of the scene's folder");
+            let error = Diagnostic::error("untrusted-path", message).at(span, "");
+            return Err(error.help("if you know this scene and trust it, say `--trust`"));
+        }
+        if let Some(first) = self.way.iter().position(|other| *other == real) {
+            return Err(self.cycle(first, span));
+        }
+        if self.way.len() > MAX_DEPTH {
+            return Err(cannot(format!("files include each other more than {MAX_DEPTH} deep")));
+        }
+        if !self.done.insert(real.clone()) {
+            return Ok(None);
+        }
+        let text = source::load(&path).map_err(|report| {
+            let why =
+                report.diagnostics.first().map_or(String::new(), |diagnostic| diagnostic.message.clone());
+            cannot(format!("cannot include `{name}`: {why}"))
+        })?;
+        self.way.push(real);
+        let table = self.read(&path, text);
+        self.way.pop();
+        Ok(Some(table))
+    }
+
+    fn read(&mut self, path: &Path, text: String) -> Table {
+        let shown = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let id = self.sources.add(path.display().to_string(), shown);
+        let tree = source::parse(shown, id, self.diagnostics);
+        self.texts.push(text);
+        let Value::Table(mut table) = tree.value else { return Table::default() };
+        if let Some(place) = table.entries.iter().position(|entry| entry.name.text == "include") {
+            let include = table.entries.remove(place);
+            match names(&include.node) {
+                Some(items) => self.files(&mut table, &items, Some(&folder_of(path))),
+                None if matches!(include.node.value, Value::Invalid) => {}
+                None => {
+                    let message =
+                        format!("expected a list of names of files, found {}", include.node.in_words());
+                    self.diagnostics.push(Diagnostic::error("wrong-type", message).at(include.node.span, ""));
+                }
+            }
+        }
+        table
+    }
+
+    /// That a file includes itself by way of others.
+    fn cycle(&self, first: usize, span: Span) -> Diagnostic {
+        let name = |path: &PathBuf| {
+            let name = path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default();
+            format!("`{name}`")
+        };
+        let cycle = &self.way[first..];
+        let message = match cycle {
+            [only] => format!("{} includes itself", name(only)),
+            cycle => {
+                let names: Vec<String> = cycle.iter().chain(cycle.first()).map(name).collect();
+                format!("files include each other: {}", names.join(" → "))
+            }
+        };
+        Diagnostic::error("cyclic-include", message).at(span, "this leads back")
+    }
+
+    /// Says which keys two included files give different values, while the file that includes them does not decide.
+    fn conflicts(&mut self, first: &Table, second: &Table, own: &Table, spec: &'static TableSpec) {
+        for entry in &first.entries {
+            let name = entry.name.text.as_str();
+            let decided = own.get(name);
+            let both = match second.get(name) {
+                Some(other) => other,
+                None if is_replaced(name, second, spec)
+                    && decided.is_none()
+                    && !is_replaced(name, own, spec) =>
+                {
+                    let replaces = |other: &&Entry| {
+                        let alone = Table { entries: vec![Entry::clone(other)] };
+                        is_replaced(name, &alone, spec)
+                    };
+                    let Some(other) = second.entries.iter().find(replaces) else { continue };
+                    self.conflict(name, entry.name.span, other.name.span);
+                    continue;
+                }
+                None => continue,
+            };
+            let inner = spec.key(name).map(|key| &key.kind);
+            let empty = Table::default();
+            match (&entry.node.value, &both.node.value) {
+                (Value::Table(first), Value::Table(second)) => {
+                    let own = decided.and_then(|entry| entry.node.as_table());
+                    if decided.is_some() && own.is_none() {
+                        continue;
+                    }
+                    self.conflicts_inside(first, second, own.unwrap_or(&empty), inner);
+                }
+                _ if decided.is_none() => self.conflict(name, entry.name.span, both.name.span),
+                _ => {}
+            }
+        }
+    }
+
+    fn conflicts_inside(&mut self, first: &Table, second: &Table, own: &Table, kind: Option<&'static Kind>) {
+        match kind {
+            Some(Kind::Named(spec)) => {
+                for entry in &first.entries {
+                    let tables = (entry.node.as_table(), second.get(&entry.name.text));
+                    let (Some(first), Some(other)) = tables else { continue };
+                    let Some(second) = other.node.as_table() else { continue };
+                    let own = own.get(&entry.name.text).and_then(|entry| entry.node.as_table());
+                    self.conflicts(first, second, own.unwrap_or(&Table::default()), spec);
+                }
+            }
+            Some(Kind::Partial(spec)) => self.conflicts(first, second, own, spec),
+            Some(Kind::Variables) => {
+                for entry in &first.entries {
+                    let other = second.get(&entry.name.text).filter(|_| own.get(&entry.name.text).is_none());
+                    if let Some(other) = other {
+                        self.conflict(&entry.name.text, entry.name.span, other.name.span);
+                    }
+                }
+            }
+            kind => {
+                if let Some(spec) = kind.and_then(Kind::table) {
+                    self.conflicts(first, second, own, spec);
+                }
+            }
+        }
+    }
+
+    fn conflict(&mut self, name: &str, first: Span, second: Span) {
+        let message = format!("two included files disagree on `{name}`");
+        let error =
+            Diagnostic::error("include-conflict", message).at(second, "the one that is included later");
+        let error = error.at(first, "the other is here");
+        self.diagnostics.push(error.help("say it in the file that includes both: that counts"));
+    }
+}

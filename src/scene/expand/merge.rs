@@ -1,0 +1,69 @@
+//! One table laid over another: what it does not say is as in the other.
+
+use crate::scene::grammar::{Kind, Rule, TableSpec};
+use crate::scene::source::{Entry, Node, Table, Value};
+
+/// Completes a table by what another says of the same thing. Its own values count, and those that go with them: where it says
+/// `shape.box`, the `shape.sphere` of the other is not asked for.
+///
+/// What the other has comes first, in its order.
+pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
+    let base_entries = base.entries.iter().filter(|entry| !is_replaced(&entry.name.text, own, spec));
+    let base_entries: Vec<Entry> = base_entries.cloned().collect();
+    let kind = |name: &str| spec.key(name).map(|key| &key.kind);
+    merge_entries(own, base_entries, |name, own, base| {
+        if let Some(kind) = kind(name) {
+            merge_values(own, base, kind);
+        }
+    });
+}
+
+/// Whether a key of the other table cannot stand beside one of the table's own.
+pub(super) fn is_replaced(name: &str, own: &Table, spec: &'static TableSpec) -> bool {
+    let groups = match &spec.rule {
+        Rule::Any => &[][..],
+        Rule::AtMostOne(groups) => *groups,
+        Rule::ExactlyOne(names) => std::slice::from_ref(names),
+    };
+    own.get(name).is_none()
+        && groups.iter().any(|group| group.contains(&name) && group.iter().any(|key| own.get(key).is_some()))
+}
+
+fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
+    let Value::Table(base) = &base.value else { return };
+    let Value::Table(own) = &mut own.value else { return };
+    match kind {
+        Kind::Named(spec) => {
+            merge_entries(own, base.entries.clone(), |_, own, base| {
+                if let (Value::Table(own), Value::Table(base)) = (&mut own.value, &base.value) {
+                    merge(own, base, spec);
+                }
+            });
+        }
+        Kind::Variables => merge_entries(own, base.entries.clone(), |_, _, _| {}),
+        Kind::Partial(spec) => merge(own, base, spec),
+        kind => {
+            if let Some(spec) = kind.table() {
+                merge(own, base, spec);
+            }
+        }
+    }
+}
+
+/// Puts the entries of a table behind those of another; `both` says what becomes of one that is in both.
+fn merge_entries(own: &mut Table, base: Vec<Entry>, both: impl Fn(&str, &mut Node, &Node)) {
+    let mut numbers: std::collections::HashMap<String, usize> =
+        own.entries.iter().enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect();
+    let mut rest: Vec<Option<Entry>> = std::mem::take(&mut own.entries).into_iter().map(Some).collect();
+    for entry in base {
+        let same = numbers.remove(&entry.name.text).and_then(|number| rest[number].take());
+        own.entries.push(match same {
+            Some(mut same) => {
+                both(&same.name.text, &mut same.node, &entry.node);
+                same
+            }
+            None => entry,
+        });
+    }
+    own.entries.extend(rest.into_iter().flatten());
+}
