@@ -80,7 +80,7 @@ pub use force::{
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;
-pub use shape::{Compound, Part, Shape, cone_base};
+pub use shape::{Compound, Flaw, Mesh, Part, Shape, cone_base};
 pub use state::State;
 pub use world::World;
 

@@ -9,6 +9,7 @@ mod effect;
 mod force;
 mod look;
 mod material;
+mod mesh;
 mod povray;
 mod read;
 mod sdl;
@@ -50,6 +51,7 @@ struct Context<'a> {
     names: Names,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
+    meshes: mesh::Meshes,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -99,6 +101,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         trust: options.trust,
         names: Names::of(&root),
         comparisons: suggest::MAX_COMPARISONS,
+        meshes: mesh::Meshes::default(),
         diagnostics: Vec::new(),
     };
     expand::expand(&mut root, &sources, &mut context.diagnostics);
@@ -131,16 +134,19 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
+    let camera = camera::read(&root, &simulation, context);
+    let output = look::output(&root.table("output"));
+    context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
-        camera: camera::read(&root, &simulation, context),
+        camera,
         views: camera::views(&root, &simulation, context),
         simulation,
         lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
-        output: look::output(&root.table("output")),
-        digest: digest(input, options, &povray),
+        output,
+        digest: digest(input, options, &povray, &context.meshes),
         bodies,
         forces,
         materials,
@@ -149,8 +155,8 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     }
 }
 
-/// A digest of all texts that the scene was read from.
-fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
+/// A digest of all texts and meshes that the scene was read from.
+fn digest(input: &Input<'_>, options: &Options, povray: &PovRay, meshes: &mesh::Meshes) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
         // The length keeps two texts from reading as one.
@@ -171,5 +177,6 @@ fn digest(input: &Input<'_>, options: &Options, povray: &PovRay) -> String {
     }
     // What is in them is in no script.
     povray.assets.iter().for_each(|asset| add(&asset.name));
+    meshes.digests().for_each(|digest| hash.update(digest));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
