@@ -85,3 +85,45 @@ impl Around {
         &self.corners[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cube with its faces cut in two, each edge of it between faces at 90°.
+    fn cube() -> Mesh {
+        let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1));
+        let faces: [[u32; 4]; 6] =
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Mesh::new("cube", (0..8).map(corner).collect(), triangles)
+    }
+
+    #[test]
+    fn sharp_edges_keep_the_normals_of_their_faces() {
+        let mesh = cube();
+        let normals = of_corners(&mesh, 80f64.to_radians());
+        assert_eq!(normals.vectors.len(), 24, "three faces at each of eight corners");
+        for (triangle, corners) in mesh.triangles().iter().zip(&normals.corners) {
+            let [a, b, c] = triangle.map(|vertex| mesh.vertices()[vertex as usize]);
+            let face = (b - a).cross(c - a).normalize();
+            assert!(corners.iter().all(|&i| normals.vectors[i as usize].abs_diff_eq(face, 1e-15)));
+        }
+    }
+
+    /// However faces are cut, each counts as its angle: the normal at the corner of a cube is its diagonal.
+    #[test]
+    fn round_edges_have_one_normal_at_each_vertex() {
+        let mesh = cube();
+        for smooth in [100f64.to_radians(), std::f64::consts::PI] {
+            let normals = of_corners(&mesh, smooth);
+            assert_eq!(normals.vectors.len(), 8);
+            for (triangle, corners) in mesh.triangles().iter().zip(&normals.corners) {
+                for (&vertex, &normal) in triangle.iter().zip(corners) {
+                    let outward = mesh.vertices()[vertex as usize].normalize();
+                    assert!(normals.vectors[normal as usize].abs_diff_eq(outward, 1e-15));
+                }
+            }
+        }
+    }
+}

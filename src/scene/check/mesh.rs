@@ -148,6 +148,9 @@ pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
         ),
         Flaw::Flat => "it is flat".to_owned(),
     };
-    let message = format!("the mesh `{}` encloses no solid, so its weight is unknown", mesh.name());
+    let message = format!(
+        "the mesh `{}` encloses no solid, so its mass and inertia do not follow from it",
+        mesh.name()
+    );
     Some(Diagnostic::error("open-mesh", message).at(span, label))
 }

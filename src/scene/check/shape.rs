@@ -47,9 +47,10 @@ fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Sh
         let orientation = body::orientation(name, &part, context);
         let location = part.vector("location").unwrap_or(DVec3::ZERO);
         let shape = mesh_or_solid(&part, context);
-        if let (Some(mesh), Some(shape)) = (part.variant("mesh"), &shape) {
-            let help = "only closed meshes can be parts: close it";
-            context.diagnostics.extend(mesh::open(&mesh, shape).map(|error| error.help(help)));
+        let open = shape.as_ref().and_then(|shape| mesh::open(&part.table("mesh"), shape));
+        if let Some(error) = open {
+            context.diagnostics.push(error.help("only closed meshes can be parts: close it"));
+            continue;
         }
         parts.extend(shape.map(|shape| Part { shape, location, orientation }));
     }

@@ -15,9 +15,12 @@ pub(super) struct Lines<'a> {
     line: Vec<u8>,
     /// How much of the line has been handed out.
     used: usize,
-    rewrite: Box<dyn FnMut(&mut Vec<u8>, Place) + 'a>,
+    rewrite: Box<Rewrite<'a>>,
     ended: bool,
 }
+
+/// Changes a line into what a reader expects.
+type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, Place) + 'a;
 
 /// Where in the file.
 #[derive(Clone, Copy, PartialEq)]

@@ -31,11 +31,8 @@ pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> T
     let mut number = vec![UNUSED; positions.len()];
     let corners = || triangles.iter().flatten().map(|&corner| first[corner as usize]);
     corners().for_each(|corner| number[corner as usize] = 0);
-    let mut next = 0;
-    for number in number.iter_mut().filter(|number| **number != UNUSED) {
-        *number = next;
-        next += 1;
-    }
+    let used = number.iter_mut().filter(|number| **number != UNUSED);
+    used.zip(0..).for_each(|(number, next)| *number = next);
     for corner in triangles.iter_mut().flatten() {
         *corner = number[first[*corner as usize] as usize];
     }

@@ -218,7 +218,11 @@ fn a_box_of_triangles_tumbles_as_the_box_does() {
         (world.orientation(body), world.angular_velocity(body))
     };
     let (whole, spin) = tumble(&Shape::Box { size }, turn);
-    let (triangles, other_spin) = tumble(&Shape::Mesh { mesh, scale: 10.0 }, DQuat::IDENTITY);
+    let shape = Shape::Mesh { mesh, scale: 10.0 };
+    assert!((shape.volume().unwrap() - 6.0).abs() < ROUNDING * 100.0);
+    let reach = |shape: &Shape| shape.support(turn, DVec3::X).unwrap();
+    assert!((reach(&shape.scaled(0.1)) * 10.0 - reach(&shape)).abs() < ROUNDING);
+    let (triangles, other_spin) = tumble(&shape, DQuat::IDENTITY);
     assert!(spin.abs_diff_eq(other_spin, 1e-9), "{spin} {other_spin}");
     assert!((whole.dot(triangles * turn).abs() - 1.0).abs() < 1e-9);
 }
