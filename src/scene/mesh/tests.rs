@@ -157,7 +157,7 @@ fn broken_files_are_no_reason_to_panic() {
             fs::write(&path, &bytes[..length]).unwrap();
             let _ = read(&path);
         }
-        for (i, other) in (0..bytes.len()).flat_map(|i| b"\0-9/ \n\xff".map(|other| (i, other))) {
+        for (i, other) in (0..bytes.len()).step_by(3).flat_map(|i| b"\0-9/ \n\xff".map(|other| (i, other))) {
             let mut bytes = bytes.clone();
             bytes[i] = other;
             fs::write(&path, bytes).unwrap();
