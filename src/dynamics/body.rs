@@ -17,7 +17,8 @@ pub struct RigidBody {
     /// Principal moments of inertia about the centre of mass, kg m². No torque turns a body about an axis whose moment
     /// is zero.
     pub inertia: DVec3,
-    /// The rotation that takes the principal axes of inertia to the frame of the body; the identity but for compounds.
+    /// The rotation that takes the principal axes of inertia to the frame of the body; the identity but for compounds and
+    /// meshes.
     /// Within a world, a body turns in the frame of its principal axes.
     pub principal_axes: DQuat,
     /// Location of the centre of mass, m.

@@ -9,6 +9,7 @@ use std::fmt::Write as _;
 use glam::{DQuat, DVec3};
 
 use super::materials::MaterialText;
+use super::meshes::Meshes;
 use super::sdl::Style;
 use super::{shapes, text};
 use crate::dynamics::Shape;
@@ -48,7 +49,7 @@ enum Place {
 
 impl Block {
     /// Plans the block of a scene, whose materials are given in its order.
-    pub(super) fn new(scene: &Scene, materials: &[MaterialText], style: Style) -> Block {
+    pub(super) fn new(scene: &Scene, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
         let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];
         for (id, body) in scene.bodies.iter().enumerate() {
@@ -64,8 +65,8 @@ impl Block {
             }
         }
         let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
-            Some(material) if bodies.len() > 1 => union(scene, &materials[*material], bodies, style),
-            _ => single(scene, materials, bodies[0], style),
+            Some(material) if bodies.len() > 1 => union(scene, &materials[*material], bodies, meshes, style),
+            _ => single(scene, materials, bodies[0], meshes, style),
         };
         Block { style, groups: together.iter().map(plan).collect() }
     }
@@ -108,10 +109,10 @@ fn stands_with_others(body: &Body, material: &MaterialText) -> bool {
 }
 
 /// Bodies of one plain material in a union.
-fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style) -> Group {
+fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], meshes: &Meshes, style: Style) -> Group {
     let item = |&id: &usize| {
         let body = &scene.bodies[id];
-        let (before, place, after) = shape(body, true, style);
+        let (before, place, after) = shape(body, true, meshes, style);
         let name = text::comment(&body.name);
         Item { id, before: format!("  {before}"), place, after: format!("{after} }} // {name}\n") }
     };
@@ -123,7 +124,7 @@ fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], style: Style)
 }
 
 /// One body with its material.
-fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) -> Group {
+fn single(scene: &Scene, materials: &[MaterialText], id: usize, meshes: &Meshes, style: Style) -> Group {
     let body = &scene.bodies[id];
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
@@ -136,7 +137,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
     }
     // What words of the scene's own make of a body may look different when it turns.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
-    let (mut before, place, mut after) = shape(body, uniform, style);
+    let (mut before, place, mut after) = shape(body, uniform, meshes, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
     // On lines of their own, since the words may end with a comment.
     let own = |sdl: &Option<String>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
@@ -155,7 +156,7 @@ fn single(scene: &Scene, materials: &[MaterialText], id: usize, style: Style) ->
 }
 
 /// The text before the place of a body, how its place is written, and the text after it.
-fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
+fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, Place, String) {
     if let Some(object) = &body.look.object {
         let place = Place::Matrix(DQuat::IDENTITY);
         return (shapes::open_sdl(object, body.look.scale, style), place, String::new());
@@ -171,6 +172,6 @@ fn shape(body: &Body, uniform: bool, style: Style) -> (String, Place, String) {
             let turn = DQuat::from_rotation_arc(DVec3::Y, normal);
             ("plane { y, 0 ".to_owned(), Place::Matrix(turn), String::new())
         }
-        shape => (shapes::open(&shape, style), Place::Matrix(DQuat::IDENTITY), String::new()),
+        shape => (shapes::open(&shape, meshes, style), Place::Matrix(DQuat::IDENTITY), String::new()),
     }
 }

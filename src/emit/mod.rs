@@ -8,7 +8,9 @@ mod camera;
 mod error;
 mod framing;
 mod materials;
+mod meshes;
 mod names;
+mod normals;
 mod number;
 mod sdl;
 mod shapes;
@@ -19,6 +21,7 @@ mod text;
 mod values;
 
 use self::bodies::Block;
+use self::meshes::Meshes;
 use self::sdl::Style;
 use self::stage::Stage;
 use self::templates::Templates;
@@ -57,7 +60,9 @@ impl Emitter {
         let stage = Stage::new(scene, camera, survey);
         let style = Style { unit: stage.unit, digits: scene.povray.digits };
         let materials = materials::texts(scene);
-        let common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
+        let meshes = Meshes::new(scene);
+        let mut common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
+        meshes.declare(&mut common, scene.output.layout, style.digits);
         let (in_every_script, shared) = match scene.output.layout {
             Layout::SelfContained => (common, None),
             Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),
@@ -73,7 +78,7 @@ impl Emitter {
                 with_bodies,
             ),
             shared,
-            block: Block::new(scene, &materials, style),
+            block: Block::new(scene, &materials, &meshes, style),
             unit: stage.unit,
             digits: scene.povray.digits,
             too_thin: stage.too_thin,

@@ -2,12 +2,13 @@
 
 use glam::{DQuat, DVec3};
 
+use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::dynamics::{Part, Shape, cone_base};
 
 /// A shape in its own frame: the words of an object up to where its material and its place go, which the closing
 /// brace follows.
-pub(super) fn open(shape: &Shape, style: Style) -> String {
+pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
     let length = |metres: f64| {
         let mut out = String::new();
         style.length(&mut out, metres);
@@ -36,7 +37,7 @@ pub(super) fn open(shape: &Shape, style: Style) -> String {
             let half = height / 2.0 - radius;
             // A cylinder without length is one that POV-Ray refuses.
             if half < 1e-6 * radius {
-                return open(&Shape::Sphere { radius }, style);
+                return open(&Shape::Sphere { radius }, meshes, style);
             }
             let (low, high, radius) = (on_axis(-half), on_axis(half), length(radius));
             let balls = format!("sphere {{ {low}, {radius} }} sphere {{ {high}, {radius} }}");
@@ -55,12 +56,13 @@ pub(super) fn open(shape: &Shape, style: Style) -> String {
             style.vector(&mut out, normal);
             out + ", 0 "
         }
+        Shape::Mesh { ref mesh, scale } => meshes.open(mesh, scale, style),
         Shape::Axes { length: arm } => format!("object {{ Axes scale {} ", length(arm)),
         Shape::Compound(ref compound) => match compound.parts() {
             // POV-Ray warns of a union of one.
-            [only] => part(only, style),
+            [only] => part(only, meshes, style),
             parts => {
-                let parts = parts.iter().map(|each| format!("  {}}}\n", part(each, style)));
+                let parts = parts.iter().map(|each| format!("  {}}}\n", part(each, meshes, style)));
                 format!("union {{\n{}  ", parts.collect::<String>())
             }
         },
@@ -68,8 +70,8 @@ pub(super) fn open(shape: &Shape, style: Style) -> String {
 }
 
 /// A part of a compound at its place; like [`open`].
-fn part(Part { shape, location, orientation }: &Part, style: Style) -> String {
-    let mut out = open(shape, style);
+fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: Style) -> String {
+    let mut out = open(shape, meshes, style);
     if *orientation == DQuat::IDENTITY {
         out.push_str("translate ");
         style.point(&mut out, *location);

@@ -172,6 +172,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Plane { .. } => "plane",
         Shape::Axes { .. } => "axes",
         Shape::Compound(_) => "compound",
+        Shape::Mesh { .. } => "mesh",
     }
 }
 

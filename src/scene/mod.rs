@@ -13,6 +13,7 @@ pub mod expression;
 pub mod grammar;
 mod library;
 mod look;
+mod mesh;
 mod model;
 pub mod motion;
 mod palette;
@@ -63,7 +64,7 @@ pub struct Scene {
     pub povray: PovRay,
     /// The images that the scripts are meant for.
     pub output: Output,
-    /// A digest (SHA-256, in hexadecimal) of all texts that the scene was read from.
+    /// A digest (SHA-256, in hexadecimal) of all texts and meshes that the scene was read from.
     pub digest: String,
     /// What was noticed and is no error.
     pub warnings: Report,

@@ -10,6 +10,7 @@ mod folder;
 mod frames;
 mod kill;
 mod memory;
+mod meshes;
 mod sameness;
 mod shutter;
 mod templates;

@@ -6,7 +6,7 @@ use crate::support::{jabuka, scene};
 
 /// The most memory that a process has used by the time it ends, in bytes: its high-water mark only ever rises, so the
 /// last look before the end is the one that counts.
-fn peak(mut child: Child) -> u64 {
+pub(crate) fn peak(mut child: Child) -> u64 {
     let status = format!("/proc/{}/status", child.id());
     let mut peak = 0;
     while child.try_wait().unwrap().is_none() {

@@ -12,6 +12,7 @@ mod lens;
 mod library;
 mod lights;
 mod looks;
+mod meshes;
 mod pinhole;
 mod planes;
 mod povray;

@@ -1,17 +1,21 @@
 //! What a body looks like, as far as mechanics cares: volume, inertia and extent.
 
 mod compound;
+mod mesh;
 mod principal;
 mod solids;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec2, DVec3};
 
 pub use compound::{Compound, Part};
+pub use mesh::{Flaw, Mesh};
 
-/// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds, the principal axes
-/// of inertia are the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
+/// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds and meshes, the
+/// principal axes of inertia are the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A solid sphere.
@@ -75,13 +79,20 @@ pub enum Shape {
     },
     /// Several solids as one.
     Compound(Compound),
+    /// What a surface of triangles encloses; of one that is not closed, the surface, which has no mechanics.
+    Mesh {
+        /// The surface, which several bodies may share.
+        mesh: Arc<Mesh>,
+        /// The length of one unit of it, m.
+        scale: f64,
+    },
 }
 
 /// The radius of an arm of the axes, at its thickest, in lengths of an arm.
 const ARM_RADIUS: f64 = 0.078;
 
 impl Shape {
-    /// The volume in m³; `None` for a plane, which has no finite one.
+    /// The volume in m³; `None` for a plane, which has no finite one, and for a mesh that is not closed.
     #[must_use]
     pub fn volume(&self) -> Option<f64> {
         Some(match *self {
@@ -95,12 +106,14 @@ impl Shape {
             Shape::Plane { .. } => return None,
             Shape::Axes { length } => solids::sphere_volume(length / 2.0),
             Shape::Compound(ref compound) => compound.volume(),
+            Shape::Mesh { ref mesh, scale } => mesh.volume()? * scale * scale * scale,
         })
     }
 
     /// The principal moments of inertia, kg m², of a homogeneous solid of `mass` kg.
     ///
-    /// A plane has no finite moments; zero stands for them, which everywhere means that no torque turns the body.
+    /// A plane has no finite moments, and a mesh that is not closed has none that are known; zero stands for them, which
+    /// everywhere means that no torque turns the body.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> DVec3 {
         match *self {
@@ -114,14 +127,17 @@ impl Shape {
             Shape::Plane { .. } => DVec3::ZERO,
             Shape::Axes { length } => mass * solids::sphere(length / 2.0),
             Shape::Compound(ref compound) => mass * compound.inertia(),
+            Shape::Mesh { ref mesh, scale } => mass * scale * scale * mesh.inertia(),
         }
     }
 
-    /// The rotation that takes the principal axes of inertia to the frame of the body: none but for compounds.
+    /// The rotation that takes the principal axes of inertia to the frame of the body: none but for compounds
+    /// and meshes.
     #[must_use]
     pub fn principal_axes(&self) -> DQuat {
         match self {
             Shape::Compound(compound) => compound.principal_axes(),
+            Shape::Mesh { mesh, .. } => mesh.principal_axes(),
             _ => DQuat::IDENTITY,
         }
     }
@@ -153,6 +169,7 @@ impl Shape {
             // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
             Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
             Shape::Compound(ref compound) => return compound.support(direction),
+            Shape::Mesh { ref mesh, scale } => scale * mesh.support(direction),
         })
     }
 
@@ -178,11 +195,12 @@ impl Shape {
                 let reach = |part: &Part| Some(part.location.length() + part.shape.bounding_radius()?);
                 compound.parts().iter().filter_map(reach).fold(0.0, f64::max)
             }
+            Shape::Mesh { ref mesh, scale } => scale * mesh.bounding_radius(),
         })
     }
 
     /// Half of the smallest thickness anywhere, m: what is to be seen of the shape at all is about as thick. `None`
-    /// for a plane.
+    /// for a plane and for a flat mesh.
     #[must_use]
     pub fn half_thickness(&self) -> Option<f64> {
         // The shafts of the arrows of axes, in lengths of an arm.
@@ -197,6 +215,7 @@ impl Shape {
             Shape::Plane { .. } => return None,
             Shape::Axes { length } => length * SHAFT_RADIUS,
             Shape::Compound(ref compound) => return compound.half_thickness(),
+            Shape::Mesh { ref mesh, scale } => scale * mesh.half_thickness()?,
         })
     }
 
@@ -227,6 +246,7 @@ impl Shape {
             Shape::Plane { .. } => {}
             Shape::Axes { length } => *length *= factor,
             Shape::Compound(compound) => compound.scale(factor),
+            Shape::Mesh { scale, .. } => *scale *= factor,
         }
         scaled
     }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, look, motion, shape};
+use super::{Context, look, mesh, motion, shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -46,6 +46,11 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let fixed = fixed(name, view, shape, context);
     let mass = mass(name, span, view, shape, context);
     let inertia = inertia(name, view, context);
+    let open = mesh::open(&view.table("shape").table("mesh"), shape);
+    let weighs_as_given = inertia.is_some() && view.has("mass");
+    let help = "close it, or give the body `mass` and `inertia`, or say `fixed = true`";
+    let needs_solid = !fixed && !weighs_as_given;
+    context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
     // Moments that are given are those about the body's own axes.
     let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
     let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
@@ -66,18 +71,24 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
 
 /// Whether a body stays where it is; what contradicts that, or is of no use then, is reported.
 fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> bool {
-    let plane = matches!(shape, Shape::Plane { .. });
+    let scenery = if view.table("shape").has("heightfield") {
+        Some(("heightfield", "it is a surface without weight", "a heightfield is always fixed"))
+    } else {
+        matches!(shape, Shape::Plane { .. }).then_some((
+            "plane",
+            "a plane is endless",
+            "a plane is always fixed",
+        ))
+    };
     let given = view.boolean("fixed");
-    if plane && given == Some(false) {
-        let error =
-            Diagnostic::error("plane-moves", format!("the plane `{name}` cannot move: a plane is endless"));
-        context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, "a plane is always fixed")));
+    if let (Some((what, why, always)), Some(false)) = (scenery, given) {
+        let error = Diagnostic::error("plane-moves", format!("the {what} `{name}` cannot move: {why}"));
+        context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, always)));
     }
     let motion = view.key_span("motion");
-    if let (true, Some(span)) = (plane, motion) {
-        let error =
-            Diagnostic::error("plane-moves", format!("the plane `{name}` cannot move: a plane is endless"));
-        context.diagnostics.push(error.at(span, "a plane is always fixed"));
+    if let (Some((what, why, always)), Some(span)) = (scenery, motion) {
+        let error = Diagnostic::error("plane-moves", format!("the {what} `{name}` cannot move: {why}"));
+        context.diagnostics.push(error.at(span, always));
     }
     if motion.is_some() {
         for key in MOTION.into_iter().chain(PUSHING).filter(|key| view.has(key)) {
@@ -86,9 +97,9 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
     }
-    let fixed = plane || given == Some(true);
+    let fixed = scenery.is_some() || given == Some(true);
     if fixed {
-        let why = if plane { "a plane is always fixed" } else { "it is fixed" };
+        let why = scenery.map_or("it is fixed", |(_, _, always)| always);
         for key in MOTION.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO)) {
             let error = Diagnostic::error(
                 "fixed-moves",
@@ -134,7 +145,8 @@ fn inertia_of_shape(
 ) -> DVec3 {
     let inertia = shape.inertia(mass);
     let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
-    if let (Some(moment), false) = (wrong, fixed) {
+    // Of a mesh without a solid, more has been said.
+    if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
         let error = Diagnostic::error("impossible-inertia", message);
         context.diagnostics.push(error.at(span, "its shape or its mass is too extreme"));

@@ -10,6 +10,7 @@ mod force;
 pub(super) mod geometry;
 mod look;
 mod material;
+mod mesh;
 mod motion;
 mod povray;
 mod read;
@@ -61,6 +62,7 @@ struct Context<'a> {
     told: HashSet<(&'static str, Span)>,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
+    meshes: mesh::Meshes,
     diagnostics: Vec<Diagnostic>,
     /// The texts that the scene is read from.
     sources: Sources,
@@ -81,6 +83,7 @@ impl Context<'_> {
             is_partial: false,
             told: HashSet::new(),
             comparisons: 0,
+            meshes: mesh::Meshes::default(),
             diagnostics: Vec::new(),
             sources: Sources::default(),
             recordings: trajectory::Recordings::new(),
@@ -167,6 +170,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         is_partial: false,
         told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
+        meshes: mesh::Meshes::default(),
         diagnostics: found,
         sources,
         recordings: trajectory::Recordings::new(),
@@ -211,16 +215,19 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
+    let camera = camera::read(&root, &simulation, context);
+    let output = look::output(&root.table("output"));
+    context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
-        camera: camera::read(&root, &simulation, context),
+        camera,
         views: camera::views(&root, &simulation, context),
         lights: look::lights(&root, &simulation, context),
         simulation,
         environment: look::environment(&root, &bodies),
-        output: look::output(&root.table("output")),
-        digest: digest(input, options, included, &povray, &context.files),
+        output,
+        digest: digest(input, options, included, &povray, context),
         bodies,
         forces,
         materials,
@@ -229,13 +236,13 @@ fn build(
     }
 }
 
-/// A digest of all texts that the scene was read from.
+/// A digest of all texts and other files that the scene was read from.
 fn digest(
     input: &Input<'_>,
     options: &Options,
     included: &[String],
     povray: &PovRay,
-    files: &[[u8; 32]],
+    context: &Context<'_>,
 ) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
@@ -258,6 +265,7 @@ fn digest(
     }
     // What is in them is in no script.
     povray.assets.iter().for_each(|asset| add(&asset.name));
-    files.iter().for_each(|digest| hash.update(digest));
+    context.files.iter().for_each(|digest| hash.update(digest));
+    context.meshes.digests().for_each(|digest| hash.update(digest));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

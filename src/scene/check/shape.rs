@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, body};
+use super::{Context, body, mesh};
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::{Compound, Part, Shape};
 
@@ -17,6 +17,9 @@ pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Sh
     if let Some(axes) = view.variant("axes") {
         return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
     }
+    if let Some(heightfield) = view.variant("heightfield") {
+        return mesh::heightfield(&heightfield, context).unwrap_or(Shape::Plane { normal: DVec3::Y });
+    }
     if let Some(view) = view.variant("compound") {
         return compound(name, &view, context).unwrap_or(Shape::Sphere { radius: 1.0 });
     }
@@ -26,7 +29,15 @@ pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Sh
         }
         return solid(&sdl.table("stand_in"), context).unwrap_or(Shape::Sphere { radius: 1.0 });
     }
-    solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
+    mesh_or_solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
+}
+
+/// A mesh, which need not be closed, or a solid; none where a value of it is missing or wrong.
+fn mesh_or_solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
+    match view.variant("mesh") {
+        Some(mesh) => mesh::read(&mesh, context),
+        None => solid(view, context),
+    }
 }
 
 /// A compound; none where all of its parts are missing or wrong.
@@ -35,7 +46,13 @@ fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Sh
     for part in view.tables("parts") {
         let orientation = body::orientation(name, &part, context);
         let location = part.vector("location").unwrap_or(DVec3::ZERO);
-        parts.extend(solid(&part, context).map(|shape| Part { shape, location, orientation }));
+        let shape = mesh_or_solid(&part, context);
+        let open = shape.as_ref().and_then(|shape| mesh::open(&part.table("mesh"), shape));
+        if let Some(error) = open {
+            context.diagnostics.push(error.help("only closed meshes can be parts: close it"));
+            continue;
+        }
+        parts.extend(shape.map(|shape| Part { shape, location, orientation }));
     }
     (!parts.is_empty()).then(|| Shape::Compound(Compound::new(parts)))
 }

@@ -22,7 +22,8 @@ impl<'a> View<'a> {
         View { spec, table }
     }
 
-    fn node(&self, name: &str) -> Option<&'a Node> {
+    /// The value of a key as it stands there.
+    pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
         self.table?.get(name).map(|entry| &entry.node)
     }

@@ -1,6 +1,6 @@
 //! The keys of shapes.
 
-use super::Kind::{Either, List, Numbers, Sdl, Table};
+use super::Kind::{Asset, Boolean, Either, List, Number, Numbers, Sdl, Table};
 use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};
 use super::{Bound, Key, Rule, TableSpec};
 
@@ -18,11 +18,18 @@ const CONE: Key = Key::new(
 )
 .also(&["frustum"]);
 const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
+const MESH: Key = Key::new(
+    "mesh",
+    Table(&MESH_KEYS),
+    "A solid whose surface is the triangles of a file; its axes are the file's",
+)
+.also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
 
 pub(super) static SHAPE: TableSpec = TableSpec {
     noun: "a shape",
     rule: Rule::ExactlyOne(&[
-        "sphere", "box", "cylinder", "capsule", "cone", "torus", "plane", "axes", "compound", "sdl",
+        "sphere", "box", "cylinder", "capsule", "cone", "torus", "mesh", "plane", "axes", "heightfield",
+        "compound", "sdl",
     ]),
     keys: &[
         SPHERE,
@@ -31,6 +38,7 @@ pub(super) static SHAPE: TableSpec = TableSpec {
         CAPSULE,
         CONE,
         TORUS,
+        MESH,
         Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
             .also(&["floor", "ground"]),
         Key::new(
@@ -39,6 +47,13 @@ pub(super) static SHAPE: TableSpec = TableSpec {
             "A triad of arrows along x, y, z, as heavy as a ball of half their length",
         )
         .also(&["axis", "triad", "frame"]),
+        Key::new(
+            "heightfield",
+            Table(&HEIGHTFIELD),
+            "A landscape whose heights are the gray levels of an image, always fixed; at its `location` is the middle \
+             of the rectangle at the height of black",
+        )
+        .also(&["height_field", "terrain", "landscape", "heightmap", "image"]),
         Key::new(
             "compound",
             Table(&COMPOUND),
@@ -50,7 +65,7 @@ pub(super) static SHAPE: TableSpec = TableSpec {
             Table(&SDL),
             "An object in POV-Ray's own words, and what stands in for it in mechanics",
         )
-        .also(&["povray", "custom", "isosurface", "mesh"]),
+        .also(&["povray", "custom", "isosurface"]),
     ],
 };
 
@@ -68,7 +83,7 @@ static COMPOUND: TableSpec = TableSpec {
 
 static PART: TableSpec = TableSpec {
     noun: "a part",
-    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus"]),
+    rule: Rule::ExactlyOne(&["sphere", "box", "cylinder", "capsule", "cone", "torus", "mesh"]),
     keys: &[
         SPHERE,
         BOX,
@@ -76,6 +91,7 @@ static PART: TableSpec = TableSpec {
         CAPSULE,
         CONE,
         TORUS,
+        MESH,
         Key::new(
             "location",
             VECTOR,
@@ -200,6 +216,58 @@ static TORUS_KEYS: TableSpec = TableSpec {
             .unit("m")
             .required()
             .also(&["tube", "thickness", "minor_radius", "minor"]),
+    ],
+};
+
+const SMOOTH: Key = Key::new(
+    "smooth",
+    Either(&[Boolean, Number(Bound::From(0.0, 180.0))]),
+    "Which edges look round: all, none, or those at which two faces meet at no more than so many degrees",
+)
+.unit("°")
+.default("false")
+.also(&["smoothing", "shading", "crease", "normals", "auto_smooth"]);
+
+static MESH_KEYS: TableSpec = TableSpec {
+    noun: "a mesh",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "file",
+            Asset,
+            "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is fixed or has \
+             `mass` and `inertia`",
+        )
+        .required()
+        .also(&["path", "name", "source", "obj", "stl", "filename"]),
+        Key::new("scale", POSITIVE, "The length of one unit of the file: 0.001 where it counts in millimetres")
+            .unit("m")
+            .default("1")
+            .also(&["unit", "units", "size", "factor"]),
+        SMOOTH,
+    ],
+};
+
+static HEIGHTFIELD: TableSpec = TableSpec {
+    noun: "a heightfield",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "file",
+            Asset,
+            "A PNG in the scene's folder, of which each pixel is a point of the landscape; its upper edge is the far one",
+        )
+        .required()
+        .also(&["image", "path", "png", "name", "source"]),
+        Key::new(
+            "size",
+            Numbers(3, Bound::Positive),
+            "From the middle of the first to that of the last pixel along x; from black to white; and along z",
+        )
+        .unit("m")
+        .required()
+        .also(&["scale", "dimensions", "extents"]),
+        SMOOTH,
     ],
 };
 

@@ -1,0 +1,156 @@
+//! `shape.mesh` and `shape.heightfield`: files of triangles and heights.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::Context;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::dynamics::{Flaw, Mesh, Shape};
+use crate::scene::{Camera, Layout, Output, Simulation, mesh};
+
+/// The files of a scene that have been read: one that several bodies name is read, and written, once.
+#[derive(Default)]
+pub(super) struct Meshes {
+    known: HashMap<Key, Result<Arc<Mesh>, String>>,
+    /// The digests of the files and where they are named first, in the order of the scene.
+    files: Vec<(PathBuf, [u8; 32])>,
+    /// Where each mesh is named first, and its triangles.
+    sizes: Vec<(Span, usize)>,
+}
+
+/// A file, and the bits of the numbers with which it is read.
+type Key = (PathBuf, Vec<u64>);
+
+/// Scripts that are together larger than this many bytes are worth a word.
+const LARGE: f64 = 5e8;
+/// What a triangle takes in a script, with its share of the vertices, bytes: about half a vertex of three numbers and
+/// the numbers of three vertices.
+const BYTES_OF_A_TRIANGLE: f64 = 45.0;
+
+impl Meshes {
+    /// The digests of the files, in the order of the scene.
+    pub(super) fn digests(&self) -> impl Iterator<Item = &[u8; 32]> {
+        self.files.iter().map(|(_, digest)| digest)
+    }
+
+    /// The mesh of a file, read with some numbers; why there is none, where it cannot be read.
+    fn get(
+        &mut self,
+        path: PathBuf,
+        span: Span,
+        numbers: &[f64],
+        read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::Unreadable>,
+    ) -> Result<Arc<Mesh>, String> {
+        let bits = numbers.iter().map(|number| number.to_bits()).collect();
+        if !self.files.iter().any(|(known, _)| *known == path) {
+            let digest = mesh::digest(&path).map_err(|error| error.to_string())?;
+            self.files.push((path.clone(), digest));
+        }
+        let (known, sizes) = (&mut self.known, &mut self.sizes);
+        let read = |key: &Key| {
+            let mesh = read(&key.0).map_err(|error| error.to_string())?;
+            sizes.push((span, mesh.triangles().len()));
+            Ok(Arc::new(mesh))
+        };
+        known.entry((path, bits)).or_insert_with_key(read).clone()
+    }
+
+    /// That meshes stand in so many scripts that these are a burden.
+    #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+    pub(super) fn too_large_to_repeat(
+        &self,
+        simulation: &Simulation,
+        camera: &Camera,
+        output: Output,
+    ) -> Option<Diagnostic> {
+        let triangles: usize = self.sizes.iter().map(|(_, triangles)| triangles).sum();
+        let moments = camera.shutter.map_or(1.0, |shutter| 1.0 + f64::from(shutter.samples));
+        let scripts = simulation.frames() as f64 * moments;
+        let bytes = triangles as f64 * BYTES_OF_A_TRIANGLE * scripts;
+        let (span, _) = self.sizes.iter().max_by_key(|(_, triangles)| *triangles)?;
+        let message = format!("every script holds the whole mesh: together about {:.1} GB", bytes / 1e9);
+        let warning = Diagnostic::warning("large-scripts", message);
+        let help = "`layout = \"shared\"` in [output] writes it once";
+        let large = output.layout == Layout::SelfContained && bytes > LARGE;
+        large.then(|| warning.at(*span, format!("{triangles} triangles, {scripts} times")).help(help))
+    }
+}
+
+/// A mesh; none where it is missing or wrong.
+pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
+    let scale = view.number("scale").unwrap_or(1.0);
+    let smooth = smooth(view);
+    let mesh = file(view, context, &[smooth.unwrap_or(-1.0)], |path| {
+        mesh::read(path).map(|mesh| mesh.with_smooth(smooth))
+    });
+    Some(Shape::Mesh { mesh: mesh?, scale })
+}
+
+/// A heightfield; none where it is missing or wrong.
+pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
+    let size = view.vector("size")?;
+    let smooth = smooth(view);
+    let numbers = [smooth.unwrap_or(-1.0), size.x, size.y, size.z];
+    let mesh = file(view, context, &numbers, |path| {
+        mesh::heightfield(path, size).map(|mesh| mesh.with_smooth(smooth))
+    });
+    Some(Shape::Mesh { mesh: mesh?, scale: 1.0 })
+}
+
+/// What stands in the file of a table, which is read once.
+fn file(
+    view: &View<'_>,
+    context: &mut Context<'_>,
+    numbers: &[f64],
+    read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::Unreadable>,
+) -> Option<Arc<Mesh>> {
+    let node = view.node("file")?;
+    let asset = super::asset::asset(node, context.folder, context.trust).ok()?;
+    match context.meshes.get(asset.path, node.span, numbers, read) {
+        Ok(mesh) => Some(mesh),
+        Err(why) => {
+            let message = format!("cannot read `{}`", node.as_str().unwrap_or_default());
+            context.diagnostics.push(Diagnostic::error("bad-mesh", message).at(node.span, why));
+            None
+        }
+    }
+}
+
+/// The largest angle between faces that looks round, rad.
+fn smooth(view: &View<'_>) -> Option<f64> {
+    match view.boolean("smooth") {
+        Some(true) => Some(std::f64::consts::PI),
+        Some(false) => None,
+        None => view.number("smooth").map(f64::to_radians).filter(|angle| *angle > 0.0),
+    }
+}
+
+/// That the mesh of a table, which has the given shape, encloses no solid, if it does not.
+pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
+    let Shape::Mesh { mesh, .. } = shape else { return None };
+    let span = view.span("file")?;
+    let at = |[from, to]: &[glam::DVec3; 2]| {
+        let point = |p: &glam::DVec3| format!("[{}]", p.to_array().map(figure).join(", "));
+        format!("from {} to {}", point(from), point(to))
+    };
+    let s = |edges: usize| if edges == 1 { "edge" } else { "edges" };
+    let label = match mesh.flaw()? {
+        Flaw::Open { edges, first } => {
+            format!("it is open at {edges} {}, one of them {}", s(*edges), at(first))
+        }
+        Flaw::Inconsistent { edges, first } => format!(
+            "its triangles disagree on where outside is, at {edges} {}, one of them {}",
+            s(*edges),
+            at(first)
+        ),
+        Flaw::Flat => "it is flat".to_owned(),
+    };
+    let message = format!(
+        "the mesh `{}` encloses no solid, so its mass and inertia do not follow from it",
+        mesh.name()
+    );
+    Some(Diagnostic::error("open-mesh", message).at(span, label))
+}

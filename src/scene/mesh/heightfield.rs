@@ -1,0 +1,80 @@
+//! Gray levels of an image → heights.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use glam::DVec3;
+use png::{BitDepth, ColorType, Transformations};
+
+use super::Unreadable;
+use crate::dynamics::Mesh;
+
+/// The largest number of pixels: each makes two triangles, and more than 8 million are no scene.
+const MOST_PIXELS: u64 = 1 << 22;
+
+/// The surface over a rectangle whose heights are the gray levels of a PNG, for 8 and for 16 bits from black, 0, to white,
+/// `size.y`. Each pixel is one vertex, at its middle, and each square of four two triangles; so what is drawn is the
+/// image to the pixel. A color counts by its luma (Rec. 709), transparency not at all.
+///
+/// POV-Ray has height fields of its own, which take less memory, but interpret colors, gamma and the edge of the image in
+/// ways of their own; with triangles there is one truth for the picture, the camera and the ground.
+pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Unreadable> {
+    let image = read(path)?;
+    let [width, depth] = [image.width, image.levels.len() / image.width];
+    if width < 2 || depth < 2 {
+        return Err(Unreadable::new(format!(
+            "{width} × {depth} pixels make no surface: 2 × 2 are the least"
+        )));
+    }
+    #[allow(clippy::cast_precision_loss, reason = "the number of pixels is limited")]
+    let part = |i: usize, count: usize| i as f64 / (count - 1) as f64 - 0.5;
+    let vertex =
+        |(i, &level): (usize, &f64)| size * DVec3::new(part(i % width, width), level, part(i / width, depth));
+    let vertices = image.levels.iter().enumerate().map(vertex).collect();
+    let mut triangles = Vec::with_capacity(2 * (width - 1) * (depth - 1));
+    #[allow(clippy::cast_possible_truncation, reason = "the number of pixels is limited")]
+    for row in 0..depth - 1 {
+        for column in 0..width - 1 {
+            let far = (row * width + column) as u32;
+            let near = far + width as u32;
+            // Counter-clockwise from above.
+            triangles.extend([[far, near, far + 1], [far + 1, near, near + 1]]);
+        }
+    }
+    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    Ok(Mesh::surface(&name, vertices, triangles))
+}
+
+/// Gray levels from 0 to 1, row by row.
+struct Image {
+    width: usize,
+    levels: Vec<f64>,
+}
+
+fn read(path: &Path) -> Result<Image, Unreadable> {
+    let not_png = |error: png::DecodingError| Unreadable::new(format!("it is no PNG: {error}"));
+    let mut decoder = png::Decoder::new(BufReader::new(File::open(path)?));
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(not_png)?;
+    let pixels = u64::from(reader.info().width) * u64::from(reader.info().height);
+    if pixels > MOST_PIXELS {
+        let most = MOST_PIXELS;
+        return Err(Unreadable::new(format!("it has {pixels} pixels, more than {most}: make it smaller")));
+    }
+    let length = reader.output_buffer_size().ok_or_else(|| Unreadable::new("it is too large"))?;
+    let mut bytes = vec![0; length];
+    let info = reader.next_frame(&mut bytes).map_err(not_png)?;
+    let wide = info.bit_depth == BitDepth::Sixteen;
+    let bytes_of_a_pixel = info.color_type.samples() * if wide { 2 } else { 1 };
+    let sample = |pixel: &[u8], channel: usize| match wide {
+        true => f64::from(u16::from_be_bytes([pixel[2 * channel], pixel[2 * channel + 1]])) / 65535.0,
+        false => f64::from(pixel[channel]) / 255.0,
+    };
+    let level = |pixel: &[u8]| match info.color_type {
+        ColorType::Grayscale | ColorType::GrayscaleAlpha => sample(pixel, 0),
+        _ => 0.2126 * sample(pixel, 0) + 0.7152 * sample(pixel, 1) + 0.0722 * sample(pixel, 2),
+    };
+    let levels = bytes[..info.buffer_size()].chunks_exact(bytes_of_a_pixel).map(level).collect();
+    Ok(Image { width: info.width as usize, levels })
+}

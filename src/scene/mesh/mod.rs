@@ -1,0 +1,103 @@
+//! Files of triangles → [`Mesh`].
+
+mod heightfield;
+mod lines;
+mod obj;
+mod stl;
+mod weld;
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use glam::DVec3;
+use sha2::{Digest, Sha256};
+
+use crate::dynamics::Mesh;
+
+pub(super) use heightfield::heightfield;
+
+/// Why a file is no mesh.
+#[derive(Debug)]
+pub(super) struct Unreadable {
+    /// What is wrong, as a clause.
+    pub(super) why: String,
+    /// The number of the line at which that was noticed, from 1.
+    pub(super) line: Option<usize>,
+}
+
+/// Vertices, and the triangles between them.
+type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
+
+/// The endings of the files that are read, in small letters.
+const OBJ: &str = "obj";
+const STL: &str = "stl";
+
+/// The largest coordinate of a vertex: moments of inertia, which have its fifth power, are still numbers.
+const FARTHEST: f64 = 1e50;
+
+/// The largest number of vertices, so that an edge fits in 64 bits.
+const MOST_VERTICES: usize = 1 << 31;
+
+/// Reads a mesh. Vertices at the same place are one vertex, whatever the file says: surfaces that touch hang together.
+pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let (positions, triangles) = match ending.as_deref() {
+        Some(OBJ) => obj::read(File::open(path)?)?,
+        Some(STL) => stl::read(File::open(path)?)?,
+        _ => return Err(Unreadable::new("its name ends neither with `.obj` nor with `.stl`")),
+    };
+    if let Some(far) = positions.iter().find(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
+        return Err(Unreadable::new(format!("a vertex is at {far}")));
+    }
+    if positions.len() >= MOST_VERTICES {
+        return Err(Unreadable::new(format!("it has {} vertices", positions.len())));
+    }
+    let (vertices, triangles) = weld::weld(positions, triangles);
+    if triangles.iter().all(|[a, b, c]| a == b || b == c || c == a) {
+        return Err(Unreadable::new("it has no triangles"));
+    }
+    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    Ok(Mesh::new(&name, vertices, triangles))
+}
+
+/// The SHA-256 of a file.
+pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
+    let (mut file, mut hash) = (File::open(path)?, Sha256::new());
+    let mut buffer = [0; 1 << 16];
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(hash.finalize().into()),
+            length => hash.update(&buffer[..length]),
+        }
+    }
+}
+
+impl Unreadable {
+    fn new(why: impl Into<String>) -> Unreadable {
+        Unreadable { why: why.into(), line: None }
+    }
+
+    fn at(self, line: usize) -> Unreadable {
+        Unreadable { line: Some(line), ..self }
+    }
+}
+
+impl From<io::Error> for Unreadable {
+    fn from(error: io::Error) -> Unreadable {
+        Unreadable::new(error.to_string())
+    }
+}
+
+impl fmt::Display for Unreadable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.why),
+            None => f.write_str(&self.why),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,77 @@
+//! Wavefront OBJ, by the crate `tobj`.
+
+use std::collections::HashMap;
+use std::fs::File;
+
+use glam::DVec3;
+use tobj::{LoadError, LoadOptions};
+
+use super::lines::{Lines, Place};
+use super::{Triangles, Unreadable};
+
+/// The positions and triangles of a file. Polygons are cut into fans; points and lines do not count.
+pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
+    let mut lines = Lines::new(file, only_geometry);
+    let options =
+        LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
+    let no_materials = |_: &std::path::Path| Ok((Vec::new(), HashMap::new()));
+    let models = tobj::load_obj_buf(&mut lines, &options, no_materials);
+    let (models, _) = models.map_err(|error| {
+        let unreadable = Unreadable::new(reason(error));
+        // What a face names is looked up when all lines have been read.
+        if is_of_a_line(error) { unreadable.at(lines.number) } else { unreadable }
+    })?;
+    // Objects and groups make no difference, so there is one model.
+    let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
+    let positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
+    let triangles =
+        mesh.indices.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect();
+    Ok((positions, triangles))
+}
+
+/// Leaves nothing but vertices and faces, each face by the numbers of its vertices alone: what is wrong with textures,
+/// normals, names and materials does not concern the shape.
+fn only_geometry(line: &mut Vec<u8>, _: Place) {
+    let start = line.len() - line.trim_ascii_start().len();
+    line.drain(..start);
+    if let Some(comment) = line.iter().position(|&byte| byte == b'#') {
+        line.truncate(comment);
+    }
+    let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    if word == b"f" {
+        // `1/2/3` → `1`
+        let mut after_slash = false;
+        line.retain(|byte| {
+            after_slash = !byte.is_ascii_whitespace() && (after_slash || *byte == b'/');
+            !after_slash
+        });
+    } else if word == b"v" {
+        // Behind three numbers may stand a weight, or a color of three.
+        let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        if words.count() > 5 {
+            let mut words = 0;
+            let end = (1..line.len()).find(|&i| {
+                words += usize::from(line[i].is_ascii_whitespace() && !line[i - 1].is_ascii_whitespace());
+                words == 4
+            });
+            line.truncate(end.unwrap_or(line.len()));
+        }
+    } else {
+        line.clear();
+    }
+}
+
+fn is_of_a_line(error: LoadError) -> bool {
+    !matches!(error, LoadError::FaceVertexOutOfBounds | LoadError::InvalidPolygon)
+}
+
+fn reason(error: LoadError) -> String {
+    match error {
+        LoadError::PositionParseError => "a vertex is `v x y z`, in numbers".to_owned(),
+        LoadError::FaceParseError => "a face is `f` and the numbers of its vertices".to_owned(),
+        LoadError::FaceVertexOutOfBounds => "a face names a vertex that is not there".to_owned(),
+        LoadError::InvalidPolygon => "a face has no vertices".to_owned(),
+        LoadError::ReadError => "it is no text".to_owned(),
+        other => other.to_string(),
+    }
+}

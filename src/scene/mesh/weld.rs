@@ -1,0 +1,46 @@
+//! Vertices at the same place made one.
+
+use glam::DVec3;
+
+use super::Triangles;
+
+/// Gives vertices at exactly the same place one number, in the order in which they come, and leaves out those that no
+/// triangle has. STL knows no shared vertices at all, and programs that write OBJ cut surfaces at the seams of textures.
+pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> Triangles {
+    // 0 and −0 are the same place.
+    positions.iter_mut().for_each(|p| *p += DVec3::ZERO);
+    // A sort takes less memory than a table of places, and gives the same numbers everywhere.
+    let place = |vertex: u32| positions[vertex as usize].to_array();
+    let compare = |a: &u32, b: &u32| {
+        let ([ax, ay, az], [bx, by, bz]) = (place(*a), place(*b));
+        ax.total_cmp(&bx).then(ay.total_cmp(&by)).then(az.total_cmp(&bz)).then(a.cmp(b))
+    };
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "readers give no more vertices than 32 bits can count"
+    )]
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_unstable_by(compare);
+    let mut first = vec![0; positions.len()];
+    for same in order.chunk_by(|a, b| positions[*a as usize] == positions[*b as usize]) {
+        same.iter().for_each(|&vertex| first[vertex as usize] = same[0]);
+    }
+    drop(order);
+
+    const UNUSED: u32 = u32::MAX;
+    let mut number = vec![UNUSED; positions.len()];
+    let corners = || triangles.iter().flatten().map(|&corner| first[corner as usize]);
+    corners().for_each(|corner| number[corner as usize] = 0);
+    let used = number.iter_mut().filter(|number| **number != UNUSED);
+    used.zip(0..).for_each(|(number, next)| *number = next);
+    for corner in triangles.iter_mut().flatten() {
+        *corner = number[first[*corner as usize] as usize];
+    }
+    let mut at = 0;
+    positions.retain(|_| {
+        at += 1;
+        number[at - 1] != UNUSED
+    });
+    positions.shrink_to_fit();
+    (positions, triangles)
+}
