@@ -75,6 +75,9 @@ fn the_stone_after_ten_frames() {
     }
 
     // the bodies
-    sphere { <1.2, 0.807352, 0>, 0.1 material { Material_palette_red } } // stone
+    object {
+      sphere { <1.2, 0.807352, 0>, 0.1 } // stone
+      material { Material_palette_red }
+    }
     ");
 }

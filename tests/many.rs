@@ -48,30 +48,73 @@ fn a_thousand_scattered_balls_without_overlap_are_at_most_10_lines() {
     }
 }
 
-/// The line of every body in a script, by its name; that of a union of bodies is none.
+/// The line of every body in a script, by its name.
 fn lines(script: &str) -> BTreeMap<&str, &str> {
-    let bodies = script.lines().filter(|line| !line.starts_with("union {"));
-    bodies.filter_map(|line| Some((line.rsplit_once(" // ")?.1, line))).collect()
+    script.lines().filter_map(|line| Some((line.rsplit_once(" // ")?.1, line))).collect()
+}
+
+/// The scripts of the first frames of a scene.
+fn scripts(text: &str) -> Vec<String> {
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    run.frames().take(3).map(|frame| run.script(&frame.unwrap()).unwrap()).collect()
+}
+
+/// Asserts that a scene with more bodies has the bodies of another one in the same lines, and some more.
+fn assert_only_more(before: &str, after: &str) {
+    for (before, after) in scripts(before).iter().zip(&scripts(after)) {
+        let (before, after) = (lines(before), lines(after));
+        assert!(!before.is_empty() && after.len() > before.len(), "{before:?} {after:?}");
+        for (body, line) in &before {
+            assert_eq!(Some(line), after.get(body));
+        }
+    }
 }
 
 #[test]
 fn a_body_added_at_the_end_changes_no_line_of_another_in_any_script() {
+    let added =
+        "\n[body.added]\nshape.sphere.radius = \"uniform(0.1, 0.2)\"\nlocation = [0, 2, 0]\nfixed = true\n";
     for name in ["dominoes", "scattered_balls", "string_of_balls"] {
         let before = text(name);
-        let added = "\n[body.added]\nshape.sphere.radius = \"uniform(0.1, 0.2)\"\nlocation = [0, 2, 0]\nfixed = true\n";
-        let after = format!("{before}{added}");
-        let [before, after] = [before, after].map(|text| {
-            let scene = Scene::parse(&text).unwrap();
-            let run = Run::new(&scene).unwrap();
-            run.frames().take(3).map(|frame| run.script(&frame.unwrap()).unwrap()).collect::<Vec<_>>()
-        });
-        for (before, after) in before.iter().zip(&after) {
-            let (before, mut after) = (lines(before), lines(after));
-            assert!(after.remove("added").is_some() && before.len() > 2, "{name}");
-            for (body, line) in before {
-                assert_eq!(Some(&line), after.get(body), "{name}");
-            }
-        }
+        assert_only_more(&before, &format!("{before}{added}"));
+    }
+}
+
+/// A body that has been the only one of its material is written as one of many.
+#[test]
+fn a_second_body_of_a_material_changes_no_line_of_the_first() {
+    for (shape, material) in [
+        ("sphere.radius = 1", "brass"),
+        ("box.size = [1, 2, 3]", "brass"),
+        ("compound.parts = [{ sphere.radius = 1 }, { sphere.radius = 1, location = [3, 0, 0] }]", "brass"),
+        // Its pattern is that of the body, also where others have the same.
+        ("sphere.radius = 1", "marble"),
+        ("plane.normal = [0, 1, 0]", "brass"),
+    ] {
+        let body = |name| format!("[body.{name}]\nshape.{shape}\nmaterial = \"{material}\"\n");
+        assert_only_more(&body("a"), &(body("a") + &body("b")));
+        assert_only_more(&body("a"), &(body("a") + &body("b") + &body("c")));
+    }
+}
+
+#[test]
+fn the_ninth_body_of_the_palette_changes_no_line_of_the_first() {
+    let bodies = |count: usize| -> String {
+        let body = |n| format!("[body.b{n}]\nshape.sphere.radius = 0.4\nlocation = [{n}, 0, 0]\n");
+        (0..count).map(body).collect()
+    };
+    assert_only_more(&bodies(8), &bodies(9));
+    assert_only_more(&bodies(1), &bodies(9));
+}
+
+#[test]
+fn more_copies_change_no_line_of_the_others() {
+    let repeat = |count: usize| {
+        format!("[body.b]\nrepeat = {count}\nshape.sphere.radius = 0.4\nlocation = [\"i\", 0, 0]\n")
+    };
+    for (before, after) in [(2, 3), (8, 9), (9, 30)] {
+        assert_only_more(&repeat(before), &repeat(after));
     }
 }
 

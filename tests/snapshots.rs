@@ -31,7 +31,7 @@ fn the_ball_of_the_tutorial_is_where_each_method_takes_it() {
         let frame = run.frames().nth(frame).unwrap().unwrap();
         let script = run.script(&frame).unwrap();
         let line = script.lines().find(|line| line.ends_with("// ball")).unwrap();
-        line.split(" material").next().unwrap().to_owned()
+        line.trim_start().strip_suffix(" } // ball").unwrap().to_owned()
     };
     // By hand: y = v t − ½ t² (exact) − ½ t dt (Euler–Cromer's error), at t = 2 s, dt = 0.01 s and 0.1 s.
     assert_eq!(ball(&[], 50), "sphere { <24, 17.99, 0>, 2");

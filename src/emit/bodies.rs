@@ -2,7 +2,8 @@
 //!
 //! Everything about a body that does not change from frame to frame is written once, when the block is planned; a
 //! frame only puts places between these texts. Bodies of one plain material stand in a union that bears the
-//! material, which POV-Ray parses fastest and with the least memory.
+//! material, which POV-Ray parses fastest and with the least memory. The line of a body is the same however many
+//! stand with it, so that a body added at the end of a scene changes no other's line.
 
 use std::fmt::Write as _;
 
@@ -22,7 +23,7 @@ pub(super) struct Block {
     groups: Vec<Group>,
 }
 
-/// Bodies that stand together: those of one plain material in one union, or a single one.
+/// Bodies that stand together: those of one plain material, or a single one with a look of its own.
 struct Group {
     before: String,
     bodies: Vec<Item>,
@@ -65,8 +66,8 @@ impl Block {
             }
         }
         let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
-            Some(material) if bodies.len() > 1 => union(scene, &materials[*material], bodies, meshes, style),
-            _ => single(scene, materials, bodies[0], meshes, style),
+            Some(material) => of_one_material(scene, &materials[*material], bodies, meshes, style),
+            None => single(scene, materials, bodies[0], meshes, style),
         };
         Block { style, groups: together.iter().map(plan).collect() }
     }
@@ -103,21 +104,29 @@ impl Block {
     }
 }
 
-/// Whether a body can stand in the union of all bodies of its material.
+/// Whether a body can stand with all others of its material.
 fn stands_with_others(body: &Body, material: &MaterialText) -> bool {
     material.is_uniform && !body.shape.is_unbounded() && !body.look.has_sdl()
 }
 
-/// Bodies of one plain material in a union.
-fn union(scene: &Scene, material: &MaterialText, bodies: &[usize], meshes: &Meshes, style: Style) -> Group {
+/// The bodies of one plain material, each on a line of its own.
+fn of_one_material(
+    scene: &Scene,
+    material: &MaterialText,
+    bodies: &[usize],
+    meshes: &Meshes,
+    style: Style,
+) -> Group {
     let item = |&id: &usize| {
         let body = &scene.bodies[id];
         let (before, place, after) = shape(body, true, meshes, style);
         let name = text::comment(&body.name);
         Item { id, before: format!("  {before}"), place, after: format!("{after} }} // {name}\n") }
     };
+    // POV-Ray warns of a union of one. How many there are is not said: that line would change with every body.
+    let open = if bodies.len() > 1 { "union" } else { "object" };
     Group {
-        before: format!("union {{ // {}: {} bodies\n", text::comment(&material.name), bodies.len()),
+        before: format!("{open} {{\n"),
         bodies: bodies.iter().map(item).collect(),
         after: format!("  {}\n}}\n", material.usage()),
     }

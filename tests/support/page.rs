@@ -1,0 +1,153 @@
+//! Pages whose every scene, command, output and picture is real.
+//!
+//! A `toml` block is written to the file that its first line names; of a `console` block every command is run, in the
+//! order of the page, and must print what stands below it. A picture that the commands have made must be the one that the
+//! page shows. With `JABUKA_UPDATE_DOCS` set, what is different is written into the page, and beside it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::support::root;
+
+/// A page, after its commands have been run.
+pub(crate) struct Page {
+    /// Its path in the project.
+    path: &'static str,
+    /// The folder with what its commands have made.
+    folder: tempfile::TempDir,
+}
+
+impl Page {
+    /// Checks everything on a page but its pictures.
+    pub(crate) fn check(path: &'static str) -> Page {
+        let page = Page { path, folder: tempfile::tempdir().unwrap() };
+        let copy = Command::new("cp").arg("-r").arg(root().join("scenes")).arg(page.folder.path()).status();
+        assert!(copy.unwrap().success());
+        let shown = fs::read_to_string(root().join(path)).unwrap();
+        let real = page.real(&shown);
+        if is_update() && untimed(&shown) != untimed(&real) {
+            fs::write(root().join(path), &real).unwrap();
+        } else {
+            assert_same(path, &untimed(&shown), &untimed(&real));
+        }
+        page
+    }
+
+    /// Checks the pictures that the page shows and its commands have made, and returns the names of the others.
+    pub(crate) fn check_pictures(&self) -> Vec<PathBuf> {
+        let text = fs::read_to_string(root().join(self.path)).unwrap();
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link);
+        let is_picture = |link: &&str| link.ends_with(".png") || link.ends_with(".gif");
+        let mut others = Vec::new();
+        for link in links.filter(is_picture) {
+            let shown = root().join(self.path).with_file_name("").join(link);
+            let made = self.folder.path().join(shown.file_name().unwrap());
+            if made.exists() {
+                assert_same_picture(&made, &shown);
+            } else {
+                others.push(shown);
+            }
+        }
+        others
+    }
+
+    /// The page as it should be.
+    fn real(&self, shown: &str) -> String {
+        let mut real = String::new();
+        let mut rest = shown;
+        while let Some((before, block)) = rest.split_once("```") {
+            let (block, after) = block.split_once("\n```").expect("a block ends");
+            let (language, text) = block.split_once('\n').expect("a block has lines");
+            real.push_str(before);
+            let text = match language {
+                "toml" => self.write_scene(text),
+                "console" => self.run_commands(text),
+                _ => text.to_owned(),
+            };
+            real.push_str(&format!("```{language}\n{}\n```", text.trim_end()));
+            rest = after;
+        }
+        real + rest
+    }
+
+    /// Writes a scene to the file that its first line names: `# ball.toml`.
+    fn write_scene(&self, text: &str) -> String {
+        let name = text.lines().next().and_then(|line| line.strip_prefix("# "));
+        fs::write(self.folder.path().join(name.expect("a scene names its file")), text).unwrap();
+        text.to_owned()
+    }
+
+    /// Runs the commands of a block, and returns it as it should be.
+    fn run_commands(&self, block: &str) -> String {
+        let bin = Path::new(env!("CARGO_BIN_EXE_jabuka")).parent().unwrap();
+        let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+        let commands = block.lines().filter_map(|line| line.strip_prefix("$ "));
+        let run = |command: &str| {
+            // The binary is built already; building it in the folder of the test would need the whole project.
+            let short = command.replace("cargo run --release --", "jabuka");
+            let output = Command::new("bash")
+                .args(["-c", &format!("exec 2>&1; {short}")])
+                .current_dir(self.folder.path())
+                .env("PATH", &path)
+                .output()
+                .unwrap();
+            format!("$ {command}\n{}", String::from_utf8(output.stdout).unwrap().trim_end_matches('\n'))
+        };
+        commands.map(run).map(|text| text.trim_end().to_owned() + "\n").collect()
+    }
+}
+
+fn is_update() -> bool {
+    std::env::var_os("JABUKA_UPDATE_DOCS").is_some()
+}
+
+/// Asserts that the picture or the film that a page shows looks like the one that its command has made, however it is encoded.
+fn assert_same_picture(made: &Path, shown: &Path) {
+    let (new, old) = (pixels(made), pixels(shown));
+    assert!(!new.is_empty(), "{} is no picture", made.display());
+    let differs = |(a, b): &(&u8, &u8)| a.abs_diff(**b) > 32;
+    let different = new.iter().zip(&old).filter(differs).count();
+    // The palette of a GIF, and another version of POV-Ray, leave a pixel here and there undecided; a ball that is
+    // elsewhere is more.
+    let same = new.len() == old.len() && different * 1000 < new.len();
+    if !same && is_update() {
+        fs::copy(made, shown).unwrap();
+    } else {
+        assert!(same, "{} is another picture than the page's command makes: {different}", shown.display());
+    }
+}
+
+/// Red, green and blue of every pixel of every frame.
+fn pixels(path: &Path) -> Vec<u8> {
+    let decode = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"];
+    let output =
+        Command::new("ffmpeg").args(["-v", "error", "-nostdin", "-i"]).arg(path).args(decode).output();
+    output.unwrap().stdout
+}
+
+/// The lines of a page, without the seconds that a run took, and what depends on them.
+fn untimed(page: &str) -> Vec<&str> {
+    page.lines().map(untimed_line).collect()
+}
+
+fn untimed_line(line: &str) -> &str {
+    const SLOWEST: &str = "slowest   ";
+    if line.starts_with(SLOWEST) { SLOWEST } else { unclocked(line) }
+}
+
+/// A line without the seconds at its end.
+fn unclocked(line: &str) -> &str {
+    match str::strip_suffix(line, " s").and_then(|line| line.rsplit_once(" in ")) {
+        Some((what, seconds)) if seconds.parse::<f64>().is_ok() => what,
+        _ => line,
+    }
+}
+
+/// Asserts that two pages are equal, and says where they are not.
+fn assert_same(path: &str, page: &[&str], real: &[&str]) {
+    for (i, (line, real)) in page.iter().zip(real).enumerate() {
+        assert_eq!(line, real, "{path}, line {}", i + 1);
+    }
+    assert_eq!(page.len(), real.len(), "the number of lines of {path}");
+}
