@@ -229,7 +229,8 @@ mod tests {
         let stage = Stage::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
         let materials = materials::texts(&scene);
         let style = Style { unit: 1.0, digits: 9 };
-        let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
+        let constants =
+            FrameConstants::new(&scene, String::new(), Moving::default(), &materials, style, true);
         let frame = Frames::new(&scene).next().unwrap().unwrap();
 
         for (heading, value) in [
