@@ -63,7 +63,9 @@ pub(crate) fn codes(folder: &Path) -> BTreeSet<String> {
         }
         let text = std::fs::read_to_string(&path).unwrap();
         let text = text.split("#[cfg(test)]").next().unwrap();
-        for maker in ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error(", "(error("] {
+        for maker in
+            ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error(", "(error(", ".error("]
+        {
             for (at, _) in text.match_indices(maker) {
                 let after = text[at + maker.len()..].trim_start();
                 codes.extend(

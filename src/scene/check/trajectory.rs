@@ -143,7 +143,7 @@ impl Reader<'_> {
         let header = match csv.headers() {
             Ok(header) => header.clone(),
             Err(error) => {
-                self.say("csv-syntax", format!("this is no CSV file: {error}"), 0..0);
+                self.error("csv-syntax", format!("this is no CSV file: {error}"), 0..0);
                 return None;
             }
         };
@@ -170,7 +170,7 @@ impl Reader<'_> {
                 Ok(false) => break,
                 Err(error) => {
                     let at = error.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
-                    self.say("csv-syntax", format!("this is no row of a CSV file: {error}"), at..at);
+                    self.error("csv-syntax", format!("this is no row of a CSV file: {error}"), at..at);
                     break;
                 }
             }
@@ -201,7 +201,7 @@ impl Reader<'_> {
                     if last.time > time { "the time goes backwards" } else { "this time comes twice" };
                 let message = format!("{message}: {time} s after {} s", last.time);
                 let at = self.field(start, self.find(&header, &columns.time).map_or(0, |(i, _)| i));
-                self.say("csv-order", message, at);
+                self.error("csv-order", message, at);
                 if let Some(wrong) = self.wrong.last_mut() {
                     wrong.help = Some("the rows of a body stand in the order of their times".to_owned());
                 }
@@ -217,7 +217,7 @@ impl Reader<'_> {
         }
         if recording.is_empty() && self.wrong.is_empty() {
             let end = self.text.len();
-            self.say("csv-syntax", "the file has no rows under its header".to_owned(), end..end);
+            self.error("csv-syntax", "the file has no rows under its header".to_owned(), end..end);
         }
         self.wrong.is_empty().then_some(recording)
     }
@@ -242,7 +242,7 @@ impl Reader<'_> {
             units.iter().find(|(known, _)| *known == unit || unit.is_empty()).map(|(_, factor)| *factor);
         if factor.is_none() {
             let at = self.field(start, i);
-            self.say("csv-unit", format!("the unit `{unit}` is not known here"), at);
+            self.error("csv-unit", format!("the unit `{unit}` is not known here"), at);
             let known: Vec<&str> =
                 units.iter().map(|(unit, _)| *unit).filter(|unit| !unit.is_empty()).collect();
             if let Some(wrong) = self.wrong.last_mut() {
@@ -274,7 +274,7 @@ impl Reader<'_> {
     fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         let line = self.line(start);
-        self.say("csv-column", format!("there is no column `{name}`"), line);
+        self.error("csv-column", format!("there is no column `{name}`"), line);
         // Of one letter, any other would be near.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
@@ -298,7 +298,7 @@ impl Reader<'_> {
             Some(field) => format!("`{}`", field.chars().take(40).collect::<String>().escape_debug()),
         };
         let at = self.field(start, column);
-        self.say("csv-number", format!("expected a number, found {found}"), at);
+        self.error("csv-number", format!("expected a number, found {found}"), at);
         None
     }
 
@@ -312,11 +312,11 @@ impl Reader<'_> {
             return Some(quaternion.normalize());
         }
         let at = self.field(start, columns[0].0);
-        self.say("csv-number", "a quaternion of zeros is no orientation".to_owned(), at);
+        self.error("csv-number", "a quaternion of zeros is no orientation".to_owned(), at);
         None
     }
 
-    fn say(&mut self, code: &'static str, message: String, at: Range<usize>) {
+    fn error(&mut self, code: &'static str, message: String, at: Range<usize>) {
         if self.wrong.len() < SHOWN {
             self.wrong.push(Wrong { code, message, at, label: String::new(), help: None });
         }
