@@ -70,6 +70,14 @@ impl Placed {
         }
     }
 
+    /// The width of what is seen at a distance, m.
+    pub(super) fn width_at(&self, distance: f64) -> f64 {
+        match self.lens {
+            Lens::Perspective { field, .. } => 2.0 * distance * field.horizontal,
+            Lens::Orthographic { width } => width,
+        }
+    }
+
     /// The camera as templates see it, for a unit of so many metres.
     pub(super) fn text(&self, unit: f64) -> CameraText {
         let (angle, width) = match self.lens {

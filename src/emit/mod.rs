@@ -12,6 +12,7 @@ mod names;
 mod number;
 mod sdl;
 mod shapes;
+mod showing;
 mod shutter;
 mod stage;
 mod templates;
@@ -20,6 +21,7 @@ mod values;
 
 use self::bodies::Block;
 use self::sdl::Style;
+use self::showing::Showing;
 use self::stage::Stage;
 use self::templates::Templates;
 use self::values::FrameConstants;
@@ -39,6 +41,7 @@ pub struct Emitter {
     shared: Option<String>,
     constants: FrameConstants,
     block: Block,
+    showing: Showing,
     unit: f64,
     digits: usize,
     too_thin: Option<usize>,
@@ -67,6 +70,7 @@ impl Emitter {
             constants: FrameConstants::new(scene, in_every_script, &materials, style, with_bodies),
             shared,
             block: Block::new(scene, &materials, style),
+            showing: Showing::new(scene, &materials, &stage, survey, style),
             unit: stage.unit,
             digits: scene.povray.digits,
             too_thin: stage.too_thin,
@@ -101,6 +105,7 @@ impl Emitter {
         self.block
             .write(&mut bodies_sdl, frame)
             .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
+        self.showing.write(&mut bodies_sdl, frame);
         self.templates.render("frame.pov", &self.constants.of(frame, bodies_sdl))
     }
 

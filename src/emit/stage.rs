@@ -36,6 +36,9 @@ pub(super) struct Stage {
     /// Whether there is nothing behind the bodies.
     transparent: bool,
     fog: bool,
+    /// The width of a line that is well seen in the middle of the motion, m.
+    #[serde(skip)]
+    pub(super) stroke: f64,
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
     pub(super) too_thin: Option<usize>,
@@ -117,6 +120,7 @@ impl Stage {
             sky,
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
+            stroke: STROKE * camera.width_at(distance),
             too_small: largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
@@ -197,6 +201,9 @@ fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
         thin.max(far)
     }
 }
+
+/// The width of lines, as part of the picture's: four pixels of 1280.
+const STROKE: f64 = 0.0031;
 
 /// So many pixels across, a body is a dot.
 const SMALLEST_SEEN: f64 = 4.0;

@@ -17,6 +17,7 @@ mod model;
 mod palette;
 mod preset;
 pub mod sdl;
+mod showing;
 pub mod source;
 
 use std::path::{Path, PathBuf};
@@ -30,6 +31,7 @@ pub use look::{
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use preset::Preset;
+pub use showing::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Trail};
 pub use source::Override;
 
 use crate::diagnostic::Report;

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::{Coil, Showing};
 use crate::dynamics::{Method, RigidBody, Shape};
 
 /// How the world is advanced.
@@ -51,6 +52,8 @@ pub struct Body {
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
     pub look: BodyLook,
+    /// What is shown of it beside itself.
+    pub showing: Showing,
 }
 
 /// How a body differs in pictures from what it is in mechanics.
@@ -147,6 +150,8 @@ pub enum ForceKind {
         stiffness: f64,
         /// Its damping, N·s/m.
         damping: f64,
+        /// How they are drawn, if they are.
+        coil: Option<Coil>,
     },
 }
 

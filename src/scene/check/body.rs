@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, look, shape};
+use super::{Context, look, shape, showing};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -23,7 +23,8 @@ pub(super) fn read(root: &View<'_>, materials: &mut Vec<Material>, context: &mut
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let start = start(name, span, &view, &shape, context);
         let look = look::of_body(name, &view, &shape, context);
-        Body { name: name.to_owned(), shape, start, material, look }
+        let showing = showing::of_body(name, &view, &shape, start.fixed, context);
+        Body { name: name.to_owned(), shape, start, material, look, showing }
     };
     tables.into_iter().map(read).collect()
 }

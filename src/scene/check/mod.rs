@@ -13,6 +13,7 @@ mod povray;
 mod read;
 mod sdl;
 mod shape;
+mod showing;
 mod simulation;
 mod suggest;
 mod templates;
@@ -121,7 +122,10 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
     let mut materials = material::read(&root, context);
-    let bodies = body::read(&root, &mut materials, context);
+    let mut bodies = body::read(&root, &mut materials, context);
+    for (number, body) in bodies.iter_mut().enumerate() {
+        showing::count(&root, &mut body.showing, number, &simulation, context);
+    }
     let forces = force::read(&root, &bodies, context);
     effect::check(&root, &bodies, &forces, context);
     if bodies.is_empty() {

@@ -8,6 +8,7 @@ use super::Kind::{
 };
 use super::forces::FORCE;
 use super::shapes::SHAPE;
+use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
 use crate::scene::{Finish, Layout, MATERIALS, Preset};
@@ -174,6 +175,10 @@ static BODY: TableSpec = TableSpec {
         .default("a color of the palette, after its place in the file")
         .also(&["texture"]),
         Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
+        showing::ARROWS,
+        showing::AXES,
+        showing::GHOSTS,
+        showing::TRAIL,
     ],
 };
 

@@ -10,6 +10,7 @@ mod kind;
 mod reference;
 mod schema;
 mod shapes;
+mod showing;
 
 pub use keys::SCENE;
 pub(crate) use kind::quoted;
