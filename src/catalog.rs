@@ -5,7 +5,7 @@
 use crate::dynamics::METHODS;
 use crate::scene::color_names;
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{Finish, MATERIALS, Preset};
+use crate::scene::{BodyMeasure, Finish, MATERIALS, Preset, RunMeasure};
 
 /// Things of one sort to choose from.
 pub struct Category {
@@ -26,6 +26,7 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
     Category { name: "environments", place: "`environment`", entries: environments },
+    Category { name: "measures", place: "`text` of [label.NAME]", entries: measures },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
 ];
 
@@ -43,6 +44,12 @@ fn materials() -> Vec<(&'static str, String)> {
 
 fn environments() -> Vec<(&'static str, String)> {
     Preset::ALL.iter().map(|preset| (preset.name(), preset.meaning().to_owned())).collect()
+}
+
+fn measures() -> Vec<(&'static str, String)> {
+    let run = RunMeasure::ALL.iter().map(|(name, _, what)| (*name, (*what).to_owned()));
+    let body = BodyMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a body: {what}")));
+    run.chain(body).collect()
 }
 
 /// What a table of which exactly one key is given can be, with the keys of each.

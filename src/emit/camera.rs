@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
+use super::screen::Screen;
 use crate::scene::{Blur, Camera, Output, Projection};
 use crate::simulate::Bounds;
 
@@ -76,6 +77,16 @@ impl Placed {
             Lens::Perspective { field, .. } => 2.0 * distance * field.horizontal,
             Lens::Orthographic { width } => width,
         }
+    }
+
+    /// The plane before the camera on which texts stand.
+    pub(super) fn screen(&self) -> Screen {
+        let (slope, width) = match self.lens {
+            Lens::Perspective { angle, .. } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
+            Lens::Orthographic { width } => (None, width),
+        };
+        let sharp = self.blur.map(|blur| blur.focus.unwrap_or(self.look_at));
+        Screen::new(self.location, self.look_at, slope, width, sharp)
     }
 
     /// The camera as templates see it, for a unit of so many metres.

@@ -68,7 +68,7 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
 
 /// A material for ghosts, paler than that of the body; none where it has colors of its own.
 fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> Option<MaterialText> {
-    const PALER: f64 = 0.55;
+    const PALER: f64 = 0.5;
     let towards = if dark { 0.12 } else { 0.93 };
     let color = material.color?.map(|part| part + PALER * (towards - part));
     Some(MaterialText {

@@ -10,6 +10,7 @@ mod framing;
 mod materials;
 mod names;
 mod number;
+mod screen;
 mod sdl;
 mod shapes;
 mod showing;

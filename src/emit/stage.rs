@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::camera::{CameraText, Placed};
 use super::framing;
+use super::screen::Screen;
 use crate::scene::{Body, Camera, Color, Environment, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
@@ -36,15 +37,30 @@ pub(super) struct Stage {
     /// Whether there is nothing behind the bodies.
     transparent: bool,
     fog: bool,
-    /// The width of a line that is well seen in the middle of the motion, m.
+    /// Where everything takes place, for what is measured there.
     #[serde(skip)]
-    pub(super) stroke: f64,
+    pub(super) scenery: Scenery,
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
     pub(super) too_thin: Option<usize>,
     /// How many pixels the largest body is wide in the middle of the picture, if that is too little to be seen.
     #[serde(skip)]
     pub(super) too_small: Option<f64>,
+}
+
+/// Where everything takes place, in metres, and how it is seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scenery {
+    /// The box in which everything takes place.
+    pub(super) bounds: Bounds,
+    /// The height of the ground, or where it would be.
+    pub(super) ground: f64,
+    /// The edge of one of its tiles.
+    pub(super) tile: f64,
+    /// The width of a line that is well seen in the middle of the motion.
+    pub(super) stroke: f64,
+    /// The plane on which texts stand.
+    pub(super) screen: Screen,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -83,7 +99,9 @@ impl Stage {
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Stage {
         let exact = survey.bounds.unwrap_or(NOTHING);
         let bounds = framing::rounded_outward(exact);
-        let camera = Placed::new(camera, bounds, scene.output);
+        // What stands around is made for the bodies; arrows and axes are no reason to lower the ground.
+        let seen = survey.seen.map_or(bounds, framing::rounded_outward);
+        let camera = Placed::new(camera, seen, scene.output);
         let center = (bounds.min + bounds.max) / 2.0;
         let size = two_digits_up((bounds.max - bounds.min).length());
         let distance = camera.location.distance(center);
@@ -91,10 +109,14 @@ impl Stage {
         let unit =
             scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, &camera), thinnest.map(|(_, half)| half)));
 
-        let ground = scene.environment.ground.as_ref().filter(|_| !scene.output.transparent).map(|ground| {
-            let tile = ground.tile.unwrap_or_else(|| tile(size));
+        let given = scene.environment.ground.as_ref();
+        let ground_height =
+            given.and_then(|ground| ground.height).unwrap_or_else(|| just_under(exact.min.y, size));
+        let tile_of_ground = given.and_then(|ground| ground.tile).unwrap_or_else(|| tile(size));
+        let ground = given.filter(|_| !scene.output.transparent).map(|_| {
+            let tile = tile_of_ground;
             GroundText {
-                height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
+                height: ground_height / unit,
                 tile: tile / unit,
                 // Tiles that are given may be larger than all that moves.
                 tiles_fade: (4.5 * size).max(38.0 * tile) / unit,
@@ -120,7 +142,13 @@ impl Stage {
             sky,
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
-            stroke: STROKE * camera.width_at(distance),
+            scenery: Scenery {
+                bounds,
+                ground: ground_height,
+                tile: tile_of_ground,
+                stroke: STROKE * camera.width_at(distance),
+                screen: camera.screen(),
+            },
             too_small: largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN),
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }

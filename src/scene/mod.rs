@@ -11,6 +11,7 @@ mod color_names;
 mod expand;
 pub mod expression;
 pub mod grammar;
+mod label;
 mod library;
 mod look;
 mod model;
@@ -24,6 +25,10 @@ use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use label::{
+    BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
+    Side,
+};
 pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
     Asset, Blur, Camera, Environment, Finish, Ground, Include, Layout, Light, LightKind, Look, Material,
@@ -59,6 +64,12 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Ground, sky and fog.
     pub environment: Environment,
+    /// The texts in the picture, in the order of the file.
+    pub labels: Vec<Label>,
+    /// The scale bar, if there is one.
+    pub scale_bar: Option<ScaleBar>,
+    /// The grid, if there is one.
+    pub grid: Option<Grid>,
     /// What goes to POV-Ray as it is.
     pub povray: PovRay,
     /// The images that the scripts are meant for.

@@ -16,6 +16,8 @@ pub struct Survey {
     /// The box in which everything takes place, until a body goes through a plane; none if the scene has no body but
     /// planes.
     pub bounds: Option<Bounds>,
+    /// The box of all that is seen there: of the bodies, and of their arrows and axes.
+    pub seen: Option<Bounds>,
     /// The length of arrows that have no scale of their own, m for a unit of velocity, acceleration and force.
     pub arrow_scales: [f64; 3],
     /// The first passage of a body through each plane or ground that is given.
@@ -84,11 +86,13 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     let interval = 1.0 / scene.simulation.frame_rate;
     let steps_per_frame = world(scene).steps_within(interval);
     let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
-    if let (Some(all), true) = (&mut bounds, arrows::any(scene)) {
+    let mut seen = bounds;
+    if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
         *all = arrows::with_arrows(scene, *all, arrow_scales)?;
     }
     Ok(Survey {
         bounds,
+        seen,
         arrow_scales,
         crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
         drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },

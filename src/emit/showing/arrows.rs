@@ -48,7 +48,7 @@ impl Arrows {
                 arrows.push(Planned { of, quantity, scale, color: color(own, style) });
             }
         }
-        Arrows { style, radius: stroke / 2.0, bodies, arrows }
+        Arrows { style, radius: 0.6 * stroke, bodies, arrows }
     }
 
     /// Appends the arrows and axes of all bodies.

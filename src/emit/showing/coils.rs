@@ -99,17 +99,20 @@ fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &Coil, style: Style)
     };
     let along = place(link.between[1]) - place(link.between[0]);
     let length = link.rest_length.max(along.length());
-    let reach = |end: SpringEnd| match end {
-        SpringEnd::Body(body) => scene.bodies[body]
-            .drawn()
-            .support(scene.bodies[body].start.orientation, along.normalize_or(DVec3::Y)),
+    let towards = along.normalize_or(DVec3::Y);
+    let reach = |end: SpringEnd, direction: DVec3| match end {
+        SpringEnd::Body(body) => {
+            scene.bodies[body].drawn().support(scene.bodies[body].start.orientation, direction)
+        }
         SpringEnd::Point(_) => None,
     };
-    let reaches = link.between.map(reach);
-    let smallest = reaches.into_iter().flatten().fold(f64::MAX, f64::min);
+    let widest =
+        |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
+    let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
+    let reaches = link.between.map(|end| reach(end, towards));
     let free = length - reaches.into_iter().flatten().sum::<f64>();
     let free = if free > 0.0 { free } else { length };
-    let radius = coil.radius.unwrap_or_else(|| (0.5 * smallest).min(0.2 * free));
+    let radius = coil.radius.unwrap_or_else(|| (0.5 * smallest).min(0.12 * free));
     // Bodies at the same place, with a spring without length.
     let radius = if radius > 0.0 { radius } else { smallest.min(1.0) / 2.0 };
     Planned {

@@ -6,6 +6,8 @@
 mod arrows;
 mod coils;
 mod ghosts;
+mod labels;
+mod rulers;
 mod trails;
 
 use serde::Serialize;
@@ -13,8 +15,11 @@ use serde::Serialize;
 use self::arrows::Arrows;
 use self::coils::Coils;
 use self::ghosts::Ghosts;
+use self::labels::Labels;
+use self::rulers::Rulers;
 use self::trails::Trails;
 use super::materials::MaterialText;
+use super::screen::Screen;
 use super::sdl::Style;
 use super::stage::Stage;
 use crate::scene::{Color, ForceKind, Scene};
@@ -26,6 +31,11 @@ pub(super) struct Showing {
     ghosts: Ghosts,
     trails: Trails,
     arrows: Arrows,
+    rulers: Rulers,
+    labels: Labels,
+    /// The plane on which texts stand, if there are any.
+    screen: Option<Screen>,
+    style: Style,
 }
 
 /// Which macros a scene needs, as templates see it.
@@ -35,6 +45,8 @@ pub(super) struct Shows {
     arrows: bool,
     /// Whether springs are drawn.
     coils: bool,
+    /// Whether something is written.
+    labels: bool,
 }
 
 impl Shows {
@@ -43,6 +55,7 @@ impl Shows {
         Shows {
             arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_drawn(&force.kind)),
+            labels: !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some(),
         }
     }
 }
@@ -59,8 +72,12 @@ impl Showing {
         Showing {
             coils: Coils::new(scene, style),
             ghosts: Ghosts::new(scene, materials, style),
-            trails: Trails::new(scene, materials, stage.stroke, style),
-            arrows: Arrows::new(scene, survey.arrow_scales, stage.stroke, style),
+            trails: Trails::new(scene, materials, stage.scenery.stroke, style),
+            arrows: Arrows::new(scene, survey.arrow_scales, stage.scenery.stroke, style),
+            rulers: Rulers::new(scene, &stage.scenery, style),
+            labels: Labels::new(scene, style),
+            screen: Shows::of(scene).labels.then_some(stage.scenery.screen),
+            style,
         }
     }
 
@@ -75,6 +92,11 @@ impl Showing {
         }
         self.trails.write(out, frame);
         self.arrows.write(out, frame);
+        if let Some(screen) = &self.screen {
+            out.push_str(&format!("#local Screen = transform {{ {} }}\n", screen.transform(self.style)));
+            self.rulers.write(out, screen);
+            self.labels.write(out, frame, screen);
+        }
     }
 }
 

@@ -81,7 +81,8 @@ fn pieces(
 ) -> Vec<Piece> {
     let mut reader = Reader { text, span, root, place, bodies, context };
     if text.len() > MAX_LENGTH {
-        reader.error("label-syntax", 0..0, format!("a label has at most {MAX_LENGTH} bytes"), "");
+        let message = format!("a label has at most {MAX_LENGTH} bytes");
+        reader.report(Diagnostic::error("label-syntax", message), 0..0, "");
         return Vec::new();
     }
     let mut pieces = Vec::new();
@@ -89,7 +90,8 @@ fn pieces(
     while let Some(begin) = text[at..].find("${").map(|found| at + found) {
         pieces.extend(reader.words(at..begin));
         let Some(length) = text[begin..].find('}') else {
-            reader.error("label-syntax", begin..begin + 2, "this value has no end".to_owned(), "needs a `}`");
+            let error = Diagnostic::error("label-syntax", "this value has no end");
+            reader.report(error, begin..begin + 2, "needs a `}`");
             return pieces;
         };
         pieces.extend(reader.value(begin + 2..begin + length));
@@ -109,9 +111,9 @@ struct Reader<'a, 'b, 'c> {
 }
 
 impl Reader<'_, '_, '_> {
-    fn error(&mut self, code: &'static str, range: Range<usize>, message: String, label: &str) {
+    fn report(&mut self, error: Diagnostic, range: Range<usize>, label: &str) {
         let at = self.at(&range);
-        self.context.diagnostics.push(Diagnostic::error(code, message).at(at, label));
+        self.context.diagnostics.push(error.at(at, label));
     }
 
     /// The place of a part of the text in the scene.
@@ -126,7 +128,7 @@ impl Reader<'_, '_, '_> {
         if let Some((at, letter)) = words.char_indices().find(|(_, letter)| letter_of(*letter).is_none()) {
             let here = range.start + at..range.start + at + letter.len_utf8();
             let message = format!("POV-Ray's font has no letter `{}`", letter.escape_debug());
-            self.error("label-letter", here, message, "it would be an empty box");
+            self.report(Diagnostic::error("label-letter", message), here, "it would be an empty box");
             return None;
         }
         (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
@@ -141,7 +143,7 @@ impl Reader<'_, '_, '_> {
                 let Some(format) = format_of(format) else {
                     let message = format!("`{format}` is no format of a number");
                     let label = "`.2` is two decimals, `.2e` has a power of ten";
-                    self.error("label-syntax", begin..range.end, message, label);
+                    self.report(Diagnostic::error("label-syntax", message), begin..range.end, label);
                     return None;
                 };
                 (formula, format)
@@ -163,8 +165,7 @@ impl Reader<'_, '_, '_> {
     #[allow(clippy::type_complexity, reason = "the two belong together for two lines")]
     fn without_dots(&mut self, formula: &str, start: usize) -> Option<(String, Vec<(String, Measure)>)> {
         let variables: Vec<&str> = self.variables().map(|(name, _)| name).collect();
-        let joint = ["_", "_O", "Q", "Z"].into_iter().flat_map(str::chars);
-        let joint = joint.chain('A'..='Z').find(|joint| {
+        let joint = std::iter::once('_').chain('A'..='Z').find(|joint| {
             let joined = formula.replace('.', &joint.to_string());
             !variables.iter().any(|name| name.contains(*joint) && joined.contains(name))
         });
@@ -186,7 +187,7 @@ impl Reader<'_, '_, '_> {
                 let label = crate::diagnostic::nearest(body, names.take(1000));
                 let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
                 let message = format!("there is no body `{body}`");
-                self.error("unknown-name", start + begin..start + at, message, &label);
+                self.report(Diagnostic::error("unknown-name", message), start + begin..start + at, &label);
                 return None;
             };
             let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
@@ -225,7 +226,9 @@ impl Reader<'_, '_, '_> {
         };
         let mut with_run = true;
         if let LabelPlace::Body { body, ghosts, .. } = self.place {
-            BodyMeasure::ALL.into_iter().for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
+            BodyMeasure::ALL
+                .into_iter()
+                .for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
             with_run = !ghosts;
         }
         for (name, measure, _) in RunMeasure::ALL {
@@ -270,8 +273,23 @@ fn letter_of(letter: char) -> Option<char> {
     match letter {
         '−' => Some('–'),
         '·' => Some('∙'),
-        ' '..='~' | '¡'..='§' | '©'..='¶' | '¹'..='¿' | '–' | '—' | '‘'..='‚' | '“'..='„' | '†' | '‡' | '•'
-        | '…' | '‰' | '‹' | '›' | '™' | '∙' => Some(letter),
+        ' '..='~'
+        | '¡'..='§'
+        | '©'..='¶'
+        | '¹'..='¿'
+        | '–'
+        | '—'
+        | '‘'..='‚'
+        | '“'..='„'
+        | '†'
+        | '‡'
+        | '•'
+        | '…'
+        | '‰'
+        | '‹'
+        | '›'
+        | '™'
+        | '∙' => Some(letter),
         _ => None,
     }
 }

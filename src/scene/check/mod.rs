@@ -7,6 +7,7 @@ mod camera;
 mod consequence;
 mod effect;
 mod force;
+mod label;
 mod look;
 mod material;
 mod povray;
@@ -48,6 +49,7 @@ pub(super) struct Input<'a> {
 struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
+    sources: &'a Sources,
     names: Names,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
@@ -98,6 +100,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,
+        sources: &sources,
         names: Names::of(&root),
         comparisons: suggest::MAX_COMPARISONS,
         diagnostics: Vec::new(),
@@ -143,6 +146,9 @@ fn build(input: &Input<'_>, options: &Options, root: &Table, context: &mut Conte
         simulation,
         lights: look::lights(&root),
         environment: look::environment(&root, &bodies),
+        labels: label::read(&root, &bodies, context),
+        scale_bar: label::scale_bar(&root),
+        grid: label::grid(&root),
         output: look::output(&root.table("output")),
         digest: digest(input, options, &povray),
         bodies,

@@ -4,7 +4,7 @@
 //! keeps the place of the string, so that all that comes after sees numbers only. What has no value becomes
 //! [`Value::Invalid`], after it has been said why.
 
-mod place;
+pub(super) mod place;
 mod random;
 #[cfg(test)]
 mod tests;

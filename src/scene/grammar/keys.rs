@@ -7,6 +7,7 @@ use super::Kind::{
     Numbers, Reference, Sdl, Table, Text, Variables,
 };
 use super::forces::FORCE;
+use super::labels;
 use super::shapes::SHAPE;
 use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
@@ -81,6 +82,9 @@ pub static SCENE: TableSpec = TableSpec {
         )
         .default("\"daylight\"")
         .also(&["world"]),
+        labels::LABEL,
+        labels::SCALE_BAR,
+        labels::GRID,
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
     ],

@@ -7,6 +7,7 @@
 mod forces;
 mod keys;
 mod kind;
+mod labels;
 mod reference;
 mod schema;
 mod shapes;
