@@ -56,11 +56,12 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
         }
     }
     for body in scene.bodies.iter().filter(|body| body.showing.ghosts.is_some()) {
-        if let Some(material) = body.material.filter(|&material| texts[material].pale.is_none()) {
-            if let Some(pale) = pale(&texts[material], scene.environment.is_dark(), &mut identifiers) {
-                texts[material].pale = Some(texts.len());
-                texts.push(pale);
-            }
+        let Some(material) = body.material.filter(|&material| texts[material].pale.is_none()) else {
+            continue;
+        };
+        if let Some(pale) = pale(&texts[material], scene.environment.is_dark(), &mut identifiers) {
+            texts[material].pale = Some(texts.len());
+            texts.push(pale);
         }
     }
     texts

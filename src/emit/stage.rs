@@ -51,7 +51,7 @@ pub(super) struct Stage {
 /// Where everything takes place, in metres, and how it is seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scenery {
-    /// The box in which everything takes place.
+    /// The box in which everything takes place, not rounded.
     pub(super) bounds: Bounds,
     /// The height of the ground, or where it would be.
     pub(super) ground: f64,
@@ -143,7 +143,7 @@ impl Stage {
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
             scenery: Scenery {
-                bounds,
+                bounds: exact,
                 ground: ground_height,
                 tile: tile_of_ground,
                 stroke: STROKE * camera.width_at(distance),

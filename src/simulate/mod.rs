@@ -14,7 +14,7 @@ use self::track::Track;
 use crate::dynamics::Dynamics;
 use crate::scene::Scene;
 
-pub use arrows::{axis, root, shown};
+pub use arrows::{axis, root, shown, surface};
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
 pub use moments::Branch;

@@ -90,6 +90,9 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
         *all = arrows::with_arrows(scene, *all, arrow_scales)?;
     }
+    for point in arrows::anchors(scene) {
+        seen = seen.map(|all| all.union(Bounds { min: point, max: point }));
+    }
     Ok(Survey {
         bounds,
         seen,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use jabuka::scene::Scene;
 use jabuka::{Run, simulate::Frames};
 
-use crate::image::{Image, Rgb, is_blue, is_green, is_red};
+use crate::image::{Image, Rgb, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
 use crate::scene::{DARK, script, script_of};
@@ -206,7 +206,7 @@ fn a_grid_has_its_lines_where_its_numbers_say() {
         assert!(near(&image, sees(f64::from(x), 1.5), bright), "a line at x = {x}");
         assert!(!near(&image, sees(f64::from(x) + 0.5, 1.5), bright), "no line at x = {x}.5");
     }
-    for number in ["\"1\"", "\"2\"", "\"x = 4 m\""] {
+    for number in ["\"1\"", "\"2\"", "\"4\"", "\"x (m)\"", "\"y (m)\""] {
         assert!(script.contains(number), "{number}");
     }
 }

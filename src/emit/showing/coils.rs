@@ -5,13 +5,13 @@ use glam::DVec3;
 use super::super::{sdl::Style, text};
 use super::color;
 use crate::dynamics::Shape;
-use crate::scene::{Coil, Color, ForceKind, Scene, SpringEnd, SpringLink};
-use crate::simulate::Frame;
+use crate::scene::{Body, Coil, Color, ForceKind, Scene, SpringEnd, SpringLink};
+use crate::simulate::{Frame, surface};
 
 /// The usual color of the wire.
 const STEEL: Color = Color([0.62, 0.64, 0.67]);
 /// The radius of the wire, as part of that of the coil.
-const WIRE: f64 = 0.17;
+const WIRE: f64 = 0.14;
 
 /// The springs of a scene that are drawn.
 pub(super) struct Coils {
@@ -38,7 +38,7 @@ impl Coils {
             coils.extend(links.iter().map(|link| plan(scene, &force.name, link, coil, style)));
         }
         let shapes =
-            if coils.is_empty() { Vec::new() } else { scene.bodies.iter().map(|b| b.drawn()).collect() };
+            if coils.is_empty() { Vec::new() } else { scene.bodies.iter().map(Body::drawn).collect() };
         Coils { style, coils, shapes }
     }
 
@@ -54,8 +54,7 @@ impl Coils {
             let reach = |end: SpringEnd, direction: DVec3| match end {
                 SpringEnd::Body(body) => {
                     // A little below the surface, so that no gap is seen where that is not flat.
-                    let shape = self.shapes[body].support(frame.bodies[body].orientation, direction);
-                    0.95 * shape.unwrap_or(0.0)
+                    0.95 * surface(&self.shapes[body], frame.bodies[body].orientation, direction)
                 }
                 SpringEnd::Point(_) => 0.0,
             };
@@ -102,15 +101,21 @@ fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &Coil, style: Style)
     let towards = along.normalize_or(DVec3::Y);
     let reach = |end: SpringEnd, direction: DVec3| match end {
         SpringEnd::Body(body) => {
-            scene.bodies[body].drawn().support(scene.bodies[body].start.orientation, direction)
+            let body = &scene.bodies[body];
+            body.drawn().support(body.start.orientation, direction)
         }
         SpringEnd::Point(_) => None,
     };
     let widest =
         |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
     let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
-    let reaches = link.between.map(|end| reach(end, towards));
-    let free = length - reaches.into_iter().flatten().sum::<f64>();
+    let depth = |end: SpringEnd| match end {
+        SpringEnd::Body(body) => {
+            surface(&scene.bodies[body].drawn(), scene.bodies[body].start.orientation, towards)
+        }
+        SpringEnd::Point(_) => 0.0,
+    };
+    let free = length - link.between.map(depth).iter().sum::<f64>();
     let free = if free > 0.0 { free } else { length };
     let radius = coil.radius.unwrap_or_else(|| (0.5 * smallest).min(0.12 * free));
     // Bodies at the same place, with a spring without length.
@@ -118,7 +123,7 @@ fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &Coil, style: Style)
     Planned {
         between: link.between,
         radius,
-        turns: coil.turns.unwrap_or_else(|| turns(free / (0.9 * radius))),
+        turns: coil.turns.unwrap_or_else(|| turns(free / (1.5 * radius))),
         color: color(coil.color.unwrap_or(STEEL), style),
         name: name.to_owned(),
     }
@@ -127,5 +132,5 @@ fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &Coil, style: Style)
 /// A number of turns near to what would be usual.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
 fn turns(usual: f64) -> u32 {
-    usual.round().clamp(5.0, 30.0) as u32
+    usual.round().clamp(4.0, 24.0) as u32
 }

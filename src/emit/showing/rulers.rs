@@ -7,7 +7,7 @@ use super::super::stage::Scenery;
 use super::super::{framing, sdl::Style};
 use super::color;
 use super::labels::{self, short};
-use crate::scene::{Color, GridPlane, ScaleBar, Scene};
+use crate::scene::{Color, GridPlane, Preset, ScaleBar, Scene};
 
 /// The height of the numbers, as part of the picture's height.
 const SIZE: f64 = 0.045;
@@ -23,12 +23,25 @@ pub(super) struct Rulers {
     /// The lines of the grid, which are the same in all frames.
     lines: String,
     /// Its numbers, each with the point that it belongs to and the side of it on which it stands.
-    numbers: Vec<(String, DVec3, bool)>,
+    numbers: Vec<(String, DVec3, Beside)>,
     /// The middle of the motion.
     middle: DVec3,
     /// The height of a line of text on the screen.
     height: f64,
     ink: String,
+}
+
+/// Where a number or a name stands beside its point.
+#[derive(Clone, Copy, PartialEq)]
+enum Beside {
+    /// A number of the axis to the right.
+    Below,
+    /// A number of the other axis.
+    Left,
+    /// The name of the axis to the right, behind its last number.
+    End,
+    /// The name of the other axis.
+    Above,
 }
 
 impl Rulers {
@@ -45,11 +58,7 @@ impl Rulers {
         };
         if let Some(grid) = scene.grid {
             let spacing = grid.spacing.unwrap_or(scenery.tile);
-            let line = if scene.environment.is_dark() {
-                Color([0.34, 0.38, 0.43])
-            } else {
-                Color([0.70, 0.75, 0.80])
-            };
+            let line = line_color(scene);
             rulers.grid(grid.plane, spacing, scenery, &color(line, style));
         }
         rulers
@@ -60,7 +69,14 @@ impl Rulers {
         // Bodies may reach out a little; and where 0 is near, it is there.
         let (low, high) = ((min + 0.3).floor(), (max - 0.3).ceil());
         let low = glam::DVec3::select(low.cmpgt(DVec3::ZERO) & low.cmple(0.3 * high), DVec3::ZERO, low);
-        let high = high.max(low + 1.0);
+        let mut high = high.max(low + 1.0);
+        let mut low = low;
+        if plane == GridPlane::Ground {
+            // Motion in a plane needs a ground to stand on, too.
+            let lacking = (0.4 * (high.x - low.x) - (high.z - low.z)).max(0.0);
+            low.z -= (lacking / 2.0).ceil();
+            high.z += (lacking / 2.0).ceil();
+        }
         if (high - low).max_element() > MOST_LINES {
             return;
         }
@@ -98,36 +114,31 @@ impl Rulers {
         self.lines.push_str(&format!(
             "  pigment {{ color srgb {line} }} finish {{ ambient 0 diffuse 0 emission 1 }} no_shadow no_reflection\n}}\n"
         ));
-        self.numbers_along(
-            (a0, a1),
-            spacing,
-            "x",
-            |a| corner(a, if plane == GridPlane::Wall { b0 } else { b1 }),
-            false,
-        );
-        let name = if plane == GridPlane::Wall { "y" } else { "z" };
-        self.numbers_along((b0, b1), spacing, name, |b| corner(a0, b), true);
+        let (front, top, name) = match plane {
+            GridPlane::Ground => (b1, b0, "z"),
+            GridPlane::Wall => (b0, b1, "y"),
+        };
+        self.numbers_along((a0, a1), spacing, Beside::Below, |a| corner(a, front));
+        self.numbers_along((b0, b1), spacing, Beside::Left, |b| corner(a0, b));
+        let (_, symbol) = prefixed(spacing);
+        self.numbers.push((format!("{name} ({symbol})"), corner(a0, top), Beside::Above));
+        self.numbers.push((format!("x ({symbol})"), corner(a1, front), Beside::End));
     }
 
-    /// Numbers along an edge, the last with the name of the axis.
+    /// Numbers along an edge.
     fn numbers_along(
         &mut self,
         (low, high): (f64, f64),
         spacing: f64,
-        name: &str,
+        beside: Beside,
         at: impl Fn(f64) -> DVec3,
-        left: bool,
     ) {
-        let every =
-            [1.0, 2.0, 5.0, 10.0, 20.0, 50.0].into_iter().find(|every| (high - low) / every <= MOST_NUMBERS);
-        let every = every.unwrap_or(100.0);
-        let (unit, symbol) = prefixed(spacing * every);
+        let every = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
+        let every = every.into_iter().find(|every| (high - low) / every <= MOST_NUMBERS).unwrap_or(100.0);
+        let (unit, _) = prefixed(spacing);
         let mut number = (low / every).ceil() * every;
         while number <= high {
-            let last = number + every > high;
-            let value = value(number * spacing / unit);
-            let said = if last { format!("{name} = {value} {symbol}") } else { value };
-            self.numbers.push((said, at(number), left));
+            self.numbers.push((value(number * spacing / unit), at(number), beside));
             number += every;
         }
     }
@@ -135,16 +146,33 @@ impl Rulers {
     /// Appends the bar, the lines and the numbers, as a camera sees them.
     pub(super) fn write(&self, out: &mut String, screen: &Screen) {
         out.push_str(&self.lines);
-        for (said, point, left) in &self.numbers {
+        // The names of the axes come first; what would stand on another is left out.
+        let mut placed: Vec<(f64, f64, f64)> = Vec::new();
+        for (said, point, beside) in self.numbers.iter().rev() {
             let Some(spot) = screen.spot(*point) else { continue };
-            let (x, y, align) = match left {
-                true => (spot.x - 0.4 * self.height, spot.y - 0.3 * self.height, 1.0),
-                false => (spot.x, spot.y - 1.0 * self.height, 0.5),
+            let height = self.height;
+            let (x, y, align) = match beside {
+                Beside::Below => (spot.x, spot.y - height, 0.5),
+                Beside::Left => (spot.x - 0.4 * height, spot.y - 0.3 * height, 1.0),
+                Beside::End => (spot.x + 0.8 * height, spot.y - height, 0.0),
+                Beside::Above => (spot.x, spot.y + 0.7 * height, 0.5),
             };
-            if x.abs() < 1.2 && y.abs() < 1.2 {
-                labels::write(out, said, (&short(x), &short(y)), self.height, align, &self.ink);
-                out.push_str(" // grid\n");
+            // About half an em a letter.
+            #[allow(clippy::cast_precision_loss, reason = "it is a few letters")]
+            let half = 0.25 * self.height * (said.chars().count() as f64 + 0.6);
+            let middle = x + (1.0 - 2.0 * align) * half;
+            let collides = |&(other, at, wide): &(f64, f64, f64)| {
+                (middle - other).abs() < half + wide && (y - at).abs() < 0.9 * self.height
+            };
+            if x.abs() > 1.2 || y.abs() > 1.2 || placed.iter().any(collides) {
+                continue;
             }
+            placed.push((middle, y, half));
+            labels::write(out, said, (&short(x), &short(y)), self.height, align, &self.ink);
+            out.push_str(
+                " // grid
+",
+            );
         }
         if let Some(bar) = self.bar {
             self.bar(out, bar, screen);
@@ -170,6 +198,15 @@ impl Rulers {
         let above = format!("{y} + {}", short(0.45 * self.height));
         labels::write(out, &said, (&short(left + width / 2.0), &above), self.height, 0.5, &self.ink);
         out.push_str(" // scale bar\n");
+    }
+}
+
+/// The color of the lines of a grid: seen, and no more than that.
+fn line_color(scene: &Scene) -> Color {
+    match scene.environment.preset {
+        _ if scene.environment.is_dark() => Color([0.34, 0.38, 0.43]),
+        Preset::Paper | Preset::Studio => Color([0.70, 0.75, 0.80]),
+        _ => Color([0.36, 0.40, 0.46]),
     }
 }
 

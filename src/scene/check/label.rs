@@ -150,10 +150,8 @@ impl Reader<'_, '_, '_> {
             }
         };
         let start = range.start;
-        let parsed = match self.without_dots(formula, start)? {
-            (plain, dotted) => Formula::parse(&plain).map(|parsed| (parsed, dotted)),
-        };
-        let (parsed, dotted) = self.keep(parsed, start)?;
+        let (plain, dotted) = self.without_dots(formula, start)?;
+        let parsed = self.keep(Formula::parse(&plain), start)?;
         let (scope, inputs) = self.scope(dotted);
         let formula = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
         let formula = self.keep(formula, start)?;
@@ -162,7 +160,6 @@ impl Reader<'_, '_, '_> {
 
     /// A formula in which `ball.speed` is one name, and what those names stand for. The formulas know no dots; another
     /// letter takes their place, so that no other letter moves.
-    #[allow(clippy::type_complexity, reason = "the two belong together for two lines")]
     fn without_dots(&mut self, formula: &str, start: usize) -> Option<(String, Vec<(String, Measure)>)> {
         let variables: Vec<&str> = self.variables().map(|(name, _)| name).collect();
         let joint = std::iter::once('_').chain('A'..='Z').find(|joint| {
