@@ -6,7 +6,7 @@ use crate::dynamics::METHODS;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{Finish, MATERIALS, Preset};
+use crate::scene::{BodyMeasure, Finish, MATERIALS, Preset, RunMeasure};
 
 /// Things of one sort to choose from.
 pub struct Category {
@@ -29,6 +29,7 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
     Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
+    Category { name: "measures", place: "`text` of [label.NAME]", entries: measures },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
 ];
 
@@ -53,6 +54,12 @@ fn functions() -> Vec<(&'static str, String)> {
     let functions = FUNCTIONS.iter().map(|f| (f.name, format!("`{}`: {}", f.usage(), f.meaning)));
     let constants = CONSTANTS.iter().map(|(name, _, meaning)| (*name, (*meaning).to_owned()));
     functions.chain(constants).collect()
+}
+
+fn measures() -> Vec<(&'static str, String)> {
+    let run = RunMeasure::ALL.iter().map(|(name, _, what)| (*name, (*what).to_owned()));
+    let body = BodyMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a body: {what}")));
+    run.chain(body).collect()
 }
 
 /// What a table of which exactly one key is given can be, with the keys of each.

@@ -67,7 +67,7 @@ impl Block {
         }
         let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
             Some(material) => of_one_material(scene, &materials[*material], bodies, meshes, style),
-            None => single(scene, materials, bodies[0], meshes, style),
+            None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style),
         };
         Block { style, groups: together.iter().map(plan).collect() }
     }
@@ -77,16 +77,33 @@ impl Block {
         for group in &self.groups {
             out.push_str(&group.before);
             for item in &group.bodies {
-                let body = &frame.bodies[item.id];
-                if !self.style.can_write(body.location) {
-                    return Err(item.id);
-                }
-                out.push_str(&item.before);
-                self.place(out, &item.place, body);
-                out.push_str(&item.after);
+                self.item(out, item, &frame.bodies[item.id])?;
             }
             out.push_str(&group.after);
         }
+        Ok(())
+    }
+
+    /// Plans the block of a single body, whatever its number.
+    pub(super) fn of(body: &Body, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
+        Block { style, groups: vec![single(body, materials, 0, meshes, style)] }
+    }
+
+    /// Appends the single body of a block at a place of its own.
+    pub(super) fn write_single(&self, out: &mut String, body: &BodyFrame) {
+        for item in self.groups.iter().flat_map(|group| &group.bodies) {
+            // What cannot be written is left out: where a body has been is no reason to have no picture.
+            let _ = self.item(out, item, body);
+        }
+    }
+
+    fn item(&self, out: &mut String, item: &Item, body: &BodyFrame) -> Result<(), usize> {
+        if !self.style.can_write(body.location) {
+            return Err(item.id);
+        }
+        out.push_str(&item.before);
+        self.place(out, &item.place, body);
+        out.push_str(&item.after);
         Ok(())
     }
 
@@ -133,8 +150,7 @@ fn of_one_material(
 }
 
 /// One body with its material.
-fn single(scene: &Scene, materials: &[MaterialText], id: usize, meshes: &Meshes, style: Style) -> Group {
-    let body = &scene.bodies[id];
+fn single(body: &Body, materials: &[MaterialText], id: usize, meshes: &Meshes, style: Style) -> Group {
     let material = body.material.map(|material| &materials[material]);
     let name = text::comment(&body.name);
     let plane_macro = material.and_then(MaterialText::plane_macro);

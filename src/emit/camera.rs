@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
+use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection};
 use crate::simulate::{Bounds, Frame};
 
@@ -96,6 +97,24 @@ impl Placed {
         }
     }
 
+    /// The width of what is seen at a distance, m.
+    pub(super) fn width_at(&self, distance: f64) -> f64 {
+        match self.lens {
+            Lens::Perspective { field, .. } => 2.0 * distance * field.horizontal,
+            Lens::Orthographic { width } => width,
+        }
+    }
+
+    /// The plane before the camera on which texts stand.
+    pub(super) fn screen(&self) -> Screen {
+        let (slope, width) = match self.lens {
+            Lens::Perspective { angle, .. } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
+            Lens::Orthographic { width } => (None, width),
+        };
+        let sharp = self.blur.map(|blur| blur.focus.unwrap_or(self.look_at));
+        Screen::new(self.location, self.look_at, slope, width, sharp)
+    }
+
     /// The camera as templates see it, for a unit of so many metres.
     pub(super) fn text(&self, unit: f64) -> CameraText {
         let (angle, width) = match self.lens {
@@ -137,11 +156,20 @@ impl Moving {
         camera.motion.moves().then(|| Moving { camera: camera.clone(), placed, followed, unit })
     }
 
-    /// The camera of a frame.
+    /// The camera of a frame, in words.
     pub(super) fn text(&self, frame: &Frame) -> CameraText {
+        self.of(frame).text(self.unit)
+    }
+
+    /// The plane before it on which texts of a frame stand.
+    pub(super) fn screen(&self, frame: &Frame) -> Screen {
+        self.of(frame).screen()
+    }
+
+    fn of(&self, frame: &Frame) -> Placed {
         let (body, start, size) = self.followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let here = frame.bodies.get(body).map_or(start, |body| body.location);
-        self.placed.moved(&self.camera, size, frame.time, [start, here]).text(self.unit)
+        self.placed.moved(&self.camera, size, frame.time, [start, here])
     }
 }
 

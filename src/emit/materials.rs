@@ -18,7 +18,7 @@ pub(super) struct MaterialText {
     /// `plain`, `library`, `checkered`, `texture` or `sdl`.
     kind: &'static str,
     /// Of a plain one and one of the library: its color in sRGB.
-    color: Option<[f64; 3]>,
+    pub(super) color: Option<[f64; 3]>,
     /// Of a plain one: the name of its finish.
     finish: Option<&'static str>,
     /// Of one of the library: its name there.
@@ -41,6 +41,9 @@ pub(super) struct MaterialText {
     /// Whether it looks the same however it is turned.
     #[serde(skip)]
     pub(super) is_uniform: bool,
+    /// The number of its pale twin, which ghosts are made of.
+    #[serde(skip)]
+    pub(super) pale: Option<usize>,
 }
 
 /// The materials of a scene, each with an identifier of its own.
@@ -52,7 +55,30 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
             texts[material].on_plane = true;
         }
     }
+    for body in scene.bodies.iter().filter(|body| body.showing.ghosts.is_some()) {
+        let Some(material) = body.material.filter(|&material| texts[material].pale.is_none()) else {
+            continue;
+        };
+        if let Some(pale) = pale(&texts[material], scene.environment.is_dark(), &mut identifiers) {
+            texts[material].pale = Some(texts.len());
+            texts.push(pale);
+        }
+    }
     texts
+}
+
+/// A material for ghosts, paler than that of the body; none where it has colors of its own.
+fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> Option<MaterialText> {
+    const PALER: f64 = 0.5;
+    let towards = if dark { 0.12 } else { 0.93 };
+    let color = material.color?.map(|part| part + PALER * (towards - part));
+    Some(MaterialText {
+        name: format!("{}, ghost", material.name),
+        identifier: identifiers.add("Ghost", &material.name),
+        color: Some(color),
+        on_plane: false,
+        ..material.clone()
+    })
 }
 
 fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
@@ -71,6 +97,7 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         sdl: None,
         pattern: Pattern::None,
         is_uniform: material.look.is_uniform(),
+        pale: None,
     };
     match &material.look {
         Look::Plain { color, finish } => {

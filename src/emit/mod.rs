@@ -12,8 +12,10 @@ mod meshes;
 mod names;
 mod normals;
 mod number;
+mod screen;
 mod sdl;
 mod shapes;
+mod showing;
 mod shutter;
 mod stage;
 mod templates;
@@ -23,6 +25,7 @@ mod values;
 use self::bodies::Block;
 use self::meshes::Meshes;
 use self::sdl::Style;
+use self::showing::Showing;
 use self::stage::Stage;
 use self::templates::Templates;
 use self::values::FrameConstants;
@@ -42,6 +45,7 @@ pub struct Emitter {
     shared: Option<String>,
     constants: FrameConstants,
     block: Block,
+    showing: Showing,
     unit: f64,
     digits: usize,
     too_thin: Option<usize>,
@@ -68,6 +72,7 @@ impl Emitter {
             Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),
         };
         let with_bodies = templates.mention("bodies");
+        let showing = Showing::new(scene, &materials, &meshes, &stage, survey, style);
         Ok(Emitter {
             constants: FrameConstants::new(
                 scene,
@@ -79,6 +84,7 @@ impl Emitter {
             ),
             shared,
             block: Block::new(scene, &materials, &meshes, style),
+            showing,
             unit: stage.unit,
             digits: scene.povray.digits,
             too_thin: stage.too_thin,
@@ -113,6 +119,7 @@ impl Emitter {
         self.block
             .write(&mut bodies_sdl, frame)
             .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
+        self.showing.write(&mut bodies_sdl, frame);
         self.templates.render("frame.pov", &self.constants.of(frame, bodies_sdl))
     }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::camera::{self, CameraText, Placed};
 use super::framing;
+use super::screen::Screen;
 use crate::scene::{Body, Camera, Color, Environment, Light, LightKind, Scene, Sky};
 use crate::simulate::{Bounds, Survey};
 
@@ -40,12 +41,30 @@ pub(super) struct Stage {
     /// Whether there is nothing behind the bodies.
     transparent: bool,
     fog: bool,
+    /// Where everything takes place, for what is measured there.
+    #[serde(skip)]
+    pub(super) scenery: Scenery,
     /// The number of a body that POV-Ray may not draw.
     #[serde(skip)]
     pub(super) too_thin: Option<usize>,
     /// How many pixels the largest body is wide in the middle of the picture, if that is too little to be seen.
     #[serde(skip)]
     pub(super) too_small: Option<f64>,
+}
+
+/// Where everything takes place, in metres, and how it is seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scenery {
+    /// The box in which everything takes place, not rounded.
+    pub(super) bounds: Bounds,
+    /// The height of the ground, or where it would be.
+    pub(super) ground: f64,
+    /// The edge of one of its tiles.
+    pub(super) tile: f64,
+    /// The width of a line that is well seen in the middle of the motion.
+    pub(super) stroke: f64,
+    /// The plane on which texts stand.
+    pub(super) screen: Screen,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -84,7 +103,9 @@ impl Stage {
     pub(super) fn new(scene: &Scene, given: &Camera, survey: &Survey) -> Stage {
         let exact = survey.bounds.unwrap_or(NOTHING);
         let bounds = framing::rounded_outward(exact);
-        let camera = Placed::new(given, bounds, scene.output);
+        // What stands around is made for the bodies; arrows and axes are no reason to lower the ground.
+        let seen = survey.seen.map_or(bounds, framing::rounded_outward);
+        let camera = Placed::new(given, seen, scene.output);
         let center = (bounds.min + bounds.max) / 2.0;
         let size = two_digits_up((bounds.max - bounds.min).length());
         let distance = camera.location.distance(center);
@@ -92,10 +113,14 @@ impl Stage {
         let unit =
             scene.povray.unit.unwrap_or_else(|| unit(reach(bounds, &camera), thinnest.map(|(_, half)| half)));
 
-        let ground = scene.environment.ground.as_ref().filter(|_| !scene.output.transparent).map(|ground| {
-            let tile = ground.tile.unwrap_or_else(|| tile(size));
+        let around = scene.environment.ground.as_ref();
+        let ground_height =
+            around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(exact.min.y, size));
+        let tile_of_ground = around.and_then(|ground| ground.tile).unwrap_or_else(|| tile(size));
+        let ground = around.filter(|_| !scene.output.transparent).map(|_| {
+            let tile = tile_of_ground;
             GroundText {
-                height: ground.height.unwrap_or_else(|| just_under(exact.min.y, size)) / unit,
+                height: ground_height / unit,
                 tile: tile / unit,
                 // Tiles that are given may be larger than all that moves.
                 tiles_fade: (4.5 * size).max(38.0 * tile) / unit,
@@ -110,6 +135,13 @@ impl Stage {
         let still = (!lights_move).then(|| lights.at(0.0));
         let too_small = largest_in_pixels(scene, &camera, distance).filter(|&pixels| pixels < SMALLEST_SEEN);
         let fixed = (!given.motion.moves()).then(|| camera.text(unit));
+        let scenery = Scenery {
+            bounds: exact,
+            ground: ground_height,
+            tile: tile_of_ground,
+            stroke: STROKE * camera.width_at(distance),
+            screen: camera.screen(),
+        };
         Stage {
             camera: fixed,
             moving: Moving {
@@ -131,6 +163,7 @@ impl Stage {
             sky,
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
+            scenery,
             too_thin: thinnest.filter(|(_, half)| half / unit < THINNEST * 0.99).map(|(id, _)| id),
         }
     }
@@ -238,6 +271,9 @@ fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
         thin.max(far)
     }
 }
+
+/// The width of lines, as part of the picture's: four pixels of 1280.
+const STROKE: f64 = 0.0031;
 
 /// So many pixels across, a body is a dot.
 const SMALLEST_SEEN: f64 = 4.0;

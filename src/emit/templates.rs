@@ -30,6 +30,7 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("library/toys.inc", include_str!("../../templates/library/toys.inc")),
     ("library/planets.inc", include_str!("../../templates/library/planets.inc")),
     ("axes.inc", include_str!("../../templates/axes.inc")),
+    ("showing.inc", include_str!("../../templates/showing.inc")),
     ("animation.pov", include_str!("../../templates/animation.pov")),
     ("animation.ini", include_str!("../../templates/animation.ini")),
 ];

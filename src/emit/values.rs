@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::materials::MaterialText;
 use super::names;
 use super::sdl::Style;
+use super::showing::Shows;
 use super::stage::{Moving, Stage};
 use crate::dynamics::Shape;
 use crate::scene::{Body, Include, Layout, Scene};
@@ -31,7 +32,10 @@ pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -
         rounded_boxes => scene.bodies.iter().any(|body| {
             has_rounded_box(&body.shape) && body.look.object.is_none()
         }),
-        axes => scene.bodies.iter().any(|body| matches!(body.shape, Shape::Axes { .. })),
+        axes => scene.bodies.iter().any(|body| {
+            matches!(body.shape, Shape::Axes { .. }) || body.showing.axes.is_some()
+        }),
+        shows => Value::from(Serde(Shows::of(scene))),
         ..Value::from(Serde(stage))
     }
 }

@@ -277,6 +277,16 @@ pub struct Environment {
     pub fog: bool,
 }
 
+impl Environment {
+    /// Whether what stands before it is seen best in a light color.
+    pub fn is_dark(&self) -> bool {
+        match self.sky {
+            Sky::Gradient => matches!(self.preset, Preset::Night | Preset::Blackboard | Preset::Space),
+            Sky::Plain(Color([red, green, blue])) => 0.3 * red + 0.6 * green + 0.1 * blue < 0.4,
+        }
+    }
+}
+
 /// The checkered ground. What is not given follows from the motion.
 #[derive(Clone, Debug, Default)]
 pub struct Ground {

@@ -11,6 +11,7 @@ mod color_names;
 mod expand;
 pub mod expression;
 pub mod grammar;
+mod label;
 mod library;
 mod look;
 mod mesh;
@@ -19,6 +20,7 @@ pub mod motion;
 mod palette;
 mod preset;
 pub mod sdl;
+mod showing;
 pub mod source;
 pub mod timed;
 
@@ -26,6 +28,10 @@ use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use label::{
+    BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
+    Side,
+};
 pub use library::{LibraryMaterial, MATERIALS, Pattern};
 pub use look::{
     Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
@@ -33,6 +39,7 @@ pub use look::{
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
 pub use preset::Preset;
+pub use showing::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Trail};
 pub use source::Override;
 
 use crate::diagnostic::Report;
@@ -60,6 +67,12 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Ground, sky and fog.
     pub environment: Environment,
+    /// The texts in the picture, in the order of the file.
+    pub labels: Vec<Label>,
+    /// The scale bar, if there is one.
+    pub scale_bar: Option<ScaleBar>,
+    /// The grid, if there is one.
+    pub grid: Option<Grid>,
     /// What goes to POV-Ray as it is.
     pub povray: PovRay,
     /// The images that the scripts are meant for.

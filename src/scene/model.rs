@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::motion::BodyMotion;
+use super::{Coil, Showing};
 use crate::dynamics::{Method, RigidBody, Shape};
 
 /// How the world is advanced.
@@ -54,6 +55,8 @@ pub struct Body {
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
     pub look: BodyLook,
+    /// What is shown of it beside itself.
+    pub showing: Showing,
 }
 
 /// How a body differs in pictures from what it is in mechanics.
@@ -150,6 +153,8 @@ pub enum ForceKind {
         stiffness: f64,
         /// Its damping, N·s/m.
         damping: f64,
+        /// How they are drawn, if they are.
+        coil: Option<Coil>,
     },
 }
 

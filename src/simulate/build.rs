@@ -76,7 +76,7 @@ fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
         &ForceKind::Lorentz { ref on, electric, magnetic } => {
             world.add_force(Lorentz { bodies: named(on), electric, magnetic });
         }
-        &ForceKind::Spring { ref links, stiffness, damping } => {
+        &ForceKind::Spring { ref links, stiffness, damping, .. } => {
             for link in links {
                 let between = link.between.map(|end| match end {
                     SpringEnd::Body(body) => Anchor::Body(ids[body]),

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Diverged;
+use super::{Diverged, Past};
 use crate::dynamics::{Balance, BodyId, Dynamics};
 use crate::scene::Scene;
 
@@ -17,6 +17,8 @@ pub struct Frame {
     pub bodies: Vec<BodyFrame>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
+    /// What has been before, as far as the scene asks for it.
+    pub past: Past,
 }
 
 /// A body at one moment.
@@ -50,7 +52,13 @@ impl Frame {
             angular_velocity: dynamics.angular_velocity(BodyId::new(id)),
             force: forces[id],
         };
-        Frame { index, time, bodies: (0..state.location.len()).map(body).collect(), balance }
+        Frame {
+            index,
+            time,
+            bodies: (0..state.location.len()).map(body).collect(),
+            balance,
+            past: Past::default(),
+        }
     }
 
     /// The frame, unless a body is at no finite place.

@@ -2,20 +2,25 @@
 //!
 //! This is the only place where a [`Scene`] meets the [`dynamics`](crate::dynamics).
 
+mod arrows;
 mod build;
 mod frame;
 mod moments;
 mod selection;
 mod survey;
+mod track;
 
+use self::track::Track;
 use crate::dynamics::Dynamics;
 use crate::scene::Scene;
 
+pub use arrows::{axis, root, shown, surface};
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
 pub use moments::Branch;
 pub use selection::Selection;
 pub use survey::{Bounds, Crossing, Survey, survey};
+pub use track::{Ghost, Passed, Past, Way};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.
 ///
@@ -25,6 +30,7 @@ pub struct Frames<'a> {
     scene: &'a Scene,
     dynamics: Box<dyn Dynamics>,
     next: usize,
+    track: Track,
 }
 
 /// That a run left the numbers: what is asked for cannot be computed with this step and method.
@@ -39,7 +45,12 @@ pub struct Diverged {
 impl<'a> Frames<'a> {
     /// The frames of a scene from its initial state.
     pub fn new(scene: &'a Scene) -> Frames<'a> {
-        Frames { scene, dynamics: Box::new(world(scene)), next: 0 }
+        Frames { scene, dynamics: Box::new(world(scene)), next: 0, track: Track::new(scene) }
+    }
+
+    /// The same frames, which know nothing of what has been before.
+    pub(crate) fn without_past(scene: &'a Scene) -> Frames<'a> {
+        Frames { track: Track::idle(), ..Frames::new(scene) }
     }
 
     /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between
@@ -56,7 +67,7 @@ impl<'a> Frames<'a> {
         // After the end, or a frame that is none, there is no further one.
         let frames = self.scene.simulation.frames();
         let index = self.next.min(frames).saturating_sub(1);
-        Branch::new(self.scene, self.dynamics.as_ref(), index, self.dynamics.time())
+        Branch::new(self.scene, self.dynamics.as_ref(), index, &self.track)
     }
 
     /// Starts over, as the space key does in a simulation with a window.
@@ -74,8 +85,13 @@ impl Iterator for Frames<'_> {
             return None;
         }
         let time = self.scene.simulation.time(index);
+        self.track.pass(self.dynamics.as_ref(), time);
         self.dynamics.advance_to(time);
-        let frame = Frame::of(self.dynamics.as_mut(), index, time).checked(self.scene);
+        let mut frame = Frame::of(self.dynamics.as_mut(), index, time).checked(self.scene);
+        if let Ok(frame) = &mut frame {
+            self.track.note(frame);
+            frame.past = self.track.before(frame);
+        }
         // After what is not finite, nothing could be.
         self.next = if frame.is_ok() { index + 1 } else { usize::MAX };
         Some(frame)

@@ -1,5 +1,6 @@
 //! What is seen between frames: exact states of the run, which the run itself does not notice.
 
+use super::track::Track;
 use super::{Diverged, Frame, Frames};
 use crate::dynamics::Dynamics;
 use crate::scene::{Scene, Shutter};
@@ -13,11 +14,37 @@ pub struct Branch<'a> {
     index: usize,
     /// The time of the moment at which it has branched off, s.
     begin: f64,
+    /// What has been up to the frame.
+    track: Track,
+    /// The run at the frame, if somebody asks how it was between then and now.
+    origin: Option<Box<dyn Dynamics>>,
 }
 
 impl<'a> Branch<'a> {
-    pub(super) fn new(scene: &'a Scene, dynamics: &dyn Dynamics, index: usize, begin: f64) -> Branch<'a> {
-        Branch { scene, dynamics: dynamics.branch(), index, begin }
+    pub(super) fn new(scene: &'a Scene, dynamics: &dyn Dynamics, index: usize, track: &Track) -> Branch<'a> {
+        Branch {
+            scene,
+            dynamics: dynamics.branch(),
+            index,
+            begin: dynamics.time(),
+            track: track.clone(),
+            origin: track.has_ghosts().then(|| dynamics.branch()),
+        }
+    }
+
+    /// The moment that it has reached, with what has been before.
+    fn here(&mut self) -> Result<Frame, Diverged> {
+        let time = self.dynamics.time();
+        let mut frame = Frame::of(self.dynamics.as_mut(), self.index, time).checked(self.scene)?;
+        frame.past = match &self.origin {
+            None => self.track.before(&frame),
+            Some(origin) => {
+                let mut track = self.track.clone();
+                track.pass(origin.as_ref(), time);
+                track.before(&frame)
+            }
+        };
+        Ok(frame)
     }
 
     /// The run from any of its moments on; from that of a frame on it is the branch of the frame. A time (s) before
@@ -49,8 +76,7 @@ impl<'a> Branch<'a> {
     /// # Errors
     /// Where the run has left the numbers.
     pub fn frame(&mut self) -> Result<Frame, Diverged> {
-        let time = self.dynamics.time();
-        Frame::of(self.dynamics.as_mut(), self.index, time).checked(self.scene)
+        self.here()
     }
 
     /// The moments at which a camera looks while its shutter is open, from where the branch began, each simulated when
@@ -58,7 +84,7 @@ impl<'a> Branch<'a> {
     pub fn moments(mut self, shutter: Shutter) -> impl Iterator<Item = Result<Frame, Diverged>> + 'a {
         shutter.moments(self.begin).map(move |time| {
             self.dynamics.advance_to(time);
-            Frame::of(self.dynamics.as_mut(), self.index, time).checked(self.scene)
+            self.here()
         })
     }
 }

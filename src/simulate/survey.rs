@@ -5,6 +5,7 @@
 
 use glam::DVec3;
 
+use super::arrows::{self, Largest};
 use super::{BodyFrame, Diverged, Frame, Frames, world};
 use crate::dynamics::Shape;
 use crate::scene::{Body, Scene};
@@ -15,6 +16,10 @@ pub struct Survey {
     /// The box in which everything takes place, until a body goes through a plane; none if the scene has no body but
     /// planes.
     pub bounds: Option<Bounds>,
+    /// The box of all that is seen there: of the bodies, and of their arrows and axes.
+    pub seen: Option<Bounds>,
+    /// The length of arrows that have no scale of their own, m for a unit of velocity, acceleration and force.
+    pub arrow_scales: [f64; 3],
     /// The first passage of a body through each plane or ground that is given.
     pub crossings: Vec<Crossing>,
     /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
@@ -57,8 +62,10 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     let mut bounds: Option<Bounds> = None;
     let mut planes = planes(scene);
     let (mut error, mut largest_kinetic): (f64, f64) = (0.0, 0.0);
-    for frame in Frames::new(scene) {
+    let mut largest = Largest::default();
+    for frame in Frames::without_past(scene) {
         let frame = frame?;
+        largest.see(scene, &frame.bodies);
         planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
         for body in &frame.bodies {
             // What has gone through a plane is behind the scenery, and the camera need not follow.
@@ -78,8 +85,18 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
     }
     let interval = 1.0 / scene.simulation.frame_rate;
     let steps_per_frame = world(scene).steps_within(interval);
+    let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
+    let mut seen = bounds;
+    if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
+        *all = arrows::with_arrows(scene, *all, arrow_scales)?;
+    }
+    for point in arrows::anchors(scene) {
+        seen = seen.map(|all| all.union(Bounds { min: point, max: point }));
+    }
     Ok(Survey {
         bounds,
+        seen,
+        arrow_scales,
         crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
         drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
         timestep: interval / f64::from(steps_per_frame),
@@ -97,7 +114,7 @@ impl Bounds {
         Some(Bounds { min: body.location - min, max: body.location + max })
     }
 
-    fn union(self, other: Bounds) -> Bounds {
+    pub(super) fn union(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 }

@@ -72,3 +72,28 @@ fn compiled_again_into_the_same_folder() {
     compile(&scene("damped_spring"), folder.path(), &[]);
     assert!(first == contents(folder.path()));
 }
+
+/// What has been before a frame is in its script: the same, whichever frames are asked for, on any number of threads.
+#[test]
+fn the_past_of_a_frame_does_not_depend_on_which_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let compile_with = |threads: &str, name: &str, frames: &str| {
+        let path = folder.path().join(name);
+        let mut command = jabuka();
+        command.env("RAYON_NUM_THREADS", threads).arg("compile").arg(scene("projectile"));
+        assert!(command.arg("-o").arg(&path).args(["--frames", frames]).output().unwrap().status.success());
+        move |frame: usize| fs::read_to_string(path.join(format!("frame_{frame:04}.pov"))).unwrap()
+    };
+    let (one, eight, some) = (
+        compile_with("1", "one", "0-100"),
+        compile_with("8", "eight", "0-100"),
+        compile_with("3", "some", "47,99"),
+    );
+    for frame in 0..=100 {
+        assert!(one(frame) == eight(frame), "frame {frame}");
+    }
+    for frame in [47, 99] {
+        assert!(one(frame) == some(frame), "frame {frame}");
+        assert!(some(frame).contains("Ghost_") && some(frame).contains("trail"));
+    }
+}

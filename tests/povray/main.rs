@@ -21,6 +21,7 @@ mod scales;
 mod scene;
 mod sequence;
 mod shapes;
+mod showing;
 mod shutter;
 mod sides;
 #[allow(unreachable_pub, reason = "a test program has no outside")]

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, look, mesh, motion, shape};
+use super::{Context, look, mesh, motion, shape, showing};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -35,8 +35,9 @@ pub(super) fn read(
         let start = start(name, span, &view, &shape, context);
         let motion = motion::read(name, &view, (start.location, start.orientation), simulation, context);
         let look = look::of_body(name, &view, &shape, context);
+        let showing = showing::of_body(name, &view, &shape, start.fixed, context);
         context.once(before, name, span);
-        Body { name: name.to_owned(), shape, start, motion, material, look }
+        Body { name: name.to_owned(), shape, start, motion, material, look, showing }
     };
     tables.into_iter().map(read).collect()
 }

@@ -8,6 +8,7 @@ mod consequence;
 mod effect;
 mod force;
 pub(super) mod geometry;
+mod label;
 mod look;
 mod material;
 mod mesh;
@@ -16,6 +17,7 @@ mod povray;
 mod read;
 mod sdl;
 mod shape;
+mod showing;
 mod simulation;
 mod suggest;
 mod templates;
@@ -205,7 +207,10 @@ fn build(
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), context);
     let mut materials = material::read(&root, context);
-    let bodies = body::read(&root, &simulation, &mut materials, context);
+    let mut bodies = body::read(&root, &simulation, &mut materials, context);
+    for (number, body) in bodies.iter_mut().enumerate() {
+        showing::count(&root, &mut body.showing, number, &simulation, context);
+    }
     let forces = force::read(&root, &bodies, context);
     effect::check(&root, &bodies, &forces, context);
     if bodies.is_empty() {
@@ -226,6 +231,9 @@ fn build(
         lights: look::lights(&root, &simulation, context),
         simulation,
         environment: look::environment(&root, &bodies),
+        labels: label::read(&root, &bodies, context),
+        scale_bar: label::scale_bar(&root),
+        grid: label::grid(&root),
         output,
         digest: digest(input, options, included, &povray, context),
         bodies,

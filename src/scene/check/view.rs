@@ -172,6 +172,13 @@ impl<'a> View<'a> {
         items.iter().map(|node| View { spec, table: node.as_table() }).collect()
     }
 
+    /// The variables of a scene that have values.
+    pub(super) fn variables(&self) -> impl Iterator<Item = (&'a str, f64)> {
+        let table = self.node("variables").and_then(Node::as_table);
+        let entries = table.map_or(&[][..], |table| &table.entries);
+        entries.iter().filter_map(|entry| Some((entry.name.text.as_str(), entry.node.as_number()?)))
+    }
+
     /// The tables with names under a key: name, where the name stands, table.
     pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {

@@ -8,7 +8,7 @@ mod defaults;
 mod groups;
 mod include;
 mod merge;
-mod place;
+pub(super) mod place;
 mod random;
 mod repeat;
 #[cfg(test)]

@@ -23,34 +23,32 @@ const fn softening() -> Key {
     .also(&["epsilon", "eps"])
 }
 
-pub(super) static FORCE: TableSpec = TableSpec {
-    noun: "a force",
-    rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz"]),
-    keys: &[
-        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
-            .also(&["uniform"]),
-        Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, at rest or as a wind").also(&[
-            "air",
-            "friction",
-            "resistance",
-        ]),
-        Key::new(
-            "spring",
-            Table(&SPRING),
-            "A spring with a damper between bodies or points, or a chain of such springs; it is not drawn",
-        ),
-        Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
-            .also(&["newton", "gravity"]),
-        Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
-            .also(&["electrostatic"]),
-        Key::new(
-            "lorentz",
-            Table(&LORENTZ),
-            "Uniform electric and magnetic fields, which act on charged bodies",
-        )
-        .also(&["field", "electromagnetic"]),
-    ],
-};
+pub(super) static FORCE: TableSpec =
+    TableSpec {
+        noun: "a force",
+        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz"]),
+        keys: &[
+            Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
+                .also(&["uniform"]),
+            Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, at rest or as a wind")
+                .also(&["air", "friction", "resistance"]),
+            Key::new(
+                "spring",
+                Table(&SPRING),
+                "A spring with a damper between bodies or points, or a chain of such springs",
+            ),
+            Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
+                .also(&["newton", "gravity"]),
+            Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
+                .also(&["electrostatic"]),
+            Key::new(
+                "lorentz",
+                Table(&LORENTZ),
+                "Uniform electric and magnetic fields, which act on charged bodies",
+            )
+            .also(&["field", "electromagnetic"]),
+        ],
+    };
 
 static CONSTANT: TableSpec = TableSpec {
     noun: "a constant force",
@@ -116,6 +114,7 @@ static SPRING: TableSpec = TableSpec {
             .unit("m")
             .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
+        super::showing::COIL,
     ],
 };
 

@@ -7,9 +7,11 @@ use super::Kind::{
     Numbers, Partial, Reference, Sdl, Table, Text, Timed, Variables,
 };
 use super::forces::FORCE;
+use super::labels;
 use super::motion::{CAMERA_KEYFRAMES, FOLLOW, MOTION, ORBIT, TIMED_VECTOR};
 use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
+use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
 use crate::scene::{Finish, Layout, MATERIALS, Preset};
@@ -95,6 +97,9 @@ pub static SCENE: TableSpec = TableSpec {
         )
         .default("\"daylight\"")
         .also(&["world"]),
+        labels::LABEL,
+        labels::SCALE_BAR,
+        labels::GRID,
         Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
         Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
     ],
@@ -214,6 +219,10 @@ static BODY: TableSpec = TableSpec {
         )
         .default("one body")
         .also(&["array", "copies", "instances", "clone", "duplicate"]),
+        showing::ARROWS,
+        showing::AXES,
+        showing::GHOSTS,
+        showing::TRAIL,
     ],
 };
 

@@ -7,11 +7,13 @@
 mod forces;
 mod keys;
 mod kind;
+mod labels;
 mod motion;
 mod reference;
 mod repeat;
 mod schema;
 mod shapes;
+mod showing;
 
 pub use keys::SCENE;
 pub(crate) use kind::quoted;

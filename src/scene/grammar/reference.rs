@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::{Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
+use crate::scene::{BodyMeasure, RunMeasure};
 
 /// All keys of the scene language, as Markdown.
 pub fn reference() -> String {
@@ -17,6 +18,7 @@ pub fn reference() -> String {
     page.section("", &SCENE);
     page.formulas();
     page.text.push_str(MANY);
+    page.labels();
     page.text
 }
 
@@ -113,6 +115,31 @@ start from the folder of the file that they stand in, and stay in that of the sc
 `povray.assets`, start from the folder of the scene in every file.
 ";
 
+/// What there is to say of labels before their names are listed.
+const LABELS: &str = "
+## Labels
+
+```toml
+[label.clock]
+text = \"t = ${t:.2} s\"
+
+[label.speed]
+text = \"${ball.speed:.1} m/s, ${ball.speed*3.6:.0} km/h\"
+corner = \"top-right\"
+
+[label.height]
+text = \"h = ${y:.1} m\"
+body = \"ball\"
+```
+
+Between `${` and `}` stands a [formula](#formulas) over the numbers of the moment and `[variables]`. Behind a colon, `.2` is two
+decimals, `.2e` two decimals and a power of ten; without it, three digits are shown. A label beside a body knows the numbers of
+that body also without its name, and they come before variables of the same name; one with `ghosts` knows these and `t` alone.
+
+| name | meaning |
+| --- | --- |
+";
+
 /// The page as far as it is written.
 struct Page {
     text: String,
@@ -153,6 +180,16 @@ impl Page {
         self.text.push_str("\n| function | meaning |\n| --- | --- |\n");
         for function in FUNCTIONS {
             let _ = writeln!(self.text, "| `{}` | {} |", function.usage(), function.meaning);
+        }
+    }
+
+    fn labels(&mut self) {
+        self.text.push_str(LABELS);
+        for (name, _, what) in RunMeasure::ALL {
+            let _ = writeln!(self.text, "| `{name}` | {what} |");
+        }
+        for (name, _, what) in BodyMeasure::ALL {
+            let _ = writeln!(self.text, "| `ball.{name}` | {what} |");
         }
     }
 

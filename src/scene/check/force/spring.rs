@@ -25,6 +25,7 @@ impl Reader<'_, '_> {
             links,
             stiffness: view.number("stiffness").unwrap_or(0.0),
             damping: view.number("damping").unwrap_or(0.0),
+            coil: super::super::showing::coil(view),
         })
     }
 

@@ -1,0 +1,121 @@
+//! The plane before a camera on which texts stand: they face the viewer, are as large wherever they are, and nothing
+//! of the scene is in front of them.
+
+use glam::DVec3;
+
+use super::sdl::Style;
+
+/// How far before the camera the plane is, as part of the distance to what is looked at.
+const NEAR: f64 = 0.01;
+
+/// The plane before a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the
+/// same scale, and 0 in the middle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Screen {
+    location: DVec3,
+    right: DVec3,
+    up: DVec3,
+    back: DVec3,
+    /// The distance of the plane from the camera, m.
+    depth: f64,
+    /// Half the width of the plane, m.
+    half: f64,
+    /// The tangent of half the horizontal field of view; none without perspective.
+    slope: Option<f64>,
+}
+
+/// A place on the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    /// How large a metre is there.
+    pub(super) metre: f64,
+}
+
+impl Screen {
+    /// The plane of a camera at a location that looks at a point, and sees all that is within a slope, or a width of
+    /// parallel rays. `sharp` is the distance at which everything is sharp, if not everywhere: there the plane must be.
+    pub(super) fn new(
+        location: DVec3,
+        look_at: DVec3,
+        slope: Option<f64>,
+        width: f64,
+        sharp: Option<DVec3>,
+    ) -> Screen {
+        let back = (location - look_at).normalize_or(DVec3::Z);
+        // As the camera of the scripts decides which way is up when it looks straight down.
+        let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
+        let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
+        let depth = match sharp {
+            Some(point) => (location - point).dot(back),
+            None => NEAR * location.distance(look_at),
+        };
+        let half = slope.map_or(width / 2.0, |slope| slope * depth);
+        Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }
+    }
+
+    /// The transform from the plane to the world, in POV-Ray's words.
+    pub(super) fn transform(&self, style: Style) -> String {
+        let middle = self.location - self.back * self.depth;
+        let mut out = "matrix <".to_owned();
+        for row in [self.right * self.half, self.up * self.half, self.back * self.half] {
+            for entry in (row / style.unit).to_array() {
+                super::number::write(&mut out, entry, style.digits);
+                out.push_str(", ");
+            }
+        }
+        let middle = (middle / style.unit).to_array();
+        for (i, entry) in middle.into_iter().enumerate() {
+            super::number::write(&mut out, entry, style.digits);
+            out.push_str(if i < 2 { ", " } else { ">" });
+        }
+        out
+    }
+
+    /// Where on the plane a point of the world is seen; none if it is not before the camera.
+    pub(super) fn spot(&self, point: DVec3) -> Option<Spot> {
+        let offset = point - self.location;
+        let depth = -offset.dot(self.back);
+        let half = match self.slope {
+            Some(slope) => slope * depth,
+            None => self.half,
+        };
+        let spot =
+            Spot { x: offset.dot(self.right) / half, y: offset.dot(self.up) / half, metre: 1.0 / half };
+        (depth > 0.0 && spot.x.is_finite() && spot.y.is_finite()).then_some(spot)
+    }
+
+    /// The direction in the world that is up in the picture.
+    pub(super) fn up(&self) -> DVec3 {
+        self.up
+    }
+
+    /// The direction in the world that is right in the picture.
+    pub(super) fn right(&self) -> DVec3 {
+        self.right
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_looked_at_is_in_the_middle_and_edges_are_at_1() {
+        let screen = Screen::new(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, Some(0.5), 0.0, None);
+        assert_eq!(screen.spot(DVec3::ZERO), Some(Spot { x: 0.0, y: 0.0, metre: 0.2 }));
+        let edge = screen.spot(DVec3::new(5.0, -2.0, 0.0)).unwrap();
+        assert!((edge.x - 1.0).abs() < 1e-12 && (edge.y + 0.4).abs() < 1e-12);
+        assert_eq!(screen.spot(DVec3::new(0.0, 0.0, 11.0)), None);
+    }
+
+    #[test]
+    fn parallel_rays_show_everything_in_one_size() {
+        let screen = Screen::new(DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, None, 4.0, None);
+        for height in [-5.0, 0.0, 5.0] {
+            let spot = screen.spot(DVec3::new(1.0, height, 1.0)).unwrap();
+            assert!((spot.x - 0.5).abs() < 1e-12 && (spot.y + 0.5).abs() < 1e-12, "{spot:?}");
+        }
+    }
+}

@@ -1,0 +1,303 @@
+//! `[label.NAME]`, `[scale_bar]` and `[grid]`.
+
+use std::ops::Range;
+
+use super::Context;
+use super::showing::wanted;
+use super::view::View;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::expand::place;
+use crate::scene::expression::{ExpressionError, Formula, Scope};
+use crate::scene::{
+    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure,
+    ScaleBar, Side,
+};
+
+/// The longest text of a label, bytes: what POV-Ray's strings hold, less what values may need.
+const MAX_LENGTH: usize = 160;
+
+pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Label> {
+    let read = |(name, _, view): (&str, Span, View<'_>)| {
+        let place = place_of(&view, bodies, context);
+        let text = view.text("text").zip(view.span("text"));
+        let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, context));
+        Label {
+            name: name.to_owned(),
+            text: text.unwrap_or_default(),
+            place,
+            size: view.number("size").unwrap_or(0.055),
+            color: view.color("color"),
+        }
+    };
+    root.named("label").into_iter().map(read).collect()
+}
+
+pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
+    let bar = wanted(root, "scale_bar")?;
+    Some(ScaleBar { length: bar.number("length"), corner: corner(&bar).unwrap_or(Corner::BottomLeft) })
+}
+
+pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
+    let grid = wanted(root, "grid")?;
+    let named = |name: &str| GridPlane::ALL.into_iter().find(|plane| plane.name() == name);
+    let plane = grid.text("plane").and_then(named).unwrap_or(GridPlane::Ground);
+    Some(Grid { spacing: grid.number("spacing"), plane })
+}
+
+fn corner(view: &View<'_>) -> Option<Corner> {
+    let name = view.text("corner")?;
+    Corner::ALL.into_iter().find(|corner| corner.name() == name)
+}
+
+fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
+    let body = view.text("body").and_then(|name| bodies.iter().position(|body| body.name == name));
+    let mut useless = |key: &str, why: &str| {
+        let warning = Diagnostic::warning("no-effect", format!("`{key}` has no effect {why}"));
+        context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, "")));
+    };
+    let Some(body) = body else {
+        if !view.has("body") {
+            useless("side", "without `body`");
+            useless("ghosts", "without `body`");
+        }
+        return LabelPlace::Corner(corner(view).unwrap_or(Corner::TopLeft));
+    };
+    let ghosts = view.boolean("ghosts") == Some(true);
+    if ghosts && bodies[body].showing.ghosts.is_none() {
+        useless("ghosts", "where the body has none");
+    }
+    let named = |name: &str| Side::ALL.into_iter().find(|side| side.name() == name);
+    LabelPlace::Body { body, side: view.text("side").and_then(named).unwrap_or(Side::Above), ghosts }
+}
+
+/// The pieces of a text. What is wrong with it is said at its place.
+fn pieces(
+    text: &str,
+    span: Span,
+    root: &View<'_>,
+    place: LabelPlace,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Vec<Piece> {
+    let mut reader = Reader { text, span, root, place, bodies, context };
+    if text.len() > MAX_LENGTH {
+        let message = format!("a label has at most {MAX_LENGTH} bytes");
+        reader.report(Diagnostic::error("label-syntax", message), 0..0, "");
+        return Vec::new();
+    }
+    let mut pieces = Vec::new();
+    let mut at = 0;
+    while let Some(begin) = text[at..].find("${").map(|found| at + found) {
+        pieces.extend(reader.words(at..begin));
+        let Some(length) = text[begin..].find('}') else {
+            let error = Diagnostic::error("label-syntax", "this value has no end");
+            reader.report(error, begin..begin + 2, "needs a `}`");
+            return pieces;
+        };
+        pieces.extend(reader.value(begin + 2..begin + length));
+        at = begin + length + 1;
+    }
+    pieces.extend(reader.words(at..text.len()));
+    pieces
+}
+
+struct Reader<'a, 'b, 'c> {
+    text: &'a str,
+    span: Span,
+    root: &'a View<'b>,
+    place: LabelPlace,
+    bodies: &'a [Body],
+    context: &'a mut Context<'c>,
+}
+
+impl Reader<'_, '_, '_> {
+    fn report(&mut self, error: Diagnostic, range: Range<usize>, label: &str) {
+        let at = self.at(&range);
+        self.context.diagnostics.push(error.at(at, label));
+    }
+
+    /// The place of a part of the text in the scene.
+    fn at(&self, range: &Range<usize>) -> Span {
+        let source = &self.context.sources.get(self.span.source).text;
+        let raw = source.get(self.span.start..self.span.end).unwrap_or_default();
+        place::in_string(raw, self.text, range, self.span)
+    }
+
+    fn words(&mut self, range: Range<usize>) -> Option<Piece> {
+        let words = &self.text[range.clone()];
+        if let Some((at, letter)) = words.char_indices().find(|(_, letter)| letter_of(*letter).is_none()) {
+            let here = range.start + at..range.start + at + letter.len_utf8();
+            let message = format!("POV-Ray's font has no letter `{}`", letter.escape_debug());
+            self.report(Diagnostic::error("label-letter", message), here, "it would be an empty box");
+            return None;
+        }
+        (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
+    }
+
+    fn value(&mut self, range: Range<usize>) -> Option<Piece> {
+        let inner = &self.text[range.clone()];
+        let (formula, format) = match inner.rsplit_once(':') {
+            None => (inner, Format::Short),
+            Some((formula, format)) => {
+                let begin = range.start + formula.len() + 1;
+                let Some(format) = format_of(format) else {
+                    let message = format!("`{format}` is no format of a number");
+                    let label = "`.2` is two decimals, `.2e` has a power of ten";
+                    self.report(Diagnostic::error("label-syntax", message), begin..range.end, label);
+                    return None;
+                };
+                (formula, format)
+            }
+        };
+        let start = range.start;
+        let (plain, dotted) = self.without_dots(formula, start)?;
+        let parsed = self.keep(Formula::parse(&plain), start)?;
+        let (scope, inputs) = self.scope(dotted);
+        let formula = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
+        let formula = self.keep(formula, start)?;
+        Some(Piece::Value { formula, inputs, format })
+    }
+
+    /// A formula in which `ball.speed` is one name, and what those names stand for. The formulas know no dots; another
+    /// letter takes their place, so that no other letter moves.
+    fn without_dots(&mut self, formula: &str, start: usize) -> Option<(String, Vec<(String, Measure)>)> {
+        let variables: Vec<&str> = self.variables().map(|(name, _)| name).collect();
+        let joint = std::iter::once('_').chain('A'..='Z').find(|joint| {
+            let joined = formula.replace('.', &joint.to_string());
+            !variables.iter().any(|name| name.contains(*joint) && joined.contains(name))
+        });
+        let joint = joint.unwrap_or('_').to_string();
+        let mut plain = formula.to_owned();
+        let mut dotted = Vec::new();
+        for (at, _) in formula.match_indices('.') {
+            let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            let begin = formula[..at].rfind(|c| !is_part(c)).map_or(0, |before| before + 1);
+            let rest = &formula[at + 1..];
+            let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+            let (body, measure) = (&formula[begin..at], &formula[at + 1..end]);
+            let letter = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            if !letter(body) || !letter(measure) {
+                continue;
+            }
+            let Some(number) = self.bodies.iter().position(|other| other.name == body) else {
+                let names = self.bodies.iter().map(|body| body.name.as_str());
+                let label = crate::diagnostic::nearest(body, names.take(1000));
+                let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+                let message = format!("there is no body `{body}`");
+                self.report(Diagnostic::error("unknown-name", message), start + begin..start + at, &label);
+                return None;
+            };
+            let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
+                let names = BodyMeasure::ALL.map(|(name, ..)| name);
+                let message = format!("a body has no `{measure}` that a label could show");
+                let here = self.at(&(start + at + 1..start + end));
+                let error = Diagnostic::error("unknown-name", message);
+                let known = format!("there are {}", crate::scene::grammar::quoted(&names));
+                self.context.diagnostics.push(match crate::diagnostic::nearest(measure, names) {
+                    Some(near) => error.at(here, format!("did you mean `{near}`?")).help(known),
+                    None => error.at(here, "").help(known),
+                });
+                return None;
+            };
+            plain.replace_range(at..=at, &joint);
+            dotted.push((plain[begin..end].to_owned(), Measure::Body(number, known)));
+        }
+        Some((plain, dotted))
+    }
+
+    /// The variables of the scene that have values.
+    fn variables(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.root.variables()
+    }
+
+    /// The names that a formula of the label knows, and what each of its inputs is.
+    fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<Measure>) {
+        let mut scope = Scope::default();
+        for (name, value) in self.variables() {
+            scope.constant(name, value);
+        }
+        let mut inputs = Vec::new();
+        let mut add = |name: &str, measure: Measure| {
+            scope.slot(name);
+            inputs.push(measure);
+        };
+        let mut with_run = true;
+        if let LabelPlace::Body { body, ghosts, .. } = self.place {
+            BodyMeasure::ALL
+                .into_iter()
+                .for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
+            with_run = !ghosts;
+        }
+        for (name, measure, _) in RunMeasure::ALL {
+            // Of ghosts, no more is kept than what they look like.
+            if with_run || measure == RunMeasure::Time {
+                add(name, Measure::Run(measure));
+            }
+        }
+        for (name, measure) in dotted {
+            let of_ghost = matches!(self.place, LabelPlace::Body { body, .. } if matches!(measure, Measure::Body(b, _) if b == body));
+            if with_run || of_ghost {
+                add(&name, measure);
+            }
+        }
+        (scope, inputs)
+    }
+
+    /// Keeps what is wrong with a formula that begins at a place of the text.
+    fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
+        let errors = match found {
+            Ok(value) => return Some(value),
+            Err(errors) => errors,
+        };
+        for error in errors {
+            let at = self.at(&(start + error.range.start..start + error.range.end));
+            // What is said of variables is not all that there is here.
+            let own = error.code == "unknown-name" && !error.label.starts_with("did you mean");
+            let diagnostic = Diagnostic::error(error.code, error.message);
+            self.context.diagnostics.push(if own {
+                let known = "`t`, `ball.speed` and their kin: see «Labels» in docs/scene-language.md";
+                diagnostic.at(at, "not known to this label").help(known)
+            } else {
+                diagnostic.at(at, error.label)
+            });
+        }
+        None
+    }
+}
+
+/// A letter as POV-Ray's font has it; none: it has none. Dashes stand in for the minus sign, a raised point for its like.
+fn letter_of(letter: char) -> Option<char> {
+    match letter {
+        '−' => Some('–'),
+        '·' => Some('∙'),
+        ' '..='~'
+        | '¡'..='§'
+        | '©'..='¶'
+        | '¹'..='¿'
+        | '–'
+        | '—'
+        | '‘'..='‚'
+        | '“'..='„'
+        | '†'
+        | '‡'
+        | '•'
+        | '…'
+        | '‰'
+        | '‹'
+        | '›'
+        | '™'
+        | '∙' => Some(letter),
+        _ => None,
+    }
+}
+
+/// `.2` or `.2e`.
+fn format_of(text: &str) -> Option<Format> {
+    let text = text.trim();
+    let (digits, scientific) = match text.strip_suffix(['e', 'E']) {
+        Some(digits) => (digits, true),
+        None => (text.strip_suffix('f').unwrap_or(text), false),
+    };
+    let decimals = digits.strip_prefix('.')?.parse::<usize>().ok().filter(|decimals| *decimals <= 12)?;
+    Some(if scientific { Format::Scientific(decimals) } else { Format::Decimals(decimals) })
+}

@@ -1,0 +1,90 @@
+//! What shows the physics of a body and of a spring.
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::Diagnostic;
+use crate::dynamics::Shape;
+use crate::scene::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Simulation, Trail};
+
+/// More ghosts of a body than a picture can show.
+const MAX_GHOSTS: f64 = 10_000.0;
+
+/// What is shown of a body; `fixed` says whether it stays where it is.
+pub(super) fn of_body(
+    name: &str,
+    view: &View<'_>,
+    shape: &Shape,
+    fixed: bool,
+    context: &mut Context<'_>,
+) -> Showing {
+    let useless = match (shape.is_unbounded(), fixed) {
+        (true, _) => Some((&["arrows", "axes", "ghosts", "trail"][..], "a plane is endless")),
+        (false, true) => Some((&["arrows", "ghosts", "trail"][..], "it is fixed")),
+        _ => None,
+    };
+    let mut showing = Showing {
+        arrows: Quantity::ALL.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
+        axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.number("length") }),
+        ghosts: view.variant("ghosts").and_then(|ghosts| {
+            let arrows = ghosts.boolean("arrows").unwrap_or(true);
+            Some(Ghosts { every: ghosts.number("every")?, arrows })
+        }),
+        trail: wanted(view, "trail").map(|trail| Trail {
+            duration: trail.number("duration"),
+            width: trail.number("width"),
+            color: trail.color("color"),
+        }),
+    };
+    if let Some((keys, why)) = useless {
+        for key in keys {
+            let message = format!("`{key}` of `{name}` has no effect");
+            let warning = Diagnostic::warning("no-effect", message);
+            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        }
+        showing = Showing { axes: showing.axes.filter(|_| !shape.is_unbounded()), ..Showing::default() };
+    }
+    showing
+}
+
+/// Says which bodies have more ghosts than can be drawn, and takes those away.
+pub(super) fn count(
+    root: &View<'_>,
+    showing: &mut Showing,
+    body: usize,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) {
+    let Some(ghosts) = showing.ghosts.filter(|ghosts| simulation.duration / ghosts.every > MAX_GHOSTS) else {
+        return;
+    };
+    let message =
+        format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(ghosts.every));
+    let error = Diagnostic::error("too-many-ghosts", message);
+    let tables = root.named("body");
+    let span = tables.get(body).and_then(|(_, _, view)| view.table("ghosts").span("every"));
+    context.diagnostics.extend(span.map(|span| error.at(span, "").help("ghosts = duration / every")));
+    showing.ghosts = None;
+}
+
+fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
+    let arrow = wanted(arrows, key)?;
+    Some(Arrow { scale: arrow.number("scale"), color: arrow.color("color") })
+}
+
+/// How a spring is drawn, if it is.
+pub(super) fn coil(spring: &View<'_>) -> Option<Coil> {
+    if spring.boolean("coil") == Some(false) {
+        return None;
+    }
+    let coil = spring.table("coil");
+    Some(Coil {
+        radius: coil.number("radius"),
+        turns: coil.integer("turns").and_then(|turns| u32::try_from(turns).ok()),
+        color: coil.color("color"),
+    })
+}
+
+/// The table of what `true` or a table asks for; empty where it is `true`.
+pub(super) fn wanted<'a>(view: &View<'a>, key: &str) -> Option<View<'a>> {
+    (view.boolean(key) == Some(true) || view.variant(key).is_some()).then(|| view.table(key))
+}

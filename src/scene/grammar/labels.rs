@@ -1,0 +1,96 @@
+//! The keys of what is measured and written: labels, the scale bar, the grid.
+
+use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
+use super::keys::POSITIVE;
+use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use crate::scene::{Corner, GridPlane, Side};
+
+fn corners() -> Vec<&'static str> {
+    Corner::ALL.iter().map(|corner| corner.name()).collect()
+}
+
+fn sides() -> Vec<&'static str> {
+    Side::ALL.iter().map(|side| side.name()).collect()
+}
+
+fn planes() -> Vec<&'static str> {
+    GridPlane::ALL.iter().map(|plane| plane.name()).collect()
+}
+
+static SCALE_BAR_KINDS: [Kind; 2] = [Boolean, Table(&SCALE_BAR_TABLE)];
+static GRID_KINDS: [Kind; 2] = [Boolean, Table(&GRID_TABLE)];
+
+pub(super) const LABEL: Key =
+    Key::new("label", Named(&LABEL_TABLE), "Texts in the picture, with [values of the moment](#labels)")
+        .also(&["labels", "text", "caption"]);
+pub(super) const SCALE_BAR: Key =
+    Key::new("scale_bar", Either(&SCALE_BAR_KINDS), "A bar that shows a length, at the middle of the motion")
+        .default("false")
+        .also(&["scalebar", "ruler", "scale"]);
+pub(super) const GRID: Key =
+    Key::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read places from")
+        .default("false")
+        .also(&["grids", "graph_paper"]);
+
+static LABEL_TABLE: TableSpec = TableSpec {
+    noun: "a label",
+    rule: Rule::AtMostOne(&[&["body", "corner"]]),
+    keys: &[
+        Key::new(
+            "text",
+            Text,
+            "What it says; `${t:.2}` stands for the time with 2 decimals, and likewise for any formula",
+        )
+        .required()
+        .also(&["content", "value", "caption"]),
+        Key::new("body", Reference(Collection::Body), "The body that it stands beside")
+            .default("none: it stands in a corner")
+            .also(&["on", "of", "attach", "attached_to"]),
+        Key::new("side", Choice(sides), "With `body`, the side on which it stands").default("above"),
+        Key::new(
+            "ghosts",
+            Boolean,
+            "With `body`, whether each of its ghosts has one, with the values of its time",
+        )
+        .default("false"),
+        Key::new("corner", Choice(corners), "Where in the picture it stands; one stands below the other")
+            .default("top-left")
+            .also(&["place", "position", "location", "at"]),
+        Key::new(
+            "size",
+            Number(Bound::From(0.01, 0.5)),
+            "The height of its lines, as part of the picture's height",
+        )
+        .default("0.055"),
+        Key::new("color", Color, "Its color")
+            .default("dark, or light before a dark background")
+            .also(&["colour"]),
+    ],
+};
+
+static SCALE_BAR_TABLE: TableSpec = TableSpec {
+    noun: "the scale bar",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("length", POSITIVE, "The length that it shows")
+            .unit("m")
+            .default("1, 2 or 5 times a power of ten, about a fifth of the picture's width")
+            .also(&["size", "width"]),
+        Key::new("corner", Choice(corners), "Where in the picture it stands")
+            .default("bottom-left")
+            .also(&["place", "position", "location", "at"]),
+    ],
+};
+
+static GRID_TABLE: TableSpec = TableSpec {
+    noun: "the grid",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("spacing", POSITIVE, "The distance from one line to the next")
+            .unit("m")
+            .default("that of the ground's tiles")
+            .also(&["step", "every", "tile", "size"]),
+        Key::new("plane", Choice(planes), "Where it is: on the ground, or upright behind the motion")
+            .default("ground"),
+    ],
+};

@@ -1,0 +1,114 @@
+//! The keys that show physics: arrows, axes, ghosts, trails and coils.
+
+use super::Kind::{Boolean, Color, Either, Integer, Table};
+use super::keys::POSITIVE;
+use super::{Key, Kind, Rule, TableSpec};
+
+static AXES_KINDS: [Kind; 2] = [Boolean, Table(&AXES_TABLE)];
+static TRAIL_KINDS: [Kind; 2] = [Boolean, Table(&TRAIL_TABLE)];
+static COIL_KINDS: [Kind; 2] = [Boolean, Table(&COIL_TABLE)];
+static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
+
+// What is shown of a body beside itself.
+
+pub(super) const ARROWS: Key =
+    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows for its velocity, its acceleration and the force on it")
+        .also(&["vectors", "arrow"]);
+pub(super) const AXES: Key =
+    Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which turn with it")
+        .default("false")
+        .also(&["triad", "frame"]);
+pub(super) const GHOSTS: Key = Key::new(
+    "ghosts",
+    Table(&GHOSTS_TABLE),
+    "Where it has been, every so many seconds, paler, as a stroboscope shows it",
+)
+.also(&["ghost", "strobe", "stroboscope", "onion_skin"]);
+pub(super) const TRAIL: Key =
+    Key::new("trail", Either(&TRAIL_KINDS), "A line along the way that it has come")
+        .default("false")
+        .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
+// How a spring is drawn.
+pub(super) const COIL: Key =
+    Key::new("coil", Either(&COIL_KINDS), "Whether it is drawn, as a coil between its ends, and how")
+        .default("true")
+        .also(&["look", "drawn", "draw", "visible"]);
+
+const COLOR: Key = Key::new("color", Color, "Its color").also(&["colour"]);
+
+static ARROWS_TABLE: TableSpec = TableSpec {
+    noun: "a body's arrows",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("velocity", ARROW, "Its velocity, blue").default("false").also(&["v"]),
+        Key::new("acceleration", ARROW, "The sum of the forces on it by its mass, orange")
+            .default("false")
+            .also(&["a"]),
+        Key::new("force", ARROW, "The sum of the forces on it, magenta")
+            .default("false")
+            .also(&["f", "forces"]),
+    ],
+};
+
+const ARROW: Kind = Either(&ARROW_KINDS);
+
+static ARROW_TABLE: TableSpec = TableSpec {
+    noun: "an arrow",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("scale", POSITIVE, "Its length for each m/s, m/s² or N")
+            .unit("m")
+            .default("the same for all of its kind, so that the longest is easily seen")
+            .also(&["length", "factor", "size"]),
+        COLOR.default("that of its kind"),
+    ],
+};
+
+static AXES_TABLE: TableSpec = TableSpec {
+    noun: "a body's axes",
+    rule: Rule::Any,
+    keys: &[Key::new("length", POSITIVE, "The length of each")
+        .unit("m")
+        .default("twice as far as the body reaches")
+        .also(&["size", "scale"])],
+};
+
+static GHOSTS_TABLE: TableSpec = TableSpec {
+    noun: "ghosts",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("every", POSITIVE, "The time from one to the next; the first is at 0")
+            .unit("s")
+            .required()
+            .also(&["interval", "period", "step", "dt"]),
+        Key::new("arrows", Boolean, "Whether each has the arrows of the body").default("true"),
+    ],
+};
+
+static TRAIL_TABLE: TableSpec = TableSpec {
+    noun: "a trail",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("duration", POSITIVE, "How far back it goes; it becomes thin towards its end")
+            .unit("s")
+            .default("to the beginning")
+            .also(&["length", "time"]),
+        Key::new("width", POSITIVE, "Its width")
+            .unit("m")
+            .default("three thousandths of the picture's")
+            .also(&["thickness", "radius"]),
+        COLOR.default("that of the body"),
+    ],
+};
+
+static COIL_TABLE: TableSpec = TableSpec {
+    noun: "a coil",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("radius", POSITIVE, "Its radius")
+            .unit("m")
+            .default("after its length and the bodies at its ends"),
+        Key::new("turns", Integer(1, 200), "The number of its turns").default("after its length and radius"),
+        COLOR.default("steel"),
+    ],
+};

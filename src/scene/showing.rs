@@ -1,0 +1,89 @@
+//! The part of a checked scene that shows its physics: arrows, axes, ghosts, trails and coils.
+
+use super::Color;
+
+/// What is shown of a body beside itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Showing {
+    /// Arrows for its vectors, in the order of [`Quantity::ALL`].
+    pub arrows: [Option<Arrow>; 3],
+    /// Its own axes.
+    pub axes: Option<BodyAxes>,
+    /// Where it has been, every so many seconds.
+    pub ghosts: Option<Ghosts>,
+    /// The way that it has come.
+    pub trail: Option<Trail>,
+}
+
+/// A vector of a body that an arrow can show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Its velocity, m/s.
+    Velocity,
+    /// The sum of the forces on it by its mass, m/s².
+    Acceleration,
+    /// The sum of the forces on it, N.
+    Force,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
+
+    /// Its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Velocity => "velocity",
+            Quantity::Acceleration => "acceleration",
+            Quantity::Force => "force",
+        }
+    }
+}
+
+/// An arrow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arrow {
+    /// Its length for one unit of what it shows, m; none: the same for all arrows of its kind that have none, so
+    /// that the longest of the whole run is easily seen.
+    pub scale: Option<f64>,
+    /// Its color; none: that of its kind.
+    pub color: Option<Color>,
+}
+
+/// The axes that are drawn on a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyAxes {
+    /// The length of each, m; none: twice as far as the body reaches.
+    pub length: Option<f64>,
+}
+
+/// The places of a body as a stroboscope shows them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ghosts {
+    /// The time from one to the next, s; the first is at 0.
+    pub every: f64,
+    /// Whether each has the arrows of the body.
+    pub arrows: bool,
+}
+
+/// A line along the way of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Trail {
+    /// How far back it goes, s; none: to the beginning.
+    pub duration: Option<f64>,
+    /// Its width, m; none: as is well seen.
+    pub width: Option<f64>,
+    /// Its color; none: that of the body.
+    pub color: Option<Color>,
+}
+
+/// How a spring is drawn. What is not given follows from its length and from what it is fastened to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coil {
+    /// The radius of the coil, m.
+    pub radius: Option<f64>,
+    /// The number of its turns.
+    pub turns: Option<u32>,
+    /// The color of its wire.
+    pub color: Option<Color>,
+}

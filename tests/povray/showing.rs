@@ -1,0 +1,235 @@
+//! What shows physics is where it must be.
+
+use glam::{DVec2, DVec3};
+use jabuka::scene::Scene;
+use jabuka::{Run, simulate::Frames};
+
+use crate::image::{Image, Rgb, is_green, is_red};
+use crate::pinhole::{Pinhole, SIZE};
+use crate::povray::{render, render_all};
+use crate::scene::{DARK, script, script_of};
+
+fn front() -> Pinhole {
+    Pinhole::new([0.0, 0.0, 10.0], [0.0, 0.0, 0.0])
+}
+
+fn is_white([r, g, b]: Rgb) -> bool {
+    r.min(g).min(b) > 120
+}
+
+/// Whether some pixel near to where the camera sees a place is of some kind.
+fn near(image: &Image, place: DVec2, is_wanted: impl Fn(Rgb) -> bool) -> bool {
+    let steps = || (-2..=2).map(f64::from);
+    steps().any(|dx| steps().any(|dy| is_wanted(image.at(place + DVec2::new(dx, dy)))))
+}
+
+#[test]
+fn arrows_begin_at_the_surface_and_are_as_long_as_their_scale_says() {
+    let scene = |unit: &str| {
+        let ball =
+            "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [2, 0, 0]\nforce = [0, -3, 0]\nmass = 3\n";
+        let arrows = "arrows = { velocity = { scale = 0.5, color = 'red' }, \
+             acceleration = { color = 'lime' , scale = 1 }, force = { scale = 0.1, color = 'blue' } }\n";
+        script(&format!("{ball}{arrows}{}{DARK}{unit}", front().toml()))
+    };
+    let images = render_all([scene(""), scene("[povray]\nunit = 0.1\n")], SIZE);
+    let sees = |x: f64, y: f64| front().sees(DVec3::new(x, y, 0.0));
+    for image in &images {
+        for x in [0.55, 1.0, 1.4] {
+            assert!(near(image, sees(x, 0.0), is_red), "velocity at {x}");
+        }
+        assert!(!near(image, sees(1.6, 0.0), is_red), "0.5 m + 2 m/s × 0.5 is the end");
+        // The acceleration of 1 m/s² is 1 m long, and covers the force of 3 N, 0.3 m.
+        for y in [-0.7, -1.0, -1.4] {
+            assert!(near(image, sees(0.0, y), is_green), "acceleration at {y}");
+        }
+        assert!(!near(image, sees(0.0, -1.7), is_green));
+    }
+    assert!(images[0].difference(&images[1]) < 0.5, "the unit changes nothing");
+}
+
+#[test]
+fn a_body_has_its_axes_and_they_turn_with_it() {
+    let body = "[body.b]\nshape.box.size = [0.4, 0.4, 0.4]\norientation = [0, 0, 90]\naxes.length = 2\n";
+    let image = render(&script(&format!("{body}{}", front().toml())), SIZE);
+    assert!(near(&image, front().sees(DVec3::Y * 1.2), is_red), "its x is up");
+    assert!(near(&image, front().sees(DVec3::X * -1.2), is_green), "its y is left");
+}
+
+#[test]
+fn ghosts_and_trail_are_where_the_body_was() {
+    let scene = |keys: &str| {
+        let body = "[body.ball]\nshape.sphere.radius = 0.3\nlocation = [-3, 0, 0]\nvelocity = [3, 3, 0]\nforce = [0, -3, 0]\n";
+        let text = format!(
+            "{body}material = {{ color = 'red', finish = 'luminous' }}\n{keys}{}{DARK}",
+            front().toml()
+        );
+        script_of(&format!("simulation = {{ duration = 2, integrator = 'rk4' }}\n{text}"), 50)
+    };
+    let plain = scene("");
+    let [ghosts, trail, none] =
+        render_all([scene("ghosts.every = 0.5\n"), scene("trail = { color = 'lime' }\n"), plain], SIZE);
+    let at = |t: f64| front().sees(DVec3::new(3.0 * t - 3.0, 3.0 * t - 1.5 * t * t, 0.0));
+    for t in [0.0, 0.5, 1.0, 1.5] {
+        let [r, g, b] = ghosts.at(at(t));
+        assert!((100..200).contains(&r) && g > 8 && g < r && b < r, "a pale ghost at {t}: {:?}", [r, g, b]);
+        assert_eq!(none.at(at(t)), [0; 3]);
+    }
+    assert_eq!(ghosts.at(at(1.25)), [0; 3]);
+    assert_eq!(ghosts.at(at(2.0)), [255, 0, 0]);
+    for t in [0.1, 0.73, 1.31, 1.8] {
+        assert!(near(&trail, at(t), is_green), "the trail at {t}");
+    }
+}
+
+#[test]
+fn a_spring_is_drawn_between_its_ends_unless_it_must_not() {
+    let scene = |keys: &str| {
+        let ball = "[body.ball]\nshape.sphere.radius = 0.3\nlocation = [2, 0, 0]\n";
+        let spring = "[force.s.spring]\nbetween = ['ball', [-2, 0, 0]]\nstiffness = 1\n";
+        script(&format!("{ball}{spring}{keys}{}{DARK}", front().toml()))
+    };
+    let hidden = scene("coil = false\n");
+    assert!(!hidden.contains("Coil"));
+    let green = scene("coil = { color = 'lime', radius = 0.4, turns = 6 }\n");
+    let [green, hidden] = render_all([green, hidden], SIZE);
+    let spot = green.spot(is_green);
+    let (left, right) = (front().sees(DVec3::X * -2.0), front().sees(DVec3::X * 1.7));
+    for pixel in &spot.0 {
+        assert!((left.x - 7.0..=right.x + 1.0).contains(&pixel.x), "{pixel}");
+    }
+    assert!(spot.area() > 150.0, "{}", spot.area());
+    // Turns are all along.
+    for x in -12..=12 {
+        let x = front().sees(DVec3::X * (0.1 * f64::from(x))).x;
+        assert!(spot.0.iter().any(|pixel| (pixel.x - x).abs() < 4.0), "{x}");
+    }
+    assert_eq!(hidden.spot(is_green).area(), 0.0);
+}
+
+/// Labels stand in the corners, as large as they should be, whatever the camera: also in pictures of another shape, in
+/// front of whatever is there, and sharp while the rest is not.
+#[test]
+fn labels_stand_in_the_corners_of_all_cameras() {
+    let corners = ["top-left", "top-right", "bottom-left", "bottom-right", "top", "bottom"];
+    let labels: String = corners
+        .iter()
+        .map(|corner| {
+            format!("[label.{corner}]\ntext = 'HHH'\ncorner = '{corner}'\nsize = 0.12\ncolor = 'white'\n")
+        })
+        .collect();
+    let ball = "[body.ball]\nshape.sphere.radius = 1\nmaterial = { color = 'blue', finish = 'luminous' }\n";
+    let scene = |camera: &str| script(&format!("{ball}{labels}{DARK}{camera}"));
+    let images = render_all(
+        [
+            scene(""),
+            scene("[camera]\nlocation = [1, 2, 9]\nangle = 80\n"),
+            scene("[camera]\nprojection = 'orthographic'\nlocation = [0, 0, 9]\nwidth = 4\n"),
+            scene("[camera]\nprojection = 'orthographic'\nlocation = [0, 9, 0]\n"),
+            scene("[camera]\nlocation = [0, 9, 0]\n"),
+            scene("[camera]\nlocation = [0, 0, 1.5]\n"),
+            scene("[camera]\nlocation = [0, 0, 9]\naperture = 0.2\n"),
+            scene("[povray]\nunit = 0.001\n"),
+        ],
+        [160, 120],
+    );
+    for (number, image) in images.iter().enumerate() {
+        for corner in corners {
+            let inside = |pixel: &DVec2| {
+                let top = pixel.y < 60.0;
+                let (left, right) = (pixel.x < 50.0, pixel.x > 110.0);
+                corner.starts_with("top") == top
+                    && corner.ends_with("left") == left
+                    && corner.ends_with("right") == right
+            };
+            let spot: Vec<DVec2> = image.spot(is_white).0.into_iter().filter(inside).collect();
+            let middle = spot.iter().sum::<DVec2>() / spot.len() as f64;
+            assert!((40..400).contains(&spot.len()), "camera {number}, {corner}: {} pixels", spot.len());
+            let edge = if middle.y < 60.0 { middle.y } else { 120.0 - middle.y };
+            assert!((4.0..20.0).contains(&edge), "camera {number}, {corner}: {middle}");
+            if corner.contains('-') {
+                let edge = if middle.x < 80.0 { middle.x } else { 160.0 - middle.x };
+                assert!((8.0..30.0).contains(&edge), "camera {number}, {corner}: {middle}");
+            } else {
+                assert!((middle.x - 80.0).abs() < 3.0, "camera {number}, {corner}: {middle}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_label_stands_beside_its_body_and_is_not_hidden() {
+    let scene = |side: &str| {
+        let ball = "[body.ball]\nshape.sphere.radius = 0.5\nlocation = [1, 0, 0]\nmaterial = { color = 'blue', finish = 'luminous' }\n";
+        let wall = "[body.wall]\nshape.box.size = [9, 9, 0.1]\nlocation = [0, 0, 2]\nmaterial = { color = 'red', finish = 'luminous' }\n";
+        let label =
+            format!("[label.l]\ntext = 'HH'\nbody = 'ball'\nside = '{side}'\nsize = 0.1\ncolor = 'white'\n");
+        script(&format!("{ball}{wall}{label}{}{DARK}", front().toml()))
+    };
+    let images = render_all([scene("above"), scene("below"), scene("left"), scene("right")], SIZE);
+    let middle = front().sees(DVec3::X);
+    let sides = [DVec2::NEG_Y, DVec2::Y, DVec2::NEG_X, DVec2::X];
+    for (image, side) in images.iter().zip(sides) {
+        let off = image.spot(is_white).middle() - middle;
+        assert!(off.normalize().dot(side) > 0.9 && (8.0..30.0).contains(&off.length()), "{side}: {off}");
+    }
+}
+
+#[test]
+fn a_scale_bar_is_as_long_as_it_says() {
+    let scene = |camera: &str| {
+        let ball =
+            "[body.ball]\nshape.sphere.radius = 0.5\nmaterial = { color = 'blue', finish = 'luminous' }\n";
+        script(&format!("scale_bar = {{ length = 2 }}\n{ball}{DARK}{camera}"))
+    };
+    let ortho = "[camera]\nprojection = 'orthographic'\nlocation = [0, 0, 9]\nwidth = 8\n";
+    let images = render_all([scene(ortho), scene(&front().toml())], SIZE.map(|pixels| 4 * pixels));
+    let wide = [160.0, 4.0 * (front().sees(DVec3::X) - front().sees(-DVec3::X)).x];
+    for (image, wide) in images.iter().zip(wide) {
+        // The longest row of white pixels.
+        let spot = image.spot(is_white).0;
+        let row = |y: f64| spot.iter().filter(|pixel| pixel.y == y).count();
+        let longest = (0..4 * SIZE[1]).map(|y| row(f64::from(y) + 0.5)).max().unwrap();
+        assert!((longest as f64 - wide).abs() <= 2.0, "{longest} pixels, not {wide}");
+    }
+}
+
+#[test]
+fn a_grid_has_its_lines_where_its_numbers_say() {
+    let text = "grid = { plane = 'wall', spacing = 1 }\n[body.ball]\nshape.sphere.radius = 0.2\nvelocity = [1, 0.5, 0]\n\
+        [simulation]\nduration = 4\n[camera]\nprojection = 'orthographic'\nlocation = [2, 1, 9]\nwidth = 8\n";
+    let script = script(&format!("{text}{DARK}"));
+    let image = render(&script, [960, 540]);
+    let sees = |x: f64, y: f64| DVec2::new(480.0 + (x - 2.0) * 120.0, 270.0 - (y - 1.0) * 120.0);
+    let bright = |[r, g, b]: Rgb| u32::from(r) + u32::from(g) + u32::from(b) > 100;
+    for x in 1..=4 {
+        assert!(near(&image, sees(f64::from(x), 1.5), bright), "a line at x = {x}");
+        assert!(!near(&image, sees(f64::from(x) + 0.5, 1.5), bright), "no line at x = {x}.5");
+    }
+    for number in ["\"1\"", "\"2\"", "\"4\"", "\"x (m)\"", "\"y (m)\""] {
+        assert!(script.contains(number), "{number}");
+    }
+}
+
+/// Images with motion blur show the past of each of their moments, and labels their time.
+#[test]
+fn the_moments_of_a_shutter_have_their_own_past() {
+    let text = "[simulation]\nduration = 1\n[camera]\nshutter = 0.04\nsamples = 2\n\
+        [body.ball]\nshape.sphere.radius = 0.2\nvelocity = [1, 0, 0]\nghosts.every = 0.22\ntrail.duration = 0.1\n\
+        [label.t]\ntext = 't = ${t:.3} s'\n";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let mut frames = Frames::new(&scene);
+    let frame = frames.nth(5).unwrap().unwrap();
+    let shutter = scene.camera.shutter.unwrap();
+    let mut blurred = String::new();
+    let put = |piece: &str| -> Result<(), Box<dyn std::error::Error>> {
+        blurred.push_str(piece);
+        Ok(())
+    };
+    run.emitter().shutter(&frame, shutter, frames.branch().moments(shutter), put).unwrap();
+    assert!(blurred.contains("\"t = 0.210 s\"") && blurred.contains("\"t = 0.230 s\""), "{blurred}");
+    let ghosts = |script: &str| script.matches("Material_").count() + script.matches("Ghost_").count();
+    let (first, second) = blurred.split_once("#case (1)").unwrap();
+    assert_eq!(ghosts(second), ghosts(first) + 1, "the ghost of 0.22 s is in the second only");
+}
