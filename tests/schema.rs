@@ -90,6 +90,26 @@ fn the_schema_tells_what_a_key_means() {
     assert_eq!(integrator["default"], "euler-cromer");
 }
 
+/// Colors are known by names in any case, and by three digits or six.
+#[test]
+fn the_schema_knows_a_color_as_the_check_does() {
+    let validator = validator();
+    let scene = |color: &str| format!("[body.ball]\nshape.sphere.radius = 1\nmaterial.color = \"{color}\"\n");
+    for (color, good) in [
+        ("tomato", true),
+        ("SlateGrey", true),
+        ("#f08", true),
+        ("#FF0088", true),
+        ("#ff", false),
+        ("#ff00gg", false),
+        ("blurple", false),
+    ] {
+        let text = scene(color);
+        assert_eq!(Scene::parse(&text).is_ok(), good, "{color}");
+        assert_eq!(validator.is_valid(&of_table(DeTable::parse(&text).unwrap().get_ref())), good, "{color}");
+    }
+}
+
 /// The schema as the command prints it.
 fn schema() -> Value {
     let output = jabuka().arg("schema").output().unwrap();

@@ -4,7 +4,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Bound, Key, Kind, Rule, SCENE, TableSpec};
+use super::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::MATERIALS;
 use crate::scene::color::NAMES;
 
 /// A JSON Schema (draft 7) of scenes.
@@ -119,6 +120,11 @@ fn default_value(key: &Key) -> Option<Value> {
 
 fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     match kind {
+        // An editor offers what an `enum` has, whatever else the name may be.
+        Kind::Reference(Collection::Material) => {
+            let library: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
+            object(json!({ "anyOf": [{ "type": "string", "enum": library }, { "type": "string" }] }))
+        }
         Kind::Text | Kind::Sdl | Kind::Reference(_) => object(json!({ "type": "string" })),
         Kind::Boolean => object(json!({ "type": "boolean" })),
         Kind::Number(bound) => number(*bound),
@@ -139,7 +145,9 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| name).collect();
             object(json!({ "anyOf": [
                 { "type": "string", "enum": names },
-                { "type": "string", "pattern": "^#[0-9a-fA-F]{6}$" },
+                // A schema cannot compare names without heed to their case, so it lets others pass.
+                { "type": "string", "pattern": "^[a-zA-Z]*[A-Z][a-zA-Z]*$" },
+                { "type": "string", "pattern": "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$" },
                 list(number(Bound::From(0.0, 1.0)), 3, 3),
             ] }))
         }
