@@ -3,19 +3,19 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Scene and the frame that shows it best.
-frames='parabola:110 damped_spring:10 tumbling_box:176 explicit_euler:290 euler_cromer:290 feather_and_stone:45
-    figure_eight:30 crossed_fields:40 shapes:10 atom:25 planets:40 string_of_balls:40 hammer:13'
+# Scene and the time (s) that shows it best.
+moments='parabola:4.4 damped_spring:0.4 tumbling_box:7.04 explicit_euler:11.6 euler_cromer:11.6 feather_and_stone:0.45
+    figure_eight:1.2 crossed_fields:1.6 shapes:0.4 atom:5e-17 planets:1.333e8 string_of_balls:1.6 hammer:0.26 mesh:1.4
+    projectile:2 crank:1.1 dominoes:0 scattered_balls:0'
 
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
 pictures=()
-for entry in $frames; do
+for entry in $moments; do
     scene=${entry%%:*}
-    frame=$(printf '%04d' "${entry##*:}")
-    cargo run --quiet --release -- compile "scenes/$scene.toml" --frames "${entry##*:}" -o "$folder/$scene" >/dev/null 2>&1
-    (cd "$folder/$scene" && povray -D -GA +W480 +H270 +A0.1 +R3 "+Iframe_$frame.pov" +Opicture.png >/dev/null 2>&1)
-    pictures+=("$folder/$scene/picture.png")
+    cargo run --quiet --release -- still "scenes/$scene.toml" --time "${entry##*:}" --size 480x270 \
+        -o "$folder/$scene.png" >/dev/null
+    pictures+=("$folder/$scene.png")
 done
-montage "${pictures[@]}" -tile 5x -geometry 256x144+2+2 "$folder/gallery.png"
+montage "${pictures[@]}" -tile 6x -geometry 256x144+2+2 "$folder/gallery.png"
 convert "$folder/gallery.png" -strip -depth 8 -define png:compression-level=9 docs/gallery.png

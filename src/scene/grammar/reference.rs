@@ -18,6 +18,7 @@ pub fn reference() -> String {
     page.section("", &SCENE);
     page.formulas();
     page.text.push_str(MANY);
+    page.text.push_str(MOTION);
     page.labels();
     page.text
 }
@@ -115,11 +116,47 @@ start from the folder of the file that they stand in, and stay in that of the sc
 `povray.assets`, start from the folder of the scene in every file.
 ";
 
+/// What there is to say of motion that is given.
+const MOTION: &str = "
+## Motion that is given
+
+```toml
+[body.crank]
+shape.box.size = [1.0, 0.1, 0.1]
+motion.formula.location = [\"0.5*cos(3*t)\", \"0.5*sin(3*t)\", 0]
+motion.formula.orientation = [0, 0, \"deg(3*t)\"]
+
+[body.lift]
+shape.box.size = [1, 0.1, 1]
+motion.keyframes.at = [
+  { time = 0, location = [2, 0, 0] },
+  { time = 2, location = [2, 3, 0] },
+  { time = 3, orientation = [0, 90, 0] },
+]
+
+[camera]
+location = [0, 2, 12]
+follow = { body = \"lift\", distance = 9 }
+orbit.period = 20
+```
+
+Formulas of a `motion`, of the camera and of lights know the time `t`, s. Velocities follow from the motion; what such a body does to
+others, by springs say, counts, and so does the work of what guides it. Its kinetic energy and its momentum do not.
+
+A `motion.trajectory` is a CSV file with a row for each time and body: the columns `t` (or `time`), `body`, `x`, `y`, `z`, and, if they are there,
+`qx`, `qy`, `qz`, `qw` (a quaternion), `vx`, `vy`, `vz` and `wx`, `wy`, `wz` (in world axes). Units stand in brackets: `x [cm]`. `jabuka export`
+writes the same table, so a run can be drawn with other bodies, and the run of any other program with jabuka.
+";
+
 /// What there is to say of labels before their names are listed.
 const LABELS: &str = "
 ## Labels
 
 ```toml
+[body.ball]
+shape.sphere.radius = 0.2
+velocity = [3, 4, 0]
+
 [label.clock]
 text = \"t = ${t:.2} s\"
 
