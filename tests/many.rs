@@ -141,3 +141,29 @@ fn ten_thousand_bodies_with_formulas_have_their_first_script_soon() {
     assert!(took < Duration::from_secs(3), "{took:?}");
     println!("10,000 bodies with formulas: {took:?}");
 }
+
+/// A mesh is as large as its file says, also before it is known what it weighs.
+#[test]
+fn scattered_meshes_do_not_overlap() {
+    let folder = tempfile::tempdir().unwrap();
+    let vertices = "v 5 5 5\nv 5 -5 -5\nv -5 5 -5\nv -5 -5 5\n";
+    std::fs::write(
+        folder.path().join("tetrahedron.obj"),
+        format!("{vertices}f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"),
+    )
+    .unwrap();
+    let scene = "
+        simulation.duration = 0
+        [body.stone]
+        shape.mesh.file = 'tetrahedron.obj'
+        repeat.scatter = { count = 20, within.sphere.radius = 60 }
+        ";
+    std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    let scene = jabuka::Scene::from_path(folder.path().join("scene.toml")).unwrap();
+    let at: Vec<_> = scene.bodies.iter().map(|body| body.start.location).collect();
+    for (i, a) in at.iter().enumerate() {
+        for b in &at[..i] {
+            assert!(a.distance(*b) >= 2.0 * 75f64.sqrt() * (1.0 - 1e-12), "{a} {b}");
+        }
+    }
+}

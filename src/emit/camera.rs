@@ -168,7 +168,15 @@ impl Moving {
 
     fn of(&self, frame: &Frame) -> Placed {
         let (body, start, size) = self.followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
-        let here = frame.bodies.get(body).map_or(start, |body| body.location);
+        let follow = self.camera.motion.follow;
+        let behind = follow.and_then(|follow| {
+            let lag = follow.lag?;
+            frame.past.lagging.iter().find(|lagging| lagging.is_of(follow.body, lag))
+        });
+        let here = match behind {
+            Some(lagging) => lagging.location,
+            None => frame.bodies.get(body).map_or(start, |body| body.location),
+        };
         self.placed.moved(&self.camera, size, frame.time, [start, here])
     }
 }

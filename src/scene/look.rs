@@ -152,6 +152,8 @@ pub struct Follow {
     pub body: usize,
     /// How far the camera stays from it, m; none: as at the start.
     pub distance: Option<f64>,
+    /// The time by which the camera is behind, s.
+    pub lag: Option<f64>,
 }
 
 impl CameraMotion {

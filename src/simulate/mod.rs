@@ -5,6 +5,7 @@
 mod arrows;
 mod build;
 mod frame;
+mod lag;
 mod moments;
 mod selection;
 mod survey;
@@ -17,6 +18,7 @@ use crate::scene::Scene;
 pub use arrows::{axis, root, shown, surface};
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
+pub use lag::Lagging;
 pub use moments::Branch;
 pub use selection::Selection;
 pub use survey::{Bounds, Crossing, Survey, survey};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{BodyFrame, Frame};
+use super::{BodyFrame, Frame, Lagging};
 use crate::dynamics::Dynamics;
 use crate::scene::{Scene, Showing};
 
@@ -21,6 +21,8 @@ pub struct Past {
     pub trails: Vec<Way>,
     /// The ghosts that are asked for, in the order of their times.
     pub ghosts: Vec<Arc<Ghost>>,
+    /// The places that cameras ask for which follow with a lag.
+    pub lagging: Vec<Lagging>,
 }
 
 /// The way of a body up to a moment.
@@ -79,6 +81,7 @@ pub(super) struct Track {
     /// For each of them, the points of its trail, each with the number of its frame.
     ways: Vec<Vec<(usize, Passed)>>,
     ghosts: Vec<Arc<Ghost>>,
+    lagging: Vec<Lagging>,
     interval: f64,
 }
 
@@ -92,13 +95,14 @@ impl Track {
             ways: vec![Vec::new(); asks.len()],
             asks,
             ghosts: Vec::new(),
+            lagging: Lagging::of(scene),
             interval: 1.0 / scene.simulation.frame_rate,
         }
     }
 
     /// That of a run whose past nobody asks for.
     pub(super) fn idle() -> Track {
-        Track { asks: Arc::new([]), ways: Vec::new(), ghosts: Vec::new(), interval: 1.0 }
+        Track { asks: Arc::new([]), ways: Vec::new(), ghosts: Vec::new(), lagging: Vec::new(), interval: 1.0 }
     }
 
     /// Whether somebody wants to know how it was between frames.
@@ -136,6 +140,7 @@ impl Track {
 
     /// Remembers where bodies are in a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
+        self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         for ((body, showing), way) in self.asks.iter().zip(&mut self.ways) {
             let Some(trail) = showing.trail else { continue };
             // Which frames are kept follows from their numbers and the present one alone.
@@ -168,7 +173,8 @@ impl Track {
             }
             trails.push(Way { body: *body, points });
         }
-        Past { trails, ghosts: self.ghosts.clone() }
+        let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();
+        Past { trails, ghosts: self.ghosts.clone(), lagging }
     }
 }
 

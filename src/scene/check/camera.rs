@@ -104,7 +104,11 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
 fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     let follow = keys.variant("follow")?;
     let body = *context.names.bodies.get(follow.text("body")?)?;
-    Some(Follow { body, distance: follow.number("distance") })
+    Some(Follow {
+        body,
+        distance: follow.number("distance"),
+        lag: follow.number("lag").filter(|lag| *lag > 0.0),
+    })
 }
 
 /// The error of a shutter that is still open when the next image begins.

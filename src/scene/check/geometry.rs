@@ -1,5 +1,7 @@
 //! What the placing of copies must know of a body before there is one: how large it is, and how it is turned.
 
+use std::path::Path;
+
 use glam::DQuat;
 
 use super::view::View;
@@ -15,10 +17,21 @@ pub(in crate::scene) struct Geometry {
     pub(in crate::scene) orientation: DQuat,
 }
 
-/// The geometry of a body that is described by a table. What is wrong with it, its own reading says.
-pub(in crate::scene) fn of(table: &Table, spec: &'static TableSpec) -> Geometry {
-    let context = &mut Context::silent();
-    let view = View::new(spec, Some(table));
-    let radius = shape::read("", &view.table("shape"), context).bounding_radius();
-    Geometry { radius, orientation: body::orientation("", &view, context) }
+/// What reads the geometry of bodies before they are checked; a mesh that several have is read once.
+pub(in crate::scene) struct Geometer<'a>(Context<'a>);
+
+impl<'a> Geometer<'a> {
+    /// For the bodies of a scene whose files are in a folder.
+    pub(in crate::scene) fn new(folder: Option<&'a Path>, trust: bool) -> Geometer<'a> {
+        Geometer(Context { folder, trust, ..Context::silent() })
+    }
+
+    /// The geometry of a body that is described by a table. What is wrong with it, its own reading says.
+    pub(in crate::scene) fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry {
+        let view = View::new(spec, Some(table));
+        let radius = shape::read("", &view.table("shape"), &mut self.0).bounding_radius();
+        let orientation = body::orientation("", &view, &mut self.0);
+        self.0.diagnostics.clear();
+        Geometry { radius, orientation }
+    }
 }

@@ -163,7 +163,8 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let unreadable = diagnostics.len();
 
     let mut found = Vec::new();
-    let Expansion { groups, of_defaults } = expand::expand(&mut root, &sources, &mut found);
+    let geometer = geometry::Geometer::new(input.folder, options.trust);
+    let Expansion { groups, of_defaults } = expand::expand(&mut root, geometer, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,

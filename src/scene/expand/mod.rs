@@ -24,6 +24,7 @@ pub(super) use self::include::include;
 pub(super) use self::place::in_string;
 use self::random::Stream;
 use self::repeat::INDICES;
+use super::check::geometry::Geometer;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Node, Table, Value};
@@ -32,8 +33,14 @@ use crate::diagnostic::{Diagnostic, Sources, Span};
 
 /// Replaces every formula of a scene by its value, and every body that is repeated by its copies, after the defaults have
 /// been laid under everything.
-pub(super) fn expand(root: &mut Table, sources: &Sources, diagnostics: &mut Vec<Diagnostic>) -> Expansion {
+pub(super) fn expand(
+    root: &mut Table,
+    geometer: Geometer<'_>,
+    sources: &Sources,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Expansion {
     let mut expander = Expander {
+        geometer,
         sources,
         scope: Scope::default(),
         broken: HashSet::new(),
@@ -80,6 +87,8 @@ pub(super) struct Expansion {
 
 /// What is known while formulas are evaluated.
 struct Expander<'a> {
+    /// What tells how large bodies are.
+    geometer: Geometer<'a>,
     sources: &'a Sources,
     scope: Scope,
     /// The variables that have no value, which has been said.

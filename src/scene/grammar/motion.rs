@@ -184,6 +184,14 @@ pub(super) static FOLLOW: TableSpec = TableSpec {
             .unit("m")
             .default("as far as `location` is from it at the start, or 12 times its size")
             .also(&["offset"]),
+        Key::new(
+            "lag",
+            Number(Bound::NonNegative),
+            "The time by which the camera is behind, so that it follows softly what turns or stops",
+        )
+        .unit("s")
+        .default("0")
+        .also(&["delay", "damping", "smooth", "smoothness"]),
     ],
 };
 

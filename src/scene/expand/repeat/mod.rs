@@ -15,7 +15,7 @@ use self::pattern::Pattern;
 use super::Expander;
 use super::groups::Group;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::check::{View, geometry};
+use crate::scene::check::View;
 use crate::scene::grammar::{MAX_COPIES, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
 
@@ -157,7 +157,7 @@ impl Expander<'_> {
             Pattern::Count(_) => return,
             Pattern::Scatter(scatter) => {
                 let sizes: Vec<_> =
-                    copies.iter().map(|copy| geometry::of(&copy.table, spec).radius).collect();
+                    copies.iter().map(|copy| self.geometer.of(&copy.table, spec).radius).collect();
                 let stream = |n: usize| self.stream(&format!(".{:?}.repeat", copies[n].name));
                 match scatter.places(&sizes, stream) {
                     Ok(places) => places,
@@ -172,7 +172,7 @@ impl Expander<'_> {
         for (copy, Place { offset, turn }) in copies.iter_mut().zip(places) {
             let has_turned = turn != DQuat::IDENTITY;
             if has_turned && is_whole(&copy.table, "orientation") {
-                let turn = turn * geometry::of(&copy.table, spec).orientation;
+                let turn = turn * self.geometer.of(&copy.table, spec).orientation;
                 let quaternion = numbers(&turn.normalize().to_array(), repeat.node.span);
                 let name = Name { span: repeat.name.span, text: "quaternion".to_owned() };
                 let table = Table { entries: vec![Entry { name, node: quaternion }] };

@@ -1,0 +1,90 @@
+//! Places that come after bodies, as a camera does that follows one with a lag.
+
+use glam::DVec3;
+
+use super::Frame;
+use crate::scene::Scene;
+
+/// A place that comes after a body: x' = (b − x) / τ, where b is the location of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lagging {
+    /// The number of the body.
+    pub body: usize,
+    /// The time τ by which it is behind what moves evenly, s.
+    pub lag: f64,
+    /// Where it is, m.
+    pub location: DVec3,
+    /// The time (s) and the location of the body then.
+    seen: Option<(f64, DVec3)>,
+}
+
+impl Lagging {
+    /// Those that a scene's cameras ask for, before the run has begun.
+    pub(super) fn of(scene: &Scene) -> Vec<Lagging> {
+        let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
+        let mut all: Vec<Lagging> = Vec::new();
+        for follow in cameras.filter_map(|camera| camera.motion.follow) {
+            let Some(lag) = follow.lag else { continue };
+            if !all.iter().any(|other| other.is_of(follow.body, lag)) {
+                all.push(Lagging { body: follow.body, lag, location: DVec3::ZERO, seen: None });
+            }
+        }
+        all
+    }
+
+    /// Whether it is that of a body with a lag, s.
+    #[allow(clippy::float_cmp, reason = "it is the very number of the scene")]
+    pub fn is_of(&self, body: usize, lag: f64) -> bool {
+        self.body == body && self.lag == lag
+    }
+
+    /// The same at a frame, which is not earlier. Between two, the body is taken to move evenly; for that it is exact.
+    #[must_use]
+    pub(super) fn at(self, frame: &Frame) -> Lagging {
+        let there = frame.bodies[self.body].location;
+        let location = match self.seen {
+            None => there,
+            Some((time, _)) if frame.time <= time => self.location,
+            Some((time, before)) => {
+                let interval = frame.time - time;
+                let behind = (there - before) / interval * self.lag;
+                let fades = libm::exp(-interval / self.lag);
+                there - behind + (self.location - before + behind) * fades
+            }
+        };
+        Lagging { location, seen: Some((frame.time, there)), ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Frames;
+    use super::*;
+
+    /// Behind a body that moves at v from 0 on: x = v (t − τ + τ e^(−t/τ)), whatever the frame rate is.
+    #[test]
+    fn it_is_behind_by_its_lag_when_the_body_moves_evenly() {
+        for rate in [5, 50] {
+            let scene = Scene::parse(&format!(
+                "
+                simulation = {{ duration = 2, frame_rate = {rate} }}
+                [body.car]
+                shape.box.size = [1, 1, 1]
+                velocity = [3, 0, 0]
+                [camera]
+                follow = {{ body = 'car', lag = 0.5 }}
+                "
+            ))
+            .unwrap();
+            for frame in Frames::new(&scene).map(Result::unwrap) {
+                let exact = 3.0 * (frame.time - 0.5 + 0.5 * libm::exp(-frame.time / 0.5));
+                let x = frame.past.lagging[0].location.x;
+                assert!((x - exact).abs() < 1e-12, "{rate} {}: {x}, not {exact}", frame.time);
+            }
+            // Between frames too.
+            let between = Frames::at(&scene, 1.23).unwrap();
+            let exact = 3.0 * (1.23 - 0.5 + 0.5 * libm::exp(-1.23 / 0.5));
+            assert!((between.past.lagging[0].location.x - exact).abs() < 1e-12);
+        }
+    }
+}
