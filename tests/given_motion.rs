@@ -73,6 +73,11 @@ fn a_body_goes_where_its_formulas_say_and_its_velocities_follow() {
         assert!(body.location.truncate().abs_diff_eq(glam::DVec2::new(2.0 * cos, 2.0 * sin), 1e-14));
         assert!((1.0..2.0).contains(&body.location.z), "drawn once");
         assert!(body.velocity.abs_diff_eq(DVec3::new(-6.0 * sin, 6.0 * cos, 0.0), 1e-13));
+        assert!(
+            body.force.abs_diff_eq(DVec3::new(-18.0 * cos, -18.0 * sin, 0.0), 1e-12),
+            "m a, {}",
+            body.force
+        );
         // About z by w, and about the y axis, which that turns along, by 30° a second.
         let spin = DVec3::Z * 3.0 + DVec3::new(-sin, cos, 0.0) * 30f64.to_radians();
         assert!(body.angular_velocity.abs_diff_eq(spin, 1e-13), "{} {spin}", body.angular_velocity);

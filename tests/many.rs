@@ -5,7 +5,6 @@ mod support;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
 
 use jabuka::{Run, Scene};
 
@@ -118,9 +117,9 @@ fn more_copies_change_no_line_of_the_others() {
     }
 }
 
-/// A tenth of the time that is asked for is usual; the rest is for slow machines and builds.
+/// How long it takes is measured by `benches/reading.rs`.
 #[test]
-fn ten_thousand_bodies_with_formulas_have_their_first_script_soon() {
+fn ten_thousand_bodies_with_formulas_are_where_these_put_them() {
     let mut text = String::from("simulation.duration = 0\n[variables]\nr = 0.2\nspacing = 1.5\n");
     for n in 0..10_000 {
         let (row, column) = (n / 100, n % 100);
@@ -132,14 +131,13 @@ fn ten_thousand_bodies_with_formulas_have_their_first_script_soon() {
         .unwrap();
     }
     assert!(text.len() > 1_000_000, "{}", text.len());
-    let begin = Instant::now();
     let scene = Scene::parse(&text).unwrap();
     let run = Run::new(&scene).unwrap();
     let script = run.script(&run.frames().next().unwrap().unwrap()).unwrap();
-    let took = begin.elapsed();
     assert!(script.contains("// b9999\n"));
-    assert!(took < Duration::from_secs(3), "{took:?}");
-    println!("10,000 bodies with formulas: {took:?}");
+    let last = &scene.bodies[9_999].start;
+    assert_eq!((last.location.x, last.location.z), (1.5 * 99.0, 1.5 * 99.0));
+    assert!((last.mass - 4.0 / 3.0 * std::f64::consts::PI * 0.008).abs() < 1e-15);
 }
 
 /// A mesh is as large as its file says, also before it is known what it weighs.

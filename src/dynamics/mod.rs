@@ -109,8 +109,8 @@ pub trait Dynamics: Send {
     /// The angular velocity of a body, world axes, rad/s.
     fn angular_velocity(&self, body: BodyId) -> DVec3;
 
-    /// The resultant force on each body at this moment, N. It is evaluated for this call, and zero for bodies that do
-    /// not move.
+    /// The resultant force on each body at this moment, N. It is evaluated for this call, zero for bodies that do not
+    /// move, and m a for those whose motion is given.
     fn forces(&mut self) -> &[DVec3];
 
     /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all

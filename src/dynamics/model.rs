@@ -154,6 +154,13 @@ impl Model {
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }
 
+    /// Sets the forces on the bodies whose motion is given to what that takes, m a.
+    pub(super) fn guide(&self, t: f64, loads: &mut Loads) {
+        for (i, motion) in &self.motions {
+            loads.force[*i] = self.mass[*i] * motion.at(t).acceleration;
+        }
+    }
+
     /// Puts the bodies whose motion is given where they are at time `t`.
     pub fn place(&self, t: f64, state: &mut State) {
         for (i, motion) in &self.motions {

@@ -9,6 +9,8 @@ pub struct Pose {
     pub location: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
+    /// Its acceleration, m/s².
+    pub acceleration: DVec3,
     /// The orientation (`world_from_body`).
     pub orientation: DQuat,
     /// The angular velocity, world axes, rad/s.
@@ -17,6 +19,6 @@ pub struct Pose {
 
 /// A motion that is given: where a body is at any time, whatever acts on it.
 pub trait Motion: Send + Sync {
-    /// The pose at time `t`, s; its velocities must be the derivatives of its place.
+    /// The pose at time `t`, s; its velocities and its acceleration must be the derivatives of its place.
     fn at(&self, t: f64) -> Pose;
 }

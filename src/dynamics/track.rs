@@ -100,6 +100,7 @@ impl Motion for Track {
         let rest = |key: &Key| Pose {
             location: key.location,
             velocity: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
             orientation: key.orientation,
             angular_velocity: DVec3::ZERO,
         };
@@ -112,6 +113,7 @@ impl Motion for Track {
                 None => Pose {
                     location: DVec3::ZERO,
                     velocity: DVec3::ZERO,
+                    acceleration: DVec3::ZERO,
                     orientation: DQuat::IDENTITY,
                     angular_velocity: DVec3::ZERO,
                 },
@@ -134,13 +136,15 @@ impl Track {
             return Pose {
                 location: a.location.lerp(b.location, s),
                 velocity: (b.location - a.location) / duration,
+                acceleration: DVec3::ZERO,
                 orientation: (DQuat::from_scaled_axis(turn * s) * a.orientation).normalize(),
                 angular_velocity: turn / duration,
             };
         }
         let (from, to) = (self.slopes[i], self.slopes[i + 1]);
-        let [h00, h10, h01, h11] = hermite(s).map(|h| h);
+        let [h00, h10, h01, h11] = hermite(s);
         let [d00, d10, d01, d11] = hermite_slope(s).map(|d| d / duration);
+        let [c00, c10, c01, c11] = hermite_curvature(s).map(|c| c / (duration * duration));
         let (m0, m1) = (from.0 * duration, to.0 * duration);
         let (n0, n1) = (from.1 * duration, to.1 * duration);
         let quaternion = a.orientation * h00 + n0 * h10 + b.orientation * h01 + n1 * h11;
@@ -152,6 +156,7 @@ impl Track {
         Pose {
             location: a.location * h00 + m0 * h10 + b.location * h01 + m1 * h11,
             velocity: a.location * d00 + m0 * d10 + b.location * d01 + m1 * d11,
+            acceleration: a.location * c00 + m0 * c10 + b.location * c01 + m1 * c11,
             orientation,
             angular_velocity: 2.0 * DVec3::new(turning.x, turning.y, turning.z),
         }
@@ -168,6 +173,11 @@ fn hermite(s: f64) -> [f64; 4] {
 fn hermite_slope(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
     [-6.0 * s * r, r * (1.0 - 3.0 * s), 6.0 * s * r, s * (3.0 * s - 2.0)]
+}
+
+/// Their second derivatives.
+fn hermite_curvature(s: f64) -> [f64; 4] {
+    [12.0 * s - 6.0, 6.0 * s - 4.0, 6.0 - 12.0 * s, 6.0 * s - 2.0]
 }
 
 #[cfg(test)]
@@ -228,6 +238,12 @@ mod tests {
                 let (before, here, after) = (track.at(t - H), track.at(t), track.at(t + H));
                 let velocity = (after.location - before.location) / (2.0 * H);
                 assert!(velocity.abs_diff_eq(here.velocity, 1e-8), "{velocity} {}", here.velocity);
+                let acceleration = (after.velocity - before.velocity) / (2.0 * H);
+                assert!(
+                    acceleration.abs_diff_eq(here.acceleration, 1e-7),
+                    "{acceleration} {}",
+                    here.acceleration
+                );
                 let turn = (after.orientation * before.orientation.conjugate()).to_scaled_axis() / (2.0 * H);
                 assert!(turn.abs_diff_eq(here.angular_velocity, 1e-8), "{turn} {}", here.angular_velocity);
             }

@@ -228,6 +228,7 @@ impl Dynamics for World {
 
     fn forces(&mut self) -> &[DVec3] {
         self.model.evaluate(self.time, &self.state, &mut self.loads);
+        self.model.guide(self.time, &mut self.loads);
         &self.loads.force
     }
 

@@ -17,13 +17,14 @@ pub enum Timed {
     Formula(Arc<TimeFormula>),
 }
 
-/// A formula of the time `t`, and its derivative.
+/// A formula of the time `t`, and its first two derivatives.
 #[derive(Debug)]
 pub struct TimeFormula {
     /// What is written.
     pub text: String,
     value: Program,
     rate: Program,
+    curvature: Program,
 }
 
 /// Three numbers that may change with time.
@@ -41,8 +42,9 @@ impl TimeFormula {
     /// # Errors
     /// Where it is nested too deeply.
     pub(super) fn new(text: String, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
-        let rate = resolved.derivative(0).compile()?;
-        Ok(TimeFormula { text, value: resolved.compile()?, rate })
+        let rate = resolved.derivative(0);
+        let curvature = rate.derivative(0).compile()?;
+        Ok(TimeFormula { text, value: resolved.compile()?, rate: rate.compile()?, curvature })
     }
 
     /// Why it has no finite value at a time (s); none where it has.
@@ -68,6 +70,14 @@ impl Timed {
         }
     }
 
+    /// The second derivative at a time, per second squared.
+    pub fn curvature(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(_) => 0.0,
+            Timed::Formula(formula) => formula.curvature.eval(&[t]),
+        }
+    }
+
     /// Whether it changes with time.
     pub fn changes(&self) -> bool {
         matches!(self, Timed::Formula(_))
@@ -88,6 +98,14 @@ impl TimedVector {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].rate(t))),
             TimedVector::Track(track) => track.at(t).velocity,
+        }
+    }
+
+    /// The second derivative at a time, per second squared.
+    pub fn curvature(&self, t: f64) -> DVec3 {
+        match self {
+            TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].curvature(t))),
+            TimedVector::Track(track) => track.at(t).acceleration,
         }
     }
 

@@ -54,7 +54,13 @@ struct ByFormula {
 impl Motion for ByFormula {
     fn at(&self, t: f64) -> Pose {
         let (orientation, angular_velocity) = self.orientation.at(t);
-        Pose { location: self.location.at(t), velocity: self.location.rate(t), orientation, angular_velocity }
+        Pose {
+            location: self.location.at(t),
+            velocity: self.location.rate(t),
+            acceleration: self.location.curvature(t),
+            orientation,
+            angular_velocity,
+        }
     }
 }
 

@@ -16,6 +16,7 @@ impl Motion for Shaken {
         Pose {
             location: DVec3::X * sin,
             velocity: DVec3::X * (3.0 * cos),
+            acceleration: DVec3::X * (-9.0 * sin),
             orientation: DQuat::from_rotation_y(2.0 * t),
             angular_velocity: DVec3::Y * 2.0,
         }
@@ -96,7 +97,7 @@ fn it_is_where_its_motion_says_whatever_pulls_at_it() {
             assert!(world.orientation(id).abs_diff_eq(pose.orientation, 1e-15));
             let turning = Dynamics::angular_velocity(&world, id);
             assert!(turning.abs_diff_eq(pose.angular_velocity, 1e-14), "{turning}");
-            assert_eq!(world.forces()[id.index()], DVec3::ZERO);
+            assert_eq!(world.forces()[id.index()], 5.0 * pose.acceleration, "what guides it sees to that");
             // Weight, force and torque that what guides it bears are no error of the method.
             assert_eq!(world.balance().kinetic, 0.0);
         }
