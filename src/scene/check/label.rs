@@ -131,6 +131,12 @@ impl Reader<'_, '_, '_> {
             self.report(Diagnostic::error("label-letter", message), here, "it would be an empty box");
             return None;
         }
+        if let Some((begin, length)) = words.find('{').and_then(|at| Some((at, words[at..].find('}')?))) {
+            let here = range.start + begin..range.start + begin + length + 1;
+            let message = "what stands in braces is shown as it is";
+            let warning = Diagnostic::warning("label-syntax", message);
+            self.report(warning, here.clone(), &format!("did you mean `${}`?", &self.text[here]));
+        }
         (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
     }
 

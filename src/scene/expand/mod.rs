@@ -210,10 +210,11 @@ impl Expander<'_> {
             node.value = Value::Invalid;
             return;
         };
-        if !formula.names().any(|(name, _)| name == "t") {
-            return self.number(node);
+        let changes = formula.names().any(|(name, _)| name == "t");
+        match self.time_formula(&formula, node.span) {
+            Some(_) if !changes => self.number(node),
+            found => node.value = found.map_or(Value::Invalid, Value::Formula),
         }
-        node.value = self.time_formula(&formula, node.span).map_or(Value::Invalid, Value::Formula);
     }
 
     fn time_formula(&mut self, formula: &Formula, span: Span) -> Option<Arc<TimeFormula>> {
