@@ -4,11 +4,13 @@
 
 use super::Kind::{
     Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
-    Numbers, Partial, Reference, Sdl, Table, Text, Timed, Variables,
+    Numbers, Partial, Reference, Sdl, Table, Text, Variables,
 };
+use super::camera::CAMERA;
 use super::forces::FORCE;
 use super::labels;
-use super::motion::{CAMERA_KEYFRAMES, FOLLOW, MOTION, ORBIT, TIMED_VECTOR};
+use super::lights::LIGHT;
+use super::motion::MOTION;
 use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::showing;
@@ -301,138 +303,9 @@ static MATERIAL: TableSpec = TableSpec {
     ],
 };
 
-static CAMERA: TableSpec = TableSpec {
-    noun: "the camera",
-    rule: Rule::Any,
-    keys: &[
-        Key::new("location", TIMED_VECTOR, "Where the camera is; numbers, or formulas of `t`")
-            .unit("m")
-            .default("so that the whole motion is in the picture")
-            .also(&["position", "pos", "eye", "from"]),
-        Key::new("look_at", TIMED_VECTOR, "The point in the middle of the picture; numbers, or formulas of `t`")
-            .unit("m")
-            .default("the middle of the motion")
-            .also(&["target", "lookat", "to"]),
-        Key::new(
-            "keyframes",
-            Table(&CAMERA_KEYFRAMES),
-            "Places that it goes through at given times, in place of `location` and `look_at`",
-        )
-        .default("none")
-        .also(&["motion", "path"]),
-        Key::new("follow", Table(&FOLLOW), "A body that it goes along with")
-            .default("none")
-            .also(&["track", "tracking", "following"]),
-        Key::new("orbit", Table(&ORBIT), "That it goes around what it looks at, about the vertical")
-            .default("none")
-            .also(&["rotate", "turntable"]),
-        Key::new(
-            "angle",
-            Timed(Bound::Between(0.0, 180.0)),
-            "The horizontal field of view, in perspective; a number, or a formula of `t`",
-        )
-            .unit("degrees")
-            .default("40")
-            .also(&["fov", "field_of_view"]),
-        Key::new("projection", Choice(projections), "How it sees: as eyes do, or by parallel rays")
-            .default("perspective")
-            .also(&["type", "kind"]),
-        Key::new("width", POSITIVE, "The width that an orthographic camera sees")
-            .unit("m")
-            .default("so that the whole motion is in the picture"),
-        Key::new(
-            "aperture",
-            POSITIVE,
-            "The diameter of the lens: the larger, the more is blurred that is not in focus",
-        )
-        .unit("m")
-        .default("everything is sharp")
-        .also(&["blur"]),
-        Key::new("focus", VECTOR, "With `aperture`, the point that is sharp")
-            .unit("m")
-            .default("`look_at`")
-            .also(&["focal_point"]),
-        Key::new(
-            "blur_samples",
-            Integer(4, 10_000),
-            "With `aperture`, the number of rays for a pixel: more is smoother",
-        )
-        .default("60"),
-        Key::new(
-            "shutter",
-            NON_NEGATIVE,
-            "How long the shutter is open from the time of a frame on, at most until the next frame: what moves \
-             meanwhile is blurred; half the time between frames is usual in films",
-        )
-        .unit("s")
-        .default("0: everything is sharp")
-        .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
-        Key::new(
-            "samples",
-            Integer(2, 256),
-            "With `shutter`, the number of moments that an image is the mean of: more is smoother and takes longer",
-        )
-        .default("16")
-        .also(&["shutter_samples", "motion_blur_samples"]),
-    ],
-};
-
 fn layouts() -> Vec<&'static str> {
     Layout::ALL.iter().map(|layout| layout.name()).collect()
 }
-
-fn projections() -> Vec<&'static str> {
-    vec!["perspective", "orthographic"]
-}
-
-static LIGHT: TableSpec = TableSpec {
-    noun: "a light",
-    rule: Rule::ExactlyOne(&["point", "area", "sun"]),
-    keys: &[
-        Key::new("point", Table(&POINT_LIGHT), "A lamp without size: hard shadows"),
-        Key::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
-        Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
-            .also(&["directional", "parallel"]),
-        Key::new("color", Color, "Its color").default("white").also(&["colour"]),
-        Key::new(
-            "intensity",
-            NON_NEGATIVE,
-            "How bright it is: 1 shows a white surface that faces it as white",
-        )
-        .default("1")
-        .also(&["brightness", "power", "strength"]),
-        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only fills dark places")
-            .default("true")
-            .also(&["shadow"]),
-    ],
-};
-
-static POINT_LIGHT: TableSpec = TableSpec {
-    noun: "a point light",
-    rule: Rule::Any,
-    keys: &[Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
-        .unit("m")
-        .required()
-        .also(&["position", "pos"])],
-};
-
-static AREA_LIGHT: TableSpec = TableSpec {
-    noun: "an area light",
-    rule: Rule::Any,
-    keys: &[
-        Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
-            .unit("m")
-            .required()
-            .also(&["position", "pos"]),
-        Key::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
-    ],
-};
-
-static SUN: TableSpec = TableSpec {
-    noun: "a sun",
-    rule: Rule::Any,
-    keys: &[Key::new("direction", AXIS, "The direction in which its light travels").required().also(&["to"])],
-};
 
 static ENVIRONMENT: TableSpec = TableSpec {
     noun: "the environment",

@@ -4,10 +4,12 @@
 //! for a key that does not exist. The description is data: [`SCENE`] is the root, and everything that a scene can
 //! hold is reached from it.
 
+mod camera;
 mod forces;
 mod keys;
 mod kind;
 mod labels;
+mod lights;
 mod motion;
 mod reference;
 mod repeat;

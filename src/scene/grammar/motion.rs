@@ -1,8 +1,8 @@
 //! The keys of motion that is given.
 
-use super::Kind::{Choice, Either, File, List, Number, Reference, Table, Text, Timed, TimedNumbers};
+use super::Kind::{Choice, Either, File, List, Number, Table, Text, Timed, TimedNumbers};
 use super::keys::{AXIS, ORIENTATION, VECTOR};
-use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Key, Kind, Rule, TableSpec};
 
 /// A vector that may change with time.
 pub(super) const TIMED_VECTOR: Kind = TimedNumbers(3, Bound::Any);
@@ -55,7 +55,7 @@ static TURNING: TableSpec = TableSpec {
     ],
 };
 
-fn smoothness() -> Vec<&'static str> {
+pub(super) fn smoothness() -> Vec<&'static str> {
     vec!["smooth", "linear"]
 }
 
@@ -137,73 +137,4 @@ static COLUMNS: TableSpec = TableSpec {
         Key::new("angular_velocity", NAMES, "The columns with its angular velocity, for cubic interpolation")
             .default("[\"wx\", \"wy\", \"wz\"], if they are there"),
     ],
-};
-
-pub(super) static CAMERA_KEYFRAMES: TableSpec = TableSpec {
-    noun: "a camera's keyframes",
-    rule: Rule::Any,
-    keys: &[
-        Key::new(
-            "at",
-            List { of: &Table(&CAMERA_KEYFRAME), min: 1, max: 100_000 },
-            "The places, in the order of their times",
-        )
-        .required()
-        .also(&["keys", "poses", "frames"]),
-        Key::new(
-            "interpolation",
-            Choice(smoothness),
-            "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
-        )
-        .default("smooth")
-        .also(&["mode", "easing"]),
-    ],
-};
-
-static CAMERA_KEYFRAME: TableSpec = TableSpec {
-    noun: "a camera's keyframe",
-    rule: Rule::Any,
-    keys: &[
-        Key::new("time", Number(Bound::Any), "When it is there").unit("s").required().also(&["t"]),
-        Key::new("location", VECTOR, "Where the camera is").unit("m").required().also(&["position", "pos"]),
-        Key::new("look_at", VECTOR, "The point in the middle of the picture")
-            .unit("m")
-            .default("that of the keyframe before, or of the camera")
-            .also(&["target"]),
-    ],
-};
-
-pub(super) static FOLLOW: TableSpec = TableSpec {
-    noun: "what a camera follows",
-    rule: Rule::Any,
-    keys: &[
-        Key::new("body", Reference(Collection::Body), "The body, which stays in the middle of the picture")
-            .required()
-            .also(&["name", "target"]),
-        Key::new("distance", Number(Bound::Positive), "How far the camera stays from it")
-            .unit("m")
-            .default("as far as `location` is from it at the start, or 12 times its size")
-            .also(&["offset"]),
-        Key::new(
-            "lag",
-            Number(Bound::NonNegative),
-            "The time by which the camera is behind, so that it follows softly what turns or stops",
-        )
-        .unit("s")
-        .default("0")
-        .also(&["delay", "damping", "smooth", "smoothness"]),
-    ],
-};
-
-pub(super) static ORBIT: TableSpec = TableSpec {
-    noun: "an orbit",
-    rule: Rule::Any,
-    keys: &[Key::new(
-        "period",
-        Number(Bound::Any),
-        "The time of a turn; a negative one is that of a turn the other way",
-    )
-    .unit("s")
-    .required()
-    .also(&["duration", "time"])],
 };

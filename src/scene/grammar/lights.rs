@@ -1,0 +1,55 @@
+//! The keys of lights.
+
+use super::Kind::{Boolean, Color, Table};
+use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
+use super::motion::TIMED_VECTOR;
+use super::{Key, Rule, TableSpec};
+
+pub(super) static LIGHT: TableSpec = TableSpec {
+    noun: "a light",
+    rule: Rule::ExactlyOne(&["point", "area", "sun"]),
+    keys: &[
+        Key::new("point", Table(&POINT_LIGHT), "A lamp without size: hard shadows"),
+        Key::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
+        Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
+            .also(&["directional", "parallel"]),
+        Key::new("color", Color, "Its color").default("white").also(&["colour"]),
+        Key::new(
+            "intensity",
+            NON_NEGATIVE,
+            "How bright it is: 1 shows a white surface that faces it as white",
+        )
+        .default("1")
+        .also(&["brightness", "power", "strength"]),
+        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only fills dark places")
+            .default("true")
+            .also(&["shadow"]),
+    ],
+};
+
+static POINT_LIGHT: TableSpec = TableSpec {
+    noun: "a point light",
+    rule: Rule::Any,
+    keys: &[Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+        .unit("m")
+        .required()
+        .also(&["position", "pos"])],
+};
+
+static AREA_LIGHT: TableSpec = TableSpec {
+    noun: "an area light",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+            .unit("m")
+            .required()
+            .also(&["position", "pos"]),
+        Key::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
+    ],
+};
+
+static SUN: TableSpec = TableSpec {
+    noun: "a sun",
+    rule: Rule::Any,
+    keys: &[Key::new("direction", AXIS, "The direction in which its light travels").required().also(&["to"])],
+};
