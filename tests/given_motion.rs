@@ -356,3 +356,77 @@ fn a_light_moves_by_formulas() {
     assert!(scripts[2].contains("{ // torch\n  <4, 3, 0> color"));
     assert_eq!(scripts[2].matches("light_source").count(), 2);
 }
+
+/// Rest lengths, followers and what else follows from the start, follows from where the motion begins.
+#[test]
+fn a_motion_begins_where_its_body_begins() {
+    let last = frames(
+        "
+        simulation = { duration = 0.2, frame_rate = 10 }
+        [body.hand]
+        shape.sphere.radius = 0.1
+        motion.formula.location = ['5 + 0*t', 0, 0]
+        [body.ball]
+        shape.sphere.radius = 0.1
+        location = [6, 0, 0]
+        [force.spring.spring]
+        between = ['hand', 'ball']
+        stiffness = 50
+        ",
+    );
+    assert_eq!(last[2].bodies[1].location, DVec3::X * 6.0, "the spring is as long as it wants to be");
+
+    let text =
+        format!("{BALL}\n[body.far]\nshape.sphere.radius = 1\nmotion.formula.location = ['5 + t', 1, 0]\n");
+    let followed = scripts(&format!("{text}\n[camera]\nlocation = [5, 1, 6]\nfollow.body = 'far'\n"));
+    assert!(camera(&followed[4]).contains("location <6, 1, 6>"), "{}", camera(&followed[4]));
+}
+
+#[test]
+fn a_view_that_says_where_it_is_stands_there() {
+    let text = format!(
+        "{BALL}\n[camera]\nkeyframes.at = [{{ time = 0, location = [1, 2, 9] }}, {{ time = 1, location = [1, 4, 9] }}]\n\
+         [view.top]\nlocation = [0, 20, 0]\nlook_at = [0, 0, 0]\n"
+    );
+    let scene = Scene::parse(&text).unwrap();
+    let run = Run::new(&scene).unwrap().seen_by(&scene.views[0]).unwrap();
+    let last = run.script(&run.frames().last().unwrap().unwrap()).unwrap();
+    assert!(camera(&last).contains("location <0, 20, 0>"), "{}", camera(&last));
+}
+
+#[test]
+fn a_camera_that_passes_its_aim_goes_on_looking() {
+    let scripts = scripts(&format!("{BALL}\n[camera]\nlocation = [0, 0, '4 - 8*t']\nlook_at = [0, 0, 0]\n"));
+    assert!(camera(&scripts[2]).contains("look_at <0, 0, -4>"), "{}", camera(&scripts[2]));
+}
+
+#[test]
+fn a_formula_whose_derivatives_are_endless_is_refused_at_its_place() {
+    let terms = vec!["t*t"; 60].join(",");
+    let text =
+        format!("[body.a]\nshape.sphere.radius = 1\nmotion.formula.location = ['hypot({terms})', 0, 0]\n");
+    let report = Scene::parse(&text).unwrap_err();
+    assert!(report.to_text(false).contains("error[formula-syntax]: the derivatives of this formula"));
+}
+
+#[test]
+fn what_a_file_does_not_say_is_as_the_body_says() {
+    let scene = "
+        simulation = { duration = 1, frame_rate = 1 }
+        [body.a]
+        shape.box.size = [1, 2, 3]
+        orientation = [0, 0, 90]
+        motion.trajectory.file = 'a.csv'
+        [body.ring]
+        shape.sphere.radius = 1
+        repeat.ring = { count = 3, radius = 9 }
+        motion.formula.location = ['t', 'i', 0]
+        ";
+    let place = Place::new(&[("scene.toml", scene), ("a.csv", "time,t,x,y,z\n7,0,1,2,3\n8,1,1,2,3\n")]);
+    let scene = place.read("scene.toml");
+    let last = Frames::new(&scene).last().unwrap().unwrap();
+    assert!((last.bodies[0].orientation * DVec3::X).abs_diff_eq(DVec3::Y, 1e-15));
+    // A pattern that the motion overrides is not overridden in silence.
+    let warned = scene.warnings.to_text(false);
+    assert!(warned.contains("`location` of `ring[0]` has no effect"), "{warned}");
+}

@@ -142,10 +142,13 @@ impl Model {
 
     /// From now on, a body follows a motion that is given. Its inverse mass is 0: nothing else moves it.
     pub(super) fn drive(&mut self, body: usize, motion: Arc<dyn Motion>) {
-        if self.motions.iter().all(|(other, _)| *other != body) && !self.unmoved.contains(&body) {
+        let is_fixed = !self.movable[body];
+        let is_driven = !is_fixed && self.inverse_mass[body] == 0.0;
+        if is_driven {
+            self.motions.retain(|(other, _)| *other != body);
+        } else if !is_fixed {
             self.unmoved.push(body);
         }
-        self.motions.retain(|(other, _)| *other != body);
         self.motions.push((body, motion));
         self.movable[body] = true;
         self.inverse_mass[body] = 0.0;

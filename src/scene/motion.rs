@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::timed::{Timed, TimedVector};
-use crate::dynamics::Track;
+use crate::dynamics::{Motion, Track};
 
 /// A motion that is given.
 #[derive(Clone, Debug)]
@@ -19,6 +19,19 @@ pub enum BodyMotion {
     },
     /// Through known places.
     Track(Arc<Track>),
+}
+
+impl BodyMotion {
+    /// Where the body is at a time (s): its centre of mass (m), and how it is turned.
+    pub fn place(&self, t: f64) -> (DVec3, DQuat) {
+        match self {
+            BodyMotion::Formula { location, orientation } => (location.at(t), orientation.at(t).0),
+            BodyMotion::Track(track) => {
+                let pose = track.at(t);
+                (pose.location, pose.orientation)
+            }
+        }
+    }
 }
 
 /// An orientation that may change with time.

@@ -42,7 +42,14 @@ impl TimeFormula {
     /// # Errors
     /// Where it is nested too deeply.
     pub(super) fn new(text: String, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
+        /// What a formula of a thousand letters may come to, and no more than is compiled at once.
+        const MOST: u64 = 100_000;
         let rate = resolved.derivative(0);
+        if rate.operations() > MOST || rate.derivative(0).operations() > MOST {
+            let range = 0..text.len();
+            let message = "the derivatives of this formula are too long, by which velocities follow from it";
+            return Err(super::expression::too_intricate(range, message));
+        }
         let curvature = rate.derivative(0).compile()?;
         Ok(TimeFormula { text, value: resolved.compile()?, rate: rate.compile()?, curvature })
     }

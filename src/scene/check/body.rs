@@ -32,8 +32,12 @@ pub(super) fn read(
         palette.copy(copy);
         let shape = shape::read(name, &view.table("shape"), context);
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
-        let start = start(name, span, &view, &shape, context);
+        let mut start = start(name, span, &view, &shape, context);
         let motion = motion::read(name, &view, (start.location, start.orientation), simulation, context);
+        if let Some((location, orientation)) = motion.as_ref().map(|motion| motion.place(0.0)) {
+            // What follows from where bodies begin, rest lengths of springs say, follows from where they really are.
+            start = RigidBody { location, orientation, ..start };
+        }
         let look = look::of_body(name, &view, &shape, context);
         let showing = showing::of_body(name, &view, &shape, start.fixed, context);
         context.once(before, name, span);

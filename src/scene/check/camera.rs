@@ -39,18 +39,20 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
     }
     let (location, look_at) = (timed("location"), timed("look_at"));
     let angle = tables.iter().find_map(|keys| keys.timed("angle"));
+    // A view that says where it is stands there, however the main camera moves.
+    let movers = if tables[0].has("location") { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
         location: location.clone().filter(TimedVector::changes),
         look_at: look_at.clone().filter(TimedVector::changes),
         angle: angle.clone().filter(Timed::changes),
-        follow: tables.iter().find_map(|keys| follow(keys, context)),
-        orbit: tables
+        follow: movers.iter().find_map(|keys| follow(keys, context)),
+        orbit: movers
             .iter()
             .find_map(|keys| keys.variant("orbit")?.number("period"))
             .filter(|period| *period != 0.0),
     };
     let (mut location, mut look_at) = (location.map(|v| v.at(0.0)), look_at.map(|v| v.at(0.0)));
-    if let Some(keyframes) = tables.iter().find_map(|keys| keys.variant("keyframes")) {
+    if let Some(keyframes) = movers.iter().find_map(|keys| keys.variant("keyframes")) {
         let [places, aims] = motion::camera_keyframes(&keyframes, look_at, context);
         location = places.as_ref().map(|track| track.at(0.0)).or(location);
         look_at = aims.as_ref().map(|track| track.at(0.0)).or(look_at);

@@ -25,12 +25,23 @@ pub(super) fn read(
 ) -> Option<BodyMotion> {
     let motion = view.variant("motion")?;
     if let Some(formula) = motion.variant("formula") {
+        if formula.has("location") {
+            unused_location(name, view, context);
+        }
         return Some(by_formula(name, &formula, place, simulation, context));
     }
     if let Some(keyframes) = motion.variant("keyframes") {
         return by_keyframes(name, &keyframes, place, context);
     }
-    by_trajectory(name, &motion.variant("trajectory")?, context)
+    unused_location(name, view, context);
+    by_trajectory(name, &motion.variant("trajectory")?, place.1, context)
+}
+
+/// Says that a location has no effect: also the one to which a `repeat` puts a copy.
+fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
+    let warning = Diagnostic::warning("no-effect", format!("`location` of `{name}` has no effect"));
+    let why = "its motion says where it is";
+    context.diagnostics.extend(view.key_span("location").map(|span| warning.at(span, why)));
 }
 
 fn by_formula(
@@ -172,7 +183,12 @@ fn interpolation(view: &View<'_>) -> Interpolation {
     }
 }
 
-fn by_trajectory(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<BodyMotion> {
+fn by_trajectory(
+    name: &str,
+    view: &View<'_>,
+    orientation: DQuat,
+    context: &mut Context<'_>,
+) -> Option<BodyMotion> {
     let (node, span) = (view.raw("file")?, view.span("file")?);
     // What is wrong with the path has been said.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
@@ -180,11 +196,16 @@ fn by_trajectory(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Opti
     let shown = node.as_str().unwrap_or_default();
     let recording = trajectory::read(&path, shown, &columns, span, context)?;
     let wanted = view.text("body").unwrap_or(name);
-    let Some(keys) = recording.get(&Some(wanted.to_owned())).or_else(|| recording.get(&None)) else {
+    let Some(keys) = recording.rows.get(&Some(wanted.to_owned())).or_else(|| recording.rows.get(&None))
+    else {
         let at = view.span("body").unwrap_or(span);
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
     let interpolation = interpolation(view);
-    Some(BodyMotion::Track(Arc::new(Track::new(keys.clone(), interpolation, false))))
+    let mut keys = keys.clone();
+    if !recording.is_turned {
+        keys.iter_mut().for_each(|key| key.orientation = orientation);
+    }
+    Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, false))))
 }

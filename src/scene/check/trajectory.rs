@@ -27,7 +27,12 @@ pub(super) struct Columns {
 }
 
 /// The rows of a file, by body; where it does not tell bodies apart, under no name.
-pub(super) type Recording = HashMap<Option<String>, Vec<Key>>;
+#[derive(Default)]
+pub(super) struct Recording {
+    pub(super) rows: HashMap<Option<String>, Vec<Key>>,
+    /// Whether the file says how bodies are turned.
+    pub(super) is_turned: bool,
+}
 
 /// The files that have been read, and what could not be read of others has been said.
 pub(super) type Recordings = HashMap<(PathBuf, Columns), Option<Arc<Recording>>>;
@@ -98,7 +103,7 @@ pub(super) fn read(
 
 /// That no row is of a body.
 pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic {
-    let mut names: Vec<&str> = recording.keys().flatten().map(String::as_str).collect();
+    let mut names: Vec<&str> = recording.rows.keys().flatten().map(String::as_str).collect();
     names.sort_unstable();
     let message = format!("the file has no rows of the body `{body}`");
     let label = match nearest(body, names.iter().copied()) {
@@ -162,7 +167,7 @@ impl Reader<'_> {
             return None;
         }
 
-        let mut recording = Recording::new();
+        let mut recording = Recording { is_turned: orientation.is_some(), ..Recording::default() };
         let mut record = StringRecord::new();
         loop {
             match csv.read_record(&mut record) {
@@ -195,7 +200,7 @@ impl Reader<'_> {
                 break;
             }
             let (Some(time), Some(location), Some(orientation)) = (time, place, turned) else { continue };
-            let keys = recording.entry(name).or_default();
+            let keys = recording.rows.entry(name).or_default();
             if let Some(last) = keys.last().filter(|last| last.time >= time) {
                 let message =
                     if last.time > time { "the time goes backwards" } else { "this time comes twice" };
@@ -215,7 +220,7 @@ impl Reader<'_> {
                 angular_velocity: spin.flatten(),
             });
         }
-        if recording.is_empty() && self.wrong.is_empty() {
+        if recording.rows.is_empty() && self.wrong.is_empty() {
             let end = self.text.len();
             self.error("csv-syntax", "the file has no rows under its header".to_owned(), end..end);
         }
@@ -224,13 +229,15 @@ impl Reader<'_> {
 
     /// The place of a column in the header, and its unit.
     fn find(&self, header: &StringRecord, name: &str) -> Option<(usize, String)> {
-        header.iter().enumerate().find_map(|(i, field)| {
-            let (stem, unit) = unit_of(field);
-            // Both words are usual.
-            let is_time = name == "t" && stem.eq_ignore_ascii_case("time");
-            (is_time || field.eq_ignore_ascii_case(name) || stem.eq_ignore_ascii_case(name))
-                .then(|| (i, unit.to_owned()))
-        })
+        let called = |name: &str| {
+            header.iter().enumerate().find_map(|(i, field)| {
+                let (stem, unit) = unit_of(field);
+                let is_it = field.eq_ignore_ascii_case(name) || stem.eq_ignore_ascii_case(name);
+                is_it.then(|| (i, unit.to_owned()))
+            })
+        };
+        // Both words for the time are usual.
+        called(name).or_else(|| if name == "t" { called("time") } else { None })
     }
 
     fn column(&mut self, header: &StringRecord, start: usize, name: &str, units: Units) -> Option<Column> {

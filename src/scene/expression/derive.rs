@@ -33,6 +33,25 @@ impl Resolved {
     }
 }
 
+impl Resolved {
+    /// How many operations a program of it would have: what stands in several places is computed in each.
+    #[must_use]
+    pub(in crate::scene) fn operations(&self) -> u64 {
+        let mut sizes: Vec<u64> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let of = |ids: &[Id]| ids.iter().fold(1, |sum: u64, id| sum.saturating_add(sizes[*id]));
+            let size = match node.value {
+                Value::Constant(_) | Value::Slot(_) => 1,
+                Value::Unary(_, a) => of(&[a]),
+                Value::Binary(_, a, b) => of(&[a, b]),
+                Value::Ternary(_, a, b, c) | Value::If(a, b, c) => of(&[a, b, c]),
+            };
+            sizes.push(size);
+        }
+        sizes.get(self.root).copied().unwrap_or(0)
+    }
+}
+
 struct Deriver {
     builder: Builder,
     slot: usize,

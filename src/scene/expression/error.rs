@@ -27,6 +27,11 @@ pub(super) fn syntax(range: Range<usize>, message: impl Into<String>) -> Express
     error("formula-syntax", range, message)
 }
 
+/// That too much follows from a formula.
+pub(in crate::scene) fn too_intricate(range: Range<usize>, message: &str) -> ExpressionError {
+    syntax(range, message).help("write it in a simpler way, or give the motion by keyframes or a file")
+}
+
 impl ExpressionError {
     #[must_use]
     pub(super) fn label(mut self, label: impl Into<String>) -> ExpressionError {

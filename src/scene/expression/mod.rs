@@ -37,6 +37,7 @@ mod scope;
 mod tests;
 
 pub use error::ExpressionError;
+pub(in crate::scene) use error::too_intricate;
 pub use function::{CONSTANTS, FUNCTIONS, Function};
 pub use parser::{Formula, MAX_LENGTH};
 pub use program::Program;
