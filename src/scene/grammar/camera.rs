@@ -2,7 +2,7 @@
 
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
 use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
-use super::motion::{TIMED_VECTOR, smoothness};
+use super::motion::{BETWEEN_KEYFRAMES, TIMED_VECTOR};
 use super::{Bound, Collection, Key, Rule, TableSpec};
 
 fn projections() -> Vec<&'static str> {
@@ -96,13 +96,7 @@ static CAMERA_KEYFRAMES: TableSpec = TableSpec {
         )
         .required()
         .also(&["keys", "poses", "frames"]),
-        Key::new(
-            "interpolation",
-            Choice(smoothness),
-            "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
-        )
-        .default("smooth")
-        .also(&["mode", "easing"]),
+        BETWEEN_KEYFRAMES,
     ],
 };
 

@@ -55,24 +55,31 @@ static TURNING: TableSpec = TableSpec {
     ],
 };
 
-pub(super) fn smoothness() -> Vec<&'static str> {
+fn smoothness() -> Vec<&'static str> {
     vec!["smooth", "linear"]
 }
+
+/// How keyframes of bodies and of cameras are joined.
+pub(super) const BETWEEN_KEYFRAMES: Key = Key::new(
+    "interpolation",
+    Choice(smoothness),
+    "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
+)
+.default("smooth")
+.also(&["mode", "easing"]);
 
 static KEYFRAMES: TableSpec = TableSpec {
     noun: "a motion by keyframes",
     rule: Rule::Any,
     keys: &[
-        Key::new("at", List { of: &Table(&KEYFRAME), min: 1, max: 100_000 }, "The places, in the order of their times")
-            .required()
-            .also(&["keys", "poses", "frames"]),
         Key::new(
-            "interpolation",
-            Choice(smoothness),
-            "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
+            "at",
+            List { of: &Table(&KEYFRAME), min: 1, max: 100_000 },
+            "The places, in the order of their times",
         )
-        .default("smooth")
-        .also(&["mode", "easing"]),
+        .required()
+        .also(&["keys", "poses", "frames"]),
+        BETWEEN_KEYFRAMES,
     ],
 };
 
