@@ -45,6 +45,8 @@ pub mod emit;
 pub mod explain;
 pub mod export;
 pub mod output;
+#[cfg(feature = "preview")]
+pub mod preview;
 pub mod render;
 mod run;
 pub mod scene;

@@ -46,7 +46,14 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Where the run leaves the numbers, or a template fails.
     pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
-        let survey = survey(scene, seen)?;
+        Run::surveyed(scene, survey(scene, seen)?)
+    }
+
+    /// The run of a scene that somebody has looked over.
+    ///
+    /// # Errors
+    /// Where a template fails.
+    pub fn surveyed(scene: &'a Scene, survey: Survey) -> Result<Run<'a>, RunError> {
         let emitter = Emitter::new(scene, &scene.camera, &survey)?;
         Ok(Run { scene, survey, emitter, view: None, shutter: scene.camera.shutter })
     }

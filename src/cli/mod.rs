@@ -13,6 +13,8 @@ mod man;
 mod new;
 mod picture_arguments;
 mod povray_arguments;
+#[cfg(feature = "preview")]
+mod preview;
 mod products;
 mod progress;
 mod render;
@@ -41,6 +43,8 @@ struct Arguments {
 enum Command {
     New(new::Arguments),
     Compile(compile::Arguments),
+    #[cfg(feature = "preview")]
+    Preview(preview::Arguments),
     Render(render::Arguments),
     Still(still::Arguments),
     Batch(batch::Arguments),
@@ -74,6 +78,8 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
+        #[cfg(feature = "preview")]
+        Command::Preview(arguments) => preview::run(&arguments),
         Command::Render(arguments) => render::run(&arguments),
         Command::Still(arguments) => still::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),

@@ -32,14 +32,19 @@ fn parse_set(argument: &str) -> Result<Override, String> {
 impl SceneArguments {
     /// Reads the scene with further values replaced, and says its errors and warnings.
     pub(super) fn read_with(&self, path: &Path, overrides: &[Override]) -> Result<Scene, Failure> {
-        let options = Options {
-            overrides: self.set.iter().chain(overrides).cloned().collect(),
-            templates: self.templates.clone(),
-            trust: self.trust,
-        };
+        let options = self.options(overrides);
         let scene = Scene::from_path_with(path, &options).map_err(|report| errors(&report))?;
         say::report(&scene.warnings);
         Ok(scene)
+    }
+
+    /// How the scene is read, with further values replaced.
+    pub(super) fn options(&self, overrides: &[Override]) -> Options {
+        Options {
+            overrides: self.set.iter().chain(overrides).cloned().collect(),
+            templates: self.templates.clone(),
+            trust: self.trust,
+        }
     }
 
     /// Whether anything is changed.

@@ -1,5 +1,7 @@
 //! Texts that a scene is read from, and places in them.
 
+use std::path::PathBuf;
+
 /// One text that values come from: the scene's file, or one `--set` argument.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -13,7 +15,10 @@ pub struct Source {
 
 /// The texts that one scene was read from. The scene's own file is the first.
 #[derive(Clone, Debug, Default)]
-pub struct Sources(Vec<Source>);
+pub struct Sources {
+    texts: Vec<Source>,
+    files: Vec<PathBuf>,
+}
 
 /// The number of a text within its [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -44,13 +49,26 @@ impl Sources {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
         let text = text.into();
         let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1));
-        self.0.push(Source { name: name.into(), lines: lines.collect(), text });
-        SourceId(self.0.len() - 1)
+        self.texts.push(Source { name: name.into(), lines: lines.collect(), text });
+        SourceId(self.texts.len() - 1)
+    }
+
+    /// Notes a file that something was read from, or would have been, if it were there.
+    pub fn note_file(&mut self, path: impl Into<PathBuf>) {
+        let path = path.into();
+        if !self.files.contains(&path) {
+            self.files.push(path);
+        }
+    }
+
+    /// The files that decide what the scene is, also those that are missing.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The text with the given number.
     pub fn get(&self, id: SourceId) -> &Source {
-        &self.0[id.0]
+        &self.texts[id.0]
     }
 
     /// The line and column at which a byte of a text stands.

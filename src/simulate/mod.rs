@@ -21,7 +21,7 @@ pub use frame::{BodyFrame, Frame};
 pub use lag::Lagging;
 pub use moments::Branch;
 pub use selection::Selection;
-pub use survey::{Bounds, Crossing, Survey, survey};
+pub use survey::{Bounds, Crossing, Survey, Surveyor, survey};
 pub use track::{Ghost, Passed, Past, Way};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.

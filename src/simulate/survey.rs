@@ -59,49 +59,85 @@ pub struct Crossing {
 /// # Errors
 /// Where the run leaves the numbers.
 pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
-    let mut bounds: Option<Bounds> = None;
-    let mut planes = planes(scene);
-    let (mut error, mut largest_kinetic): (f64, f64) = (0.0, 0.0);
-    let mut largest = Largest::default();
+    let mut surveyor = Surveyor::new(scene);
     for frame in Frames::without_past(scene) {
         let frame = frame?;
-        largest.see(scene, &frame.bodies);
-        planes.iter_mut().for_each(|plane| plane.watch(scene, &frame));
+        surveyor.see(&frame);
+        seen(&frame);
+    }
+    surveyor.finish()
+}
+
+/// Looks over a run whose frames somebody else makes.
+pub struct Surveyor<'a> {
+    scene: &'a Scene,
+    bounds: Option<Bounds>,
+    planes: Vec<Watched>,
+    /// The error of the energy where it is largest, J.
+    error: f64,
+    largest_kinetic: f64,
+    largest: Largest,
+}
+
+impl<'a> Surveyor<'a> {
+    /// Of a run that has not begun.
+    pub fn new(scene: &'a Scene) -> Surveyor<'a> {
+        let (planes, largest) = (planes(scene), Largest::default());
+        Surveyor { scene, bounds: None, planes, error: 0.0, largest_kinetic: 0.0, largest }
+    }
+
+    /// Looks at the next frame of the run.
+    pub fn see(&mut self, frame: &Frame) {
+        let scene = self.scene;
+        self.largest.see(scene, &frame.bodies);
+        self.planes.iter_mut().for_each(|plane| plane.watch(scene, frame));
         for body in &frame.bodies {
             // What has gone through a plane is behind the scenery, and the camera need not follow.
-            if planes.iter().any(|plane| plane.crossed[body.id]) {
+            if self.planes.iter().any(|plane| plane.crossed[body.id]) {
                 continue;
             }
             if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
-                bounds = Some(bounds.map_or(here, |all| all.union(here)));
+                self.bounds = Some(self.bounds.map_or(here, |all| all.union(here)));
             }
         }
-        largest_kinetic = largest_kinetic.max(frame.balance.kinetic);
-        let error_now = frame.balance.drift * largest_kinetic;
-        if error_now.abs() > error.abs() {
-            error = error_now;
+        self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
+        let error_now = frame.balance.drift * self.largest_kinetic;
+        if error_now.abs() > self.error.abs() {
+            self.error = error_now;
         }
-        seen(&frame);
     }
-    let interval = 1.0 / scene.simulation.frame_rate;
-    let steps_per_frame = world(scene).steps_within(interval);
-    let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
-    let mut seen = bounds;
-    if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
-        *all = arrows::with_arrows(scene, *all, arrow_scales)?;
+
+    /// What is known after the last frame.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers.
+    pub fn finish(self) -> Result<Survey, Diverged> {
+        let Surveyor { scene, bounds, planes, error, largest_kinetic, largest } = self;
+        let interval = 1.0 / scene.simulation.frame_rate;
+        let steps_per_frame = world(scene).steps_within(interval);
+        let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
+        let mut seen = bounds;
+        if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
+            *all = arrows::with_arrows(scene, *all, arrow_scales)?;
+        }
+        for point in arrows::anchors(scene) {
+            seen = seen.map(|all| all.union(Bounds { min: point, max: point }));
+        }
+        Ok(Survey {
+            bounds,
+            seen,
+            arrow_scales,
+            crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
+            drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
+            timestep: interval / f64::from(steps_per_frame),
+            steps_per_frame,
+        })
     }
-    for point in arrows::anchors(scene) {
-        seen = seen.map(|all| all.union(Bounds { min: point, max: point }));
+
+    /// The box in which everything has taken place so far.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.bounds
     }
-    Ok(Survey {
-        bounds,
-        seen,
-        arrow_scales,
-        crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
-        drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
-        timestep: interval / f64::from(steps_per_frame),
-        steps_per_frame,
-    })
 }
 
 impl Bounds {

@@ -150,6 +150,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     // An editor does not show a byte order mark, and does not count it as a column.
     let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
     let id = sources.add(input.shown, text);
+    input.path.iter().for_each(|path| sources.note_file(*path));
     let mut tree = source::parse(text, id, &mut diagnostics);
     let mut root = match &mut tree.value {
         source::Value::Table(table) => std::mem::take(table),

@@ -128,6 +128,11 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
     if matches!(node.value, Value::Invalid) {
         return;
     }
+    if let (Kind::File | Kind::Include | Kind::Asset, Some(name), Some(folder)) =
+        (kind, node.as_str(), context.folder)
+    {
+        context.sources.note_file(folder.join(name));
+    }
     match kind {
         Kind::Text if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
         Kind::Boolean if !matches!(node.value, Value::Boolean(_)) => {

@@ -90,6 +90,7 @@ impl Includer<'_> {
             )));
         };
         let path = folder.join(name);
+        self.sources.note_file(&path);
         let real = path.canonicalize().map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => {
                 let error = cannot(format!("there is no file `{name}`"));

@@ -1,0 +1,96 @@
+//! Frames → a page in the browser, which shows them while the scene is being written.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
+//! | a run in the background, its frames on disk | `run`, `recording` |
+//! | what the page is told of it | `describe`, `shown`, `samples` |
+//! | the server, and who may ask it | `routes`, `access` |
+//! | a frame by POV-Ray | `render` |
+//! | the page itself | `page`, and the files in the folder of that name |
+
+mod access;
+mod describe;
+mod page;
+mod recording;
+mod render;
+mod routes;
+mod run;
+mod samples;
+mod session;
+mod shown;
+mod watch;
+
+use std::io;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+
+use self::access::Token;
+use self::render::Renderer;
+use self::routes::Server;
+use self::session::Session;
+use crate::diagnostic::Report;
+use crate::scene::Options;
+
+/// What is previewed, and how.
+#[derive(Clone, Debug)]
+pub struct Preview {
+    /// The scene's file.
+    pub scene: PathBuf,
+    /// How it is read.
+    pub options: Options,
+    /// The port; none: any that is free.
+    pub port: Option<u16>,
+    /// The program POV-Ray; none: that of the `PATH`.
+    pub povray: Option<PathBuf>,
+}
+
+impl Preview {
+    /// Serves the page on the loopback address until somebody asks to stop. `listening` gets its address, `said` what
+    /// is wrong with the scene whenever that changes.
+    ///
+    /// # Errors
+    /// Where the port is taken, or the system refuses.
+    pub fn serve(
+        self,
+        stop: &'static AtomicBool,
+        listening: impl FnOnce(&str),
+        said: impl Fn(&Report) + Send + Sync + 'static,
+    ) -> io::Result<()> {
+        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build()?;
+        let address = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), self.port.unwrap_or(0));
+        let listener = runtime.block_on(TcpListener::bind(address))?;
+        let (address, token) = (listener.local_addr()?, Token::new()?);
+        let session = Session::new(self.scene, self.options, said);
+        let renderer = Arc::new(Renderer::new(self.povray));
+        let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
+        listening(&format!("http://{address}/?token={}", server.token.as_str()));
+        let following = thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
+        let served = runtime.block_on(async {
+            tokio::select! {
+                served = axum::serve(listener, routes::router(server)).into_future() => served,
+                () = until(stop) => Ok(()),
+            }
+        });
+        stop.store(true, Ordering::Relaxed);
+        renderer.end();
+        // Connections that are open have nothing to lose.
+        runtime.shutdown_timeout(Duration::from_secs(1));
+        // It has seen the wish to stop; how it ended is of no account.
+        let _ = following.join();
+        served
+    }
+}
+
+async fn until(stop: &AtomicBool) {
+    const LOOK: Duration = Duration::from_millis(50);
+    while !stop.load(Ordering::Relaxed) {
+        tokio::time::sleep(LOOK).await;
+    }
+}

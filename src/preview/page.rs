@@ -1,0 +1,39 @@
+//! The page: plain files, which are part of the program.
+
+const HTML: &str = "text/html; charset=utf-8";
+const STYLE: &str = "text/css; charset=utf-8";
+const SCRIPT: &str = "text/javascript; charset=utf-8";
+
+/// Its files: the path of each, its kind and its text.
+pub(super) const FILES: &[(&str, &str, &str)] = &[
+    ("/", HTML, include_str!("page/index.html")),
+    ("/style.css", STYLE, include_str!("page/style.css")),
+    ("/main.js", SCRIPT, include_str!("page/main.js")),
+    ("/server.js", SCRIPT, include_str!("page/server.js")),
+    ("/run.js", SCRIPT, include_str!("page/run.js")),
+    ("/player.js", SCRIPT, include_str!("page/player.js")),
+    ("/math.js", SCRIPT, include_str!("page/math.js")),
+    ("/shaders.js", SCRIPT, include_str!("page/shaders.js")),
+    ("/painter.js", SCRIPT, include_str!("page/painter.js")),
+    ("/lines.js", SCRIPT, include_str!("page/lines.js")),
+    ("/viewpoint.js", SCRIPT, include_str!("page/viewpoint.js")),
+    ("/texts.js", SCRIPT, include_str!("page/texts.js")),
+    ("/plots.js", SCRIPT, include_str!("page/plots.js")),
+    ("/panel.js", SCRIPT, include_str!("page/panel.js")),
+    ("/surroundings.js", SCRIPT, include_str!("page/surroundings.js")),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the page's own policy would forbid is not in it.
+    #[test]
+    fn nothing_comes_from_elsewhere() {
+        for (path, _, text) in FILES {
+            for forbidden in ["http:", "https:", "innerHTML", "eval(", "style=\"", "onclick="] {
+                assert!(!text.contains(forbidden), "{path}: {forbidden}");
+            }
+        }
+    }
+}

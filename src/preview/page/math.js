@@ -1,0 +1,92 @@
+// Vectors are arrays of three numbers, quaternions are x y z w, matrices are 4 x 4, column after column.
+
+export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+export const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const times = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const length = (a) => Math.hypot(a[0], a[1], a[2]);
+
+/** The unit vector along `a`, or `otherwise` where that has no direction. */
+export function unit(a, otherwise = [0, 0, 0]) {
+  const l = length(a);
+  return l > 0 && Number.isFinite(l) ? times(a, 1 / l) : otherwise;
+}
+
+/** A vector turned by a quaternion. */
+export function turned([x, y, z, w], v) {
+  const t = times(cross([x, y, z], v), 2);
+  return add(add(v, times(t, w)), cross([x, y, z], t));
+}
+
+export function product(a, b) {
+  const out = new Float64Array(16);
+  for (let column = 0; column < 4; column++) {
+    for (let row = 0; row < 4; row++) {
+      let sum = 0;
+      for (let k = 0; k < 4; k++) sum += a[4 * k + row] * b[4 * column + k];
+      out[4 * column + row] = sum;
+    }
+  }
+  return out;
+}
+
+/** Takes points of the world to those of a camera at `eye`, which looks along its own -z. */
+export function lookAt(eye, { right, up, back }) {
+  return new Float64Array([
+    right[0], up[0], back[0], 0,
+    right[1], up[1], back[1], 0,
+    right[2], up[2], back[2], 0,
+    -dot(right, eye), -dot(up, eye), -dot(back, eye), 1,
+  ]);
+}
+
+/** The axes of a camera that looks from `eye` to `aim`; straight up or down, x is to the right, as in the scripts. */
+export function axes(eye, aim) {
+  const back = unit(sub(eye, aim), [0, 0, 1]);
+  const vertical = Math.max(Math.abs(back[0]), Math.abs(back[2])) < 1e-6 * Math.abs(back[1]);
+  const right = vertical ? [1, 0, 0] : unit(cross([0, 1, 0], back), [1, 0, 0]);
+  return { right, up: cross(back, right), back };
+}
+
+export function perspective(tangentX, tangentY, near, far) {
+  const m = new Float64Array(16);
+  m[0] = 1 / tangentX;
+  m[5] = 1 / tangentY;
+  m[10] = (far + near) / (near - far);
+  m[11] = -1;
+  m[14] = (2 * far * near) / (near - far);
+  return m;
+}
+
+export function orthographic(halfX, halfY, near, far) {
+  const m = new Float64Array(16);
+  m[0] = 1 / halfX;
+  m[5] = 1 / halfY;
+  m[10] = 2 / (near - far);
+  m[14] = (far + near) / (near - far);
+  m[15] = 1;
+  return m;
+}
+
+/** Where a point comes to, and how far it is: x and y from -1 to 1. */
+export function projected(matrix, [x, y, z]) {
+  const row = (i) => matrix[i] * x + matrix[4 + i] * y + matrix[8 + i] * z + matrix[12 + i];
+  const w = row(3);
+  return { x: row(0) / w, y: row(1) / w, w };
+}
+
+/** A number with some significant digits, as people write it. */
+export function short(number, digits = 4) {
+  if (!Number.isFinite(number)) return "–";
+  const size = Math.abs(number);
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) {
+    return number.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e").replace(/-/g, "−");
+  }
+  return String(Number(number.toPrecision(digits))).replace("-", "−");
+}
+
+/** A color in sRGB, made linear. */
+export const linear = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+
+export const css = (color) => `rgb(${color.map((c) => Math.round(255 * Math.min(1, Math.max(0, c)))).join(" ")})`;

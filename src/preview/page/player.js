@@ -1,0 +1,81 @@
+// Which frame is shown. While it stands still, that is a whole frame; while it plays, it may be between two.
+
+export class Player {
+  constructor() {
+    this.run = null;
+    /** The place in the film, in frames. */
+    this.position = 0;
+    this.playing = false;
+    this.speed = 1;
+    this.loop = false;
+  }
+
+  get frame() {
+    return Math.floor(this.position + 1e-9);
+  }
+
+  get time() {
+    return this.run ? this.position / this.run.rate : 0;
+  }
+
+  /** The last frame that has been simulated. */
+  get last() {
+    return Math.max(0, (this.run?.progress?.recorded ?? 1) - 1);
+  }
+
+  seek(frame) {
+    this.position = Math.max(0, Math.min(Math.round(frame), this.run ? this.run.frames - 1 : 0));
+  }
+
+  /** Back to the initial state, at rest: the tutorial's space key. */
+  reset() {
+    this.pause();
+    this.position = 0;
+  }
+
+  pause() {
+    this.playing = false;
+    this.position = this.frame;
+  }
+
+  play() {
+    if (!this.run) return;
+    if (this.position >= this.run.frames - 1) this.position = 0;
+    this.playing = true;
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  step(frames) {
+    this.pause();
+    this.seek(this.position + frames);
+  }
+
+  /** Lets some seconds pass; waits where the next frame is not there yet. */
+  advance(seconds) {
+    if (!this.playing || !this.run) return;
+    let next = this.position + Math.min(seconds, 0.25) * this.speed * this.run.rate;
+    const end = this.run.frames - 1;
+    if (next >= end) {
+      if (this.loop && this.last === end) next = end > 0 ? next % end : 0;
+      else if (this.last === end) {
+        this.position = end;
+        this.playing = false;
+        return;
+      }
+    }
+    next = Math.min(next, this.last);
+    if (this.run.poses(Math.floor(next)) || next < this.position) this.position = next;
+  }
+
+  /** Goes on with another run at the same time. */
+  take(run) {
+    const time = this.time;
+    this.run = run;
+    const place = Math.min(time * run.rate, run.frames - 1);
+    this.position = this.playing ? place : Math.round(place);
+  }
+}

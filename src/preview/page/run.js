@@ -1,0 +1,194 @@
+// A run as the page knows it: what stays the same, and the frames that have been fetched, within a budget of memory.
+
+import { binary, json } from "./server.js";
+
+/** So many bytes of poses are kept. */
+const BUDGET = 256 << 20;
+/** So many bytes are fetched at once. */
+const PIECE = 2 << 20;
+/** The numbers of a body that say where it is: location and orientation. */
+const POSE = 7;
+
+export class Run {
+  constructor(id, description, forms) {
+    this.id = id;
+    this.description = description;
+    this.forms = forms;
+    this.bodies = description.bodies.length;
+    this.frameBytes = Math.max(8, 8 * POSE * this.bodies);
+    this.together = Math.max(1, Math.min(256, Math.floor(PIECE / this.frameBytes)));
+    /** Pieces of frames, by their number; each has `frames` of them. */
+    this.pieces = new Map();
+    this.shown = new Map();
+    this.ghosts = [];
+    this.progress = null;
+    this.closed = false;
+    this.loading = null;
+    this.changed = () => {};
+  }
+
+  /** Fetches what stays the same in a run. */
+  static async open(id) {
+    const description = await json(`/api/runs/${id}`);
+    const forms = readForms(await binary(`/api/runs/${id}/forms`));
+    return new Run(id, description, forms);
+  }
+
+  get frames() {
+    return this.description.frames;
+  }
+
+  get rate() {
+    return this.description.frameRate;
+  }
+
+  /** The frame that is shown at a time, s. */
+  frameAt(time) {
+    return Math.max(0, Math.min(this.frames - 1, Math.round(time * this.rate)));
+  }
+
+  /** Takes note of how far the run is. */
+  async progressed(progress) {
+    const settled = progress.settled && !this.progress?.settled;
+    this.progress = progress;
+    if (settled && !this.description.stage && !progress.problem) {
+      this.description = await json(`/api/runs/${this.id}`);
+      this.shown.clear();
+    }
+    if (settled && this.description.bodies.some((body) => body.ghosts)) {
+      this.ghosts = await json(`/api/runs/${this.id}/ghosts`);
+    }
+  }
+
+  /** Where the bodies are in a frame: locations of all, then orientations of all; undefined until it is fetched. */
+  poses(frame) {
+    const piece = this.pieces.get(Math.floor(frame / this.together));
+    const at = frame % this.together;
+    if (!piece || at >= piece.frames) return undefined;
+    piece.used = performance.now();
+    return piece.numbers.subarray(at * POSE * this.bodies, (at + 1) * POSE * this.bodies);
+  }
+
+  /** Where one body is in a frame. */
+  pose(body, frame) {
+    const poses = this.poses(frame);
+    if (!poses || !(body >= 0 && body < this.bodies)) return undefined;
+    const turn = 3 * this.bodies + 4 * body;
+    return {
+      location: Array.from(poses.subarray(3 * body, 3 * body + 3)),
+      orientation: Array.from(poses.subarray(turn, turn + 4)),
+    };
+  }
+
+  /** What is seen in a frame beside the bodies, if it has been fetched. */
+  shownIn(frame, view) {
+    return this.shown.get(`${view} ${frame}`);
+  }
+
+  /** Fetches a frame, and then those after it, as long as there is room. */
+  async want(frame, view) {
+    this.wanted = { frame, view };
+    if (this.loading || this.closed) return;
+    this.loading = this.load();
+    try {
+      await this.loading;
+    } catch (error) {
+      // A run that has been replaced is asked for no more; of anything else, the next wish tells.
+      if (error.status !== 404) console.warn(error.message);
+    }
+    this.loading = null;
+  }
+
+  async load() {
+    for (;;) {
+      if (this.closed) return;
+      const { frame, view } = this.wanted;
+      const recorded = this.progress?.recorded ?? 0;
+      if (frame < recorded && !this.poses(frame)) {
+        await this.fetchPoses(Math.floor(frame / this.together), recorded);
+      } else if (frame < recorded && this.description.shows && !this.shownIn(frame, view)) {
+        await this.fetchShown(frame, view, recorded);
+      } else {
+        const next = this.next(frame, recorded);
+        if (next === undefined) return;
+        await this.fetchPoses(next, recorded);
+      }
+      this.changed();
+    }
+  }
+
+  /** The number of the next piece to be fetched ahead of need, from the present frame on. */
+  next(frame, recorded) {
+    const count = Math.ceil(recorded / this.together);
+    const room = Math.max(2, Math.floor(BUDGET / (this.frameBytes * this.together)));
+    const first = Math.floor(frame / this.together);
+    for (let ahead = 0; ahead < Math.min(count, room - 1); ahead++) {
+      const number = (first + ahead) % count;
+      const whole = Math.min(this.together, recorded - number * this.together);
+      if ((this.pieces.get(number)?.frames ?? 0) < whole) return number;
+    }
+    return undefined;
+  }
+
+  async fetchPoses(number, recorded) {
+    const from = number * this.together;
+    const to = Math.min(from + this.together, recorded);
+    const bytes = await binary(`/api/runs/${this.id}/poses`, { from, to });
+    const numbers = new Float64Array(bytes);
+    this.pieces.set(number, { numbers, frames: Math.floor(bytes.byteLength / this.frameBytes), used: performance.now() });
+    const room = Math.max(2, Math.floor(BUDGET / (this.frameBytes * this.together)));
+    while (this.pieces.size > room) {
+      const oldest = [...this.pieces].reduce((a, b) => (a[1].used < b[1].used ? a : b));
+      this.pieces.delete(oldest[0]);
+    }
+  }
+
+  async fetchShown(frame, view, recorded) {
+    const many = Math.max(1, Math.min(40, Math.floor(4000 / this.bodies)));
+    const to = Math.min(frame + many, recorded);
+    const all = await json(`/api/runs/${this.id}/shown`, { from: frame, to, view });
+    if (this.shown.size > 2000) this.shown.clear();
+    all.forEach((shown, i) => this.shown.set(`${view} ${frame + i}`, shown));
+  }
+
+  /** Energies and momenta over the run, with at most so many points: 12 numbers each. */
+  async balance(points) {
+    const every = Math.max(1, Math.ceil(this.frames / points));
+    return new Float64Array(await binary(`/api/runs/${this.id}/balance`, { every }));
+  }
+
+  /** How a body moves over some frames: 14 numbers each. */
+  async series(body, from, to, every = 1) {
+    return new Float64Array(await binary(`/api/runs/${this.id}/series`, { body, from, to, every }));
+  }
+
+  /** Nobody looks at it any more. */
+  close() {
+    this.closed = true;
+    this.pieces.clear();
+    this.shown.clear();
+  }
+}
+
+/** Triangles: for each form the numbers of its vertices and indices, positions, normals, and indices. */
+function readForms(buffer) {
+  const view = new DataView(buffer);
+  const forms = [];
+  let at = 0;
+  while (at < buffer.byteLength) {
+    const vertices = view.getUint32(at, true);
+    const indices = view.getUint32(at + 4, true);
+    at += 8;
+    const take = (Type, count) => {
+      const array = new Type(buffer, at, count);
+      at += 4 * count;
+      return array;
+    };
+    forms.push({
+      positions: take(Float32Array, 3 * vertices),
+      normals: take(Float32Array, 3 * vertices),
+      indices: take(Uint32Array, indices),
+    });
+  }
+  return forms;
+}

@@ -1,0 +1,145 @@
+//! A frame by POV-Ray, as `jabuka still` makes it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use serde::Deserialize;
+
+use super::routes::Failed;
+use super::run::{RunId, Simulation};
+use crate::Run;
+use crate::diagnostic::Report;
+use crate::output::{self, Folder, OutputError};
+use crate::render::{Images, Job, PovRay, Quality, RenderError, Sequence, options};
+use crate::scene::Options;
+
+/// Renders one frame after another.
+pub(super) struct Renderer {
+    povray: Option<PathBuf>,
+    one_at_a_time: Mutex<()>,
+    stop: Arc<AtomicBool>,
+}
+
+/// What is wanted of POV-Ray.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Wanted {
+    run: String,
+    frame: usize,
+    /// The camera: 0 is the main one, then come the views.
+    #[serde(default)]
+    view: usize,
+    /// Whether it shall be as good as can be; else it shall be quick.
+    #[serde(default)]
+    fine: bool,
+}
+
+/// Somebody's wish for an image. When it is dropped, nobody waits for the image any more.
+pub(super) struct Wish(Arc<AtomicBool>);
+
+impl Wish {
+    /// What tells that nobody waits any more.
+    pub(super) fn stop(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
+    }
+}
+
+impl Drop for Wish {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Wanted {
+    /// The number of the run.
+    pub(super) fn run(&self) -> RunId {
+        self.run.parse().unwrap_or_default()
+    }
+}
+
+impl Renderer {
+    /// One that takes the given POV-Ray, or that of the `PATH`.
+    pub(super) fn new(povray: Option<PathBuf>) -> Renderer {
+        Renderer { povray, one_at_a_time: Mutex::new(()), stop: Arc::default() }
+    }
+
+    /// Whether there is a POV-Ray.
+    pub(super) fn is_there(&self) -> bool {
+        PovRay::locate(self.povray.as_deref()).is_ok()
+    }
+
+    /// Ends what is being rendered: the server ends.
+    pub(super) fn end(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// A wish for an image.
+    pub(super) fn wish(&self) -> Wish {
+        Wish(Arc::default())
+    }
+
+    /// The image of a frame as a PNG.
+    pub(super) fn render(
+        &self,
+        run: &Simulation,
+        wanted: &Wanted,
+        options_of_scene: &Options,
+        stop: &AtomicBool,
+    ) -> Result<Vec<u8>, Failed> {
+        let Some(Ok(outcome)) = run.outcome() else {
+            let message = "the run is not finished: where the camera stands is not known yet";
+            return Err(Report::of_error("not-finished", message).into());
+        };
+        let _turn = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
+        if stop.load(Ordering::Relaxed) {
+            return Err(Failed::Gone);
+        }
+        let _ = options_of_scene;
+        let scene = &run.scene;
+        let whole = Run::surveyed(scene, outcome.survey.clone()).map_err(|error| of_output(error.into()))?;
+        let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
+        let seen = view.map(|view| whole.seen_by(view)).transpose();
+        let seen = seen.map_err(|error| of_output(error.into()))?.unwrap_or(whole);
+        // No scene has this name.
+        let folder = Folder::open(&Path::new("out").join(format!("{}.preview", scene.name))).map_err(of_output)?;
+        let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
+        output::write_moment(&seen, &folder, time).map_err(of_output)?;
+        self.image(&folder, time, wanted.fine, stop)
+    }
+
+    fn image(&self, folder: &Folder, time: f64, fine: bool, stop: &AtomicBool) -> Result<Vec<u8>, Failed> {
+        let mut sequence = Sequence::open(folder.path(), None).map_err(of_render)?;
+        sequence.moment = Some(time);
+        let images = Images::open(&folder.path().join("images")).map_err(of_render)?;
+        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory()).map_err(of_render)?;
+        let quality = if fine { Quality::Final } else { Quality::Draft };
+        let job = Job {
+            sequence: &sequence,
+            images: &images,
+            povray: &povray,
+            options: options(sequence.size, sequence.transparent, quality),
+            jobs: None,
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            retries: 1,
+            keep_going: false,
+            time_limit: None,
+        };
+        let outcome = job.run(&mut |_| {}, stop).map_err(of_render)?;
+        if let Some(fault) = outcome.failed.first() {
+            return Err(Failed::Report(fault.report()));
+        }
+        let Some(script) = sequence.scripts().first().filter(|_| !outcome.stopped) else {
+            return Err(Failed::Gone);
+        };
+        Ok(fs::read(images.image(&script.name))?)
+    }
+}
+
+fn of_output(error: OutputError) -> Failed {
+    Failed::Report(error.report())
+}
+
+fn of_render(error: RenderError) -> Failed {
+    Failed::Report(error.report())
+}

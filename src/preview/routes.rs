@@ -1,0 +1,315 @@
+//! What the server answers.
+//!
+//! | path | what |
+//! | --- | --- |
+//! | `/` and the files beside it | the page, which knows nothing of the scene |
+//! | `/api/events` | the [`State`](super::session::State), whenever it changes |
+//! | `/api/runs/N` | what stays the same in a run |
+//! | `/api/runs/N/forms` | the triangles of its forms |
+//! | `/api/runs/N/poses?from=A&to=B` | where its bodies are in some frames, as they are simulated |
+//! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, how a body moves |
+//! | `/api/runs/N/shown?from=A&to=B` | what is seen in some frames beside the bodies |
+//! | `/api/variants` | begins a run by another method |
+//! | `/api/render` | a frame by POV-Ray |
+
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use axum::body::{Body, Bytes};
+use axum::extract::{Path, Query, Request, State};
+use axum::http::header::{self, HeaderValue};
+use axum::http::{HeaderName, StatusCode};
+use axum::middleware::{self, Next};
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use serde::Deserialize;
+use tokio::sync::mpsc;
+use tokio_stream::wrappers::ReceiverStream;
+use tokio_stream::{Stream, StreamExt as _};
+
+use super::access::{self, Refused, Token};
+use super::page;
+use super::render::{Renderer, Wanted};
+use super::run::{RunId, Simulation};
+use super::session::{Session, Variant};
+use super::{describe, samples, shown};
+use crate::diagnostic::Report;
+
+/// What all answers are made from.
+#[derive(Clone)]
+pub(super) struct Server {
+    pub(super) session: Arc<Session>,
+    pub(super) renderer: Arc<Renderer>,
+    pub(super) token: Token,
+}
+
+/// All that the page may do: load what is beside it, and ask this server.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
+    img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+const HEADERS: [(HeaderName, &str); 6] = [
+    (header::CONTENT_SECURITY_POLICY, POLICY),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::REFERRER_POLICY, "no-referrer"),
+    (header::CACHE_CONTROL, "no-store"),
+    (header::X_FRAME_OPTIONS, "DENY"),
+    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+];
+
+/// All answers.
+pub(super) fn router(server: Server) -> Router {
+    let api = Router::new()
+        .route("/api/events", get(events))
+        .route("/api/runs/{id}", get(description))
+        .route("/api/runs/{id}/forms", get(forms))
+        .route("/api/runs/{id}/ghosts", get(ghosts))
+        .route("/api/runs/{id}/poses", get(poses))
+        .route("/api/runs/{id}/balance", get(balance))
+        .route("/api/runs/{id}/series", get(series))
+        .route("/api/runs/{id}/shown", get(what_is_shown))
+        .route("/api/variants", post(variant))
+        .route("/api/render", post(render))
+        .route_layer(middleware::from_fn_with_state(server.clone(), with_token));
+    let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, text)| {
+        router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *text) }))
+    });
+    api.merge(page).layer(middleware::from_fn(guarded)).with_state(server)
+}
+
+/// Lets nobody in but this machine's own page, and says with each answer what that page may do.
+async fn guarded(request: Request, next: Next) -> Response {
+    let mut response = match access::is_own(request.headers()) {
+        Ok(()) => next.run(request).await,
+        Err(refused) => refused.into_response(),
+    };
+    for (name, value) in HEADERS {
+        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+async fn with_token(State(server): State<Server>, request: Request, next: Next) -> Response {
+    match server.token.admits(request.uri()) {
+        Ok(()) => next.run(request).await,
+        Err(refused) => refused.into_response(),
+    }
+}
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        (StatusCode::FORBIDDEN, self.message()).into_response()
+    }
+}
+
+/// Why there is no answer.
+pub(super) enum Failed {
+    /// The run is not kept any more, or has no such frame or body.
+    Gone,
+    /// What the terminal would show.
+    Report(Report),
+    /// Something of this machine.
+    Io(std::io::Error),
+}
+
+impl From<std::io::Error> for Failed {
+    fn from(error: std::io::Error) -> Failed {
+        Failed::Io(error)
+    }
+}
+
+impl From<Report> for Failed {
+    fn from(report: Report) -> Failed {
+        Failed::Report(report)
+    }
+}
+
+impl IntoResponse for Failed {
+    fn into_response(self) -> Response {
+        match self {
+            Failed::Gone => (StatusCode::NOT_FOUND, "there is no such run, frame or body\n").into_response(),
+            Failed::Report(report) => {
+                (StatusCode::UNPROCESSABLE_ENTITY, report.to_text(false)).into_response()
+            }
+            Failed::Io(error) => (StatusCode::INTERNAL_SERVER_ERROR, format!("{error}\n")).into_response(),
+        }
+    }
+}
+
+impl Server {
+    fn run(&self, id: RunId) -> Result<Arc<Simulation>, Failed> {
+        self.session.run(id).ok_or(Failed::Gone)
+    }
+}
+
+/// Some frames of a run; those that are not simulated yet are waited for, or left out.
+#[derive(Deserialize)]
+struct Frames {
+    #[serde(default)]
+    from: usize,
+    /// The frame after the last one.
+    to: Option<usize>,
+    /// Every so many-th.
+    #[serde(default = "one")]
+    every: usize,
+    /// The number of the body, where it is about one.
+    #[serde(default)]
+    body: usize,
+    /// The camera: 0 is the main one, then come the views.
+    #[serde(default)]
+    view: usize,
+}
+
+fn one() -> usize {
+    1
+}
+
+impl Frames {
+    fn end(&self, run: &Simulation) -> usize {
+        self.to.unwrap_or(usize::MAX).min(run.scene.simulation.frames())
+    }
+
+    /// Those that have been simulated.
+    fn recorded(&self, run: &Simulation) -> impl Iterator<Item = usize> + use<> {
+        (self.from..self.end(run).min(run.recording.recorded())).step_by(self.every.max(1))
+    }
+}
+
+async fn events(
+    State(server): State<Server>,
+) -> Sse<impl Stream<Item = Result<Event, std::convert::Infallible>>> {
+    /// No more often than this.
+    const PAUSE: Duration = Duration::from_millis(30);
+    let (sender, receiver) = mpsc::channel(1);
+    tokio::spawn(async move {
+        let mut pulse = server.session.pulse();
+        let mut last = None;
+        while !sender.is_closed() {
+            let state = server.session.state();
+            if last.as_ref() != Some(&state) {
+                let Ok(event) = Event::default().json_data(&state) else { return };
+                if sender.send(event).await.is_err() {
+                    return;
+                }
+                last = Some(state);
+            }
+            tokio::select! {
+                changed = pulse.changed() => if changed.is_err() { return },
+                () = sender.closed() => return,
+            }
+            tokio::time::sleep(PAUSE).await;
+        }
+    });
+    Sse::new(ReceiverStream::new(receiver).map(Ok)).keep_alive(KeepAlive::default())
+}
+
+async fn description(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    blocking(move || Ok(Json(describe::describe(&run)).into_response())).await
+}
+
+async fn forms(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    blocking(move || Ok(binary(Body::from(describe::triangles(&run.scene))))).await
+}
+
+async fn ghosts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    Ok(Json(shown::ghosts(&run)).into_response())
+}
+
+/// The frames one after another, as soon as each is simulated.
+async fn poses(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Response, Failed> {
+    /// Several small frames go together.
+    const TOGETHER: usize = 1 << 16;
+    let run = server.run(id)?;
+    let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
+    tokio::task::spawn_blocking(move || {
+        let (mut frame, end) = (frames.from, frames.end(&run));
+        while frame < end && !sender.is_closed() {
+            let recorded = run.recording.recorded().min(end);
+            if frame >= recorded {
+                if run.outcome().is_some() {
+                    return;
+                }
+                thread::sleep(Duration::from_millis(4));
+                continue;
+            }
+            let many = (TOGETHER / run.recording.pose_bytes().max(1)).max(1);
+            let until = recorded.min(frame + many);
+            let bytes: std::io::Result<Vec<Vec<u8>>> = (frame..until).map(|k| run.recording.poses(k)).collect();
+            if sender.blocking_send(bytes.map(|bytes| bytes.concat().into())).is_err() {
+                return;
+            }
+            frame = until;
+        }
+    });
+    Ok(binary(Body::from_stream(ReceiverStream::new(receiver))))
+}
+
+async fn balance(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    blocking(move || Ok(binary(Body::from(samples::balance(&run, frames.recorded(&run))?)))).await
+}
+
+async fn series(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    if frames.body >= run.scene.bodies.len() {
+        return Err(Failed::Gone);
+    }
+    blocking(move || Ok(binary(Body::from(samples::of_body(&run, frames.body, frames.recorded(&run))?)))).await
+}
+
+async fn what_is_shown(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    blocking(move || {
+        let shown = shown::frames(&run, frames.view, frames.recorded(&run))?;
+        Ok(Json(shown).into_response())
+    })
+    .await
+}
+
+async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> Result<Response, Failed> {
+    blocking(move || Ok(Json(server.session.variant(variant)?.progress()).into_response())).await
+}
+
+async fn render(State(server): State<Server>, Json(wanted): Json<Wanted>) -> Result<Response, Failed> {
+    let run = server.run(wanted.run())?;
+    // When the page goes away, so does the wish.
+    let wish = server.renderer.wish();
+    let stop = wish.stop();
+    let image =
+        blocking(move || server.renderer.render(&run, &wanted, &server.session.options, &stop)).await?;
+    drop(wish);
+    Ok(([(header::CONTENT_TYPE, "image/png")], image).into_response())
+}
+
+fn binary(body: Body) -> Response {
+    ([(header::CONTENT_TYPE, "application/octet-stream")], body).into_response()
+}
+
+/// Does what takes a while without holding up others.
+async fn blocking<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Failed> + Send + 'static,
+) -> Result<T, Failed> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.unwrap_or_else(|error| Err(Failed::Io(std::io::Error::other(error))))
+}

@@ -1,0 +1,190 @@
+//! A run of a scene in the background, which is watched while it goes on.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use super::recording::Recording;
+use crate::diagnostic::{Diagnostic, Report};
+use crate::output::OutputError;
+use crate::picture::Plan;
+use crate::simulate::{Bounds, Diverged, Frame, Frames, Ghost, Lagging, Survey, Surveyor};
+use crate::{Run, RunError, Scene};
+
+/// The number of a run: no two runs of a server have the same, so what is known of one never passes for another's.
+pub(super) type RunId = u64;
+
+/// A run, from the moment on in which it is begun.
+pub(super) struct Simulation {
+    pub(super) id: RunId,
+    pub(super) scene: Arc<Scene>,
+    pub(super) recording: Recording,
+    cancelled: AtomicBool,
+    past: Mutex<PastOfRun>,
+    outcome: OnceLock<Result<Outcome, Report>>,
+}
+
+/// What trails behind the frames of a run.
+#[derive(Default)]
+struct PastOfRun {
+    ghosts: Vec<Arc<Ghost>>,
+    /// Of each frame, if there are cameras that lag.
+    lagging: Vec<Vec<Lagging>>,
+    bounds: Option<Bounds>,
+}
+
+/// What is known after the last frame.
+pub(super) struct Outcome {
+    pub(super) survey: Survey,
+    /// How the main camera sees the run, and then each view.
+    pub(super) plans: Vec<Plan>,
+    /// What was noticed of the run.
+    pub(super) warnings: Report,
+}
+
+/// How far a run is, as the page is told.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Progress {
+    /// The number of the run.
+    id: String,
+    /// How many frames there will be.
+    frames: usize,
+    /// How many there are.
+    recorded: usize,
+    /// Whether all is known of it.
+    settled: bool,
+    /// Why it ended early.
+    problem: Option<String>,
+    warnings: Option<String>,
+}
+
+/// So often somebody is told that there are more frames.
+const PULSE: Duration = Duration::from_millis(40);
+
+impl Simulation {
+    /// Begins a run; `pulse` is called whenever there is something new of it, from another thread.
+    pub(super) fn begin(
+        id: RunId,
+        scene: Arc<Scene>,
+        pulse: impl Fn() + Send + 'static,
+    ) -> io::Result<Arc<Simulation>> {
+        let run = Arc::new(Simulation {
+            id,
+            recording: Recording::new(scene.bodies.len())?,
+            scene,
+            cancelled: AtomicBool::new(false),
+            past: Mutex::default(),
+            outcome: OnceLock::new(),
+        });
+        let own = Arc::clone(&run);
+        thread::Builder::new().name("run".to_owned()).spawn(move || {
+            let outcome = own.simulate(&pulse);
+            // Nobody else sets it.
+            let _ = own.outcome.set(outcome);
+            pulse();
+        })?;
+        Ok(run)
+    }
+
+    /// Ends it early: nobody looks at it any more.
+    pub(super) fn cancel(&self) {
+        self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// What is known after the last frame, if it was reached; or why it was not.
+    pub(super) fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
+        self.outcome.get().map(Result::as_ref)
+    }
+
+    /// How far it is.
+    pub(super) fn progress(&self) -> Progress {
+        let outcome = self.outcome();
+        let warnings = outcome.and_then(Result::ok).map(|outcome| outcome.warnings.to_text(false));
+        Progress {
+            id: self.id.to_string(),
+            frames: self.scene.simulation.frames(),
+            recorded: self.recording.recorded(),
+            settled: outcome.is_some(),
+            problem: outcome.and_then(Result::err).map(|report| report.to_text(false)),
+            warnings: warnings.filter(|text| !text.is_empty()),
+        }
+    }
+
+    /// A frame that has been recorded, with as much of its past as pictures of the preview show.
+    pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
+        let mut frame = self.recording.frame(index)?;
+        let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
+        let slack = 1e-6 / self.scene.simulation.frame_rate;
+        let is_past = |ghost: &&Arc<Ghost>| ghost.time < frame.time - slack;
+        frame.past.ghosts = past.ghosts.iter().filter(is_past).cloned().collect();
+        frame.past.lagging = past.lagging.get(index).cloned().unwrap_or_default();
+        Ok(frame)
+    }
+
+    /// The ghosts so far.
+    pub(super) fn ghosts(&self) -> Vec<Arc<Ghost>> {
+        self.past.lock().unwrap_or_else(PoisonError::into_inner).ghosts.clone()
+    }
+
+    /// The box in which everything has taken place so far.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds
+    }
+
+    fn simulate(&self, pulse: &dyn Fn()) -> Result<Outcome, Report> {
+        let scene: &Scene = &self.scene;
+        let mut surveyor = Surveyor::new(scene);
+        let mut told = Instant::now();
+        for frame in Frames::new(scene) {
+            if self.cancelled.load(Ordering::Relaxed) {
+                return Err(Report::default());
+            }
+            let mut frame = frame.map_err(diverged)?;
+            surveyor.see(&frame);
+            self.remember(&mut frame, surveyor.bounds());
+            self.recording.push(&frame).map_err(|error| no_room(&error))?;
+            if told.elapsed() > PULSE {
+                pulse();
+                told = Instant::now();
+            }
+        }
+        let survey = surveyor.finish().map_err(diverged)?;
+        let plan = |camera| Plan::new(scene, camera, &survey);
+        let views = scene.views.iter().map(|view| plan(&view.camera));
+        let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
+        let run = Run::surveyed(scene, survey.clone()).map_err(failed)?;
+        let warnings = Report { diagnostics: run.warnings(), ..Report::default() };
+        Ok(Outcome { survey, plans, warnings })
+    }
+
+    fn remember(&self, frame: &mut Frame, bounds: Option<Bounds>) {
+        let mut past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
+        past.bounds = bounds;
+        past.ghosts = std::mem::take(&mut frame.past.ghosts);
+        let lagging = std::mem::take(&mut frame.past.lagging);
+        if !lagging.is_empty() {
+            past.lagging.push(lagging);
+        }
+    }
+}
+
+fn diverged(error: Diverged) -> Report {
+    OutputError::from(error).report()
+}
+
+fn failed(error: RunError) -> Report {
+    OutputError::from(error).report()
+}
+
+fn no_room(error: &io::Error) -> Report {
+    let message = format!("the frames cannot be kept: {error}");
+    let help = "they go to a file below /var/tmp, or where TMPDIR says; 128 bytes a body and frame";
+    Report {
+        diagnostics: vec![Diagnostic::error("cannot-write", message).help(help)],
+        ..Report::default()
+    }
+}

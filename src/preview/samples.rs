@@ -1,0 +1,98 @@
+//! What the plots are drawn from: numbers of frames, little-endian 64-bit.
+
+use std::io;
+
+use glam::DVec3;
+
+use super::recording::HEAD;
+use super::run::Simulation;
+use crate::dynamics::RigidBody;
+use crate::simulate::BodyFrame;
+
+/// Of each frame: its time; kinetic, potential, total energy; work of the forces without potential; drift; linear
+/// momentum; angular momentum.
+pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
+    let mut all = Vec::with_capacity(frames.size_hint().0 * HEAD * 8);
+    for frame in frames {
+        all.extend(run.recording.head(frame)?);
+    }
+    Ok(all)
+}
+
+/// Of a body in each frame: the time; its location, velocity, angular velocity, the force on it, 3 numbers each; its
+/// kinetic energy.
+pub(super) fn of_body(
+    run: &Simulation,
+    body: usize,
+    frames: impl Iterator<Item = usize>,
+) -> io::Result<Vec<u8>> {
+    let rigid = &run.scene.bodies[body].start;
+    let mut all = Vec::new();
+    for frame in frames {
+        let at = run.recording.body(frame, body)?;
+        let vectors = [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
+        let time = [run.scene.simulation.time(frame)];
+        let energy = [kinetic(rigid, &at)];
+        let numbers = time.iter().chain(vectors.iter().flatten()).chain(&energy);
+        numbers.for_each(|number| all.extend_from_slice(&number.to_le_bytes()));
+    }
+    Ok(all)
+}
+
+/// The kinetic energy of a body, translation and rotation, J.
+fn kinetic(body: &RigidBody, at: &BodyFrame) -> f64 {
+    if body.fixed || body.mass <= 0.0 {
+        return 0.0;
+    }
+    let of_principal_axes = at.orientation * body.principal_axes;
+    let spin = of_principal_axes.inverse() * at.angular_velocity;
+    0.5 * (body.mass * at.velocity.length_squared() + (body.inertia * spin * spin).dot(DVec3::ONE))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::Scene;
+
+    /// The energies of all bodies together are that of the run.
+    #[test]
+    fn the_energy_of_a_body_is_its_share_of_the_whole() {
+        let scene = Scene::parse(
+            "
+            [simulation]
+            duration = 0.4
+            gravity = [0, -9.81, 0]
+            [body.box]
+            shape.box.size = [3, 1, 2]
+            orientation = [10, 20, 30]
+            angular_velocity = [0.1, 0.2, 5]
+            [body.hammer]
+            velocity = [1, 2, 3]
+            angular_velocity = [3, 1, 0.2]
+            [[body.hammer.shape.compound]]
+            cylinder = { radius = 0.1, height = 1 }
+            [[body.hammer.shape.compound]]
+            box.size = [0.4, 0.2, 0.1]
+            location = [0.1, 0.5, 0]
+            ",
+        )
+        .unwrap();
+        let run = Simulation::begin(1, Arc::new(scene), || {}).unwrap();
+        while run.outcome().is_none() {
+            std::thread::yield_now();
+        }
+        let numbers = |bytes: Vec<u8>| -> Vec<f64> {
+            bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect()
+        };
+        let whole = numbers(balance(&run, 0..11).unwrap());
+        let [first, second] = [0, 1].map(|body| numbers(of_body(&run, body, 0..11).unwrap()));
+        assert_eq!((whole.len(), first.len()), (11 * HEAD, 11 * 14));
+        for frame in 0..11 {
+            assert_eq!(whole[frame * HEAD], first[frame * 14]);
+            let (sum, kinetic) = (first[frame * 14 + 13] + second[frame * 14 + 13], whole[frame * HEAD + 1]);
+            assert!((sum - kinetic).abs() < 1e-12 * kinetic, "{sum} {kinetic}");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! What is previewed: the scene's last good run, what is wrong with the scene now, and runs by other methods.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::io;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+use tokio::sync::watch;
+
+use super::run::{Progress, RunId, Simulation};
+use super::watch::{INTERVAL, Watched};
+use crate::Scene;
+use crate::diagnostic::Report;
+use crate::scene::{Options, Override};
+
+/// What is previewed. All pages that are open see the same.
+pub(super) struct Session {
+    path: PathBuf,
+    pub(super) options: Options,
+    inner: Mutex<Inner>,
+    next: AtomicU64,
+    /// Counts whatever changes.
+    pulse: watch::Sender<u64>,
+    said: Box<dyn Fn(&Report) + Send + Sync>,
+}
+
+#[derive(Default)]
+struct Inner {
+    current: Option<Arc<Simulation>>,
+    /// Runs of the same scene by other methods, each with what it differs by; the oldest first.
+    variants: VecDeque<(Variant, Arc<Simulation>)>,
+    problem: Option<String>,
+    warnings: Option<String>,
+}
+
+/// A method and a step that are not the scene's.
+#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+pub(super) struct Variant {
+    /// The name of the method.
+    integrator: String,
+    /// The longest timestep, s, as it was typed.
+    step: String,
+}
+
+/// What the page is told whenever something changes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct State {
+    /// The run of the scene as it last was without errors.
+    current: Option<String>,
+    /// What is wrong with the scene now, as the terminal shows it.
+    problem: Option<String>,
+    /// What was noticed of the scene and is no error.
+    warnings: Option<String>,
+    /// All runs that can be asked for.
+    runs: BTreeMap<String, Progress>,
+}
+
+/// So many runs by other methods are kept.
+const VARIANTS: usize = 4;
+
+/// So long a new run may take before it is shown unfinished.
+const QUICK: Duration = Duration::from_millis(150);
+
+impl Session {
+    /// The session of a scene, before it is read. `said` gets what the terminal shall show.
+    pub(super) fn new(
+        path: PathBuf,
+        options: Options,
+        said: impl Fn(&Report) + Send + Sync + 'static,
+    ) -> Arc<Session> {
+        let (inner, next) = (Mutex::default(), AtomicU64::new(1));
+        Arc::new(Session { path, options, inner, next, pulse: watch::Sender::new(0), said: Box::new(said) })
+    }
+
+    /// Reads the scene, and again whenever one of its files changes, until somebody asks to stop.
+    pub(super) fn follow(self: &Arc<Session>, stop: &AtomicBool) {
+        let mut watched = Watched::new(std::slice::from_ref(&self.path));
+        loop {
+            let again = self.read(&mut watched);
+            let read = Instant::now();
+            loop {
+                if stop.load(Ordering::Relaxed) {
+                    return;
+                }
+                thread::sleep(INTERVAL);
+                if watched.have_changed() || (again && read.elapsed() > 2 * INTERVAL) {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// A counter that goes up whenever something changes.
+    pub(super) fn pulse(&self) -> watch::Receiver<u64> {
+        self.pulse.subscribe()
+    }
+
+    /// All that a page needs to know.
+    pub(super) fn state(&self) -> State {
+        let inner = self.lock();
+        let runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
+        State {
+            current: inner.current.as_ref().map(|run| run.id.to_string()),
+            problem: inner.problem.clone(),
+            warnings: inner.warnings.clone(),
+            runs: runs.map(|run| (run.id.to_string(), run.progress())).collect(),
+        }
+    }
+
+    /// The run with a number, if it is still kept.
+    pub(super) fn run(&self, id: RunId) -> Option<Arc<Simulation>> {
+        let inner = self.lock();
+        let mut runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
+        runs.find(|run| run.id == id).cloned()
+    }
+
+    /// A run of the scene by another method; the same for everyone who asks for the same.
+    ///
+    /// # Errors
+    /// What is wrong with the scene, or with the method or the step.
+    pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<Simulation>, Report> {
+        if let Some((_, run)) = self.lock().variants.iter().find(|(other, _)| *other == variant) {
+            return Ok(Arc::clone(run));
+        }
+        let mut options = self.options.clone();
+        let set = |key: &str, value: &str| Override::new(format!("simulation.{key}={value}"));
+        options.overrides.push(set("integrator", &variant.integrator));
+        if !variant.step.trim().is_empty() {
+            options.overrides.push(set("step", &variant.step));
+        }
+        let scene = Scene::from_path_with(&self.path, &options)?;
+        let run = self.begin(scene).map_err(|error| cannot_begin(&error))?;
+        let mut inner = self.lock();
+        inner.variants.push_back((variant, Arc::clone(&run)));
+        if inner.variants.len() > VARIANTS {
+            inner.variants.pop_front().iter().for_each(|(_, run)| run.cancel());
+        }
+        drop(inner);
+        self.beat();
+        Ok(run)
+    }
+
+    /// Reads the scene; tells whether it should be read once more, since it may have changed meanwhile.
+    fn read(self: &Arc<Session>, watched: &mut Watched) -> bool {
+        *watched = Watched::new(&watched.files());
+        let read = Scene::from_path_with(&self.path, &self.options);
+        let report = read.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
+        watched.add(report.sources.files());
+        match read {
+            Ok(scene) => self.replace(scene),
+            Err(report) => self.complain(&report),
+        }
+        self.beat();
+        watched.are_young()
+    }
+
+    /// Shows another scene, unless it is the same.
+    fn replace(self: &Arc<Session>, scene: Scene) {
+        let is_same = |run: &Arc<Simulation>| run.scene.digest == scene.digest;
+        if self.lock().current.as_ref().is_some_and(is_same) {
+            self.lock().problem = None;
+            return;
+        }
+        (self.said)(&scene.warnings);
+        let warnings = Some(scene.warnings.to_text(false)).filter(|text| !text.is_empty());
+        let run = match self.begin(scene) {
+            Ok(run) => run,
+            Err(error) => return self.complain(&cannot_begin(&error)),
+        };
+        // What is there in the twinkling of an eye need not be seen half done.
+        let begun = Instant::now();
+        while run.outcome().is_none() && begun.elapsed() < QUICK {
+            thread::sleep(Duration::from_millis(2));
+        }
+        let mut inner = self.lock();
+        let old = inner.current.replace(run);
+        let variants = std::mem::take(&mut inner.variants);
+        inner.problem = None;
+        inner.warnings = warnings;
+        drop(inner);
+        old.iter().chain(variants.iter().map(|(_, run)| run)).for_each(|run| run.cancel());
+    }
+
+    /// Says what is wrong with the scene; its last good run stays.
+    fn complain(&self, report: &Report) {
+        let text = report.to_text(false);
+        let is_new = self.lock().problem.replace(text.clone()).is_none_or(|before| before != text);
+        if is_new {
+            (self.said)(report);
+        }
+    }
+
+    fn begin(self: &Arc<Session>, scene: Scene) -> io::Result<Arc<Simulation>> {
+        let id = self.next.fetch_add(1, Ordering::Relaxed);
+        let session = Arc::downgrade(self);
+        Simulation::begin(id, Arc::new(scene), move || {
+            session.upgrade().iter().for_each(|session| session.beat());
+        })
+    }
+
+    fn beat(&self) {
+        self.pulse.send_modify(|count| *count += 1);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn cannot_begin(error: &io::Error) -> Report {
+    Report::of_error("cannot-write", format!("the run cannot be begun: {error}"))
+}

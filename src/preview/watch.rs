@@ -1,0 +1,79 @@
+//! When the files of a scene change.
+//!
+//! They are looked at from time to time, rather than reported by the system: so files are seen that come over a
+//! network, that an editor replaces instead of writing to, and that are not there yet.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// So often the files are looked at.
+pub(super) const INTERVAL: Duration = Duration::from_millis(60);
+
+/// What tells whether a file is another one than before; none where there is no file.
+type Mark = Option<(u64, u64, SystemTime)>;
+
+/// The files that a scene was read from, as they were.
+pub(super) struct Watched(Vec<(PathBuf, Mark)>);
+
+impl Watched {
+    /// These files, as they are now. It is asked for before they are read, so that no change is missed.
+    pub(super) fn new(files: &[PathBuf]) -> Watched {
+        Watched(files.iter().map(|file| (file.clone(), mark(file))).collect())
+    }
+
+    /// Watches further files as well, as they are now.
+    pub(super) fn add(&mut self, files: &[PathBuf]) {
+        let new = files.iter().filter(|file| !self.0.iter().any(|(known, _)| known == *file));
+        let new: Vec<_> = new.map(|file| (file.clone(), mark(file))).collect();
+        self.0.extend(new);
+    }
+
+    /// The files.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.0.iter().map(|(file, _)| file.clone()).collect()
+    }
+
+    /// Whether one has changed since.
+    pub(super) fn have_changed(&self) -> bool {
+        self.0.iter().any(|(file, before)| mark(file) != *before)
+    }
+
+    /// Whether one is so young that another change of the same moment might look the same.
+    pub(super) fn are_young(&self) -> bool {
+        const YOUNG: Duration = Duration::from_millis(50);
+        let is_young = |mark: &Mark| {
+            mark.and_then(|(.., changed)| changed.elapsed().ok()).is_some_and(|age| age < YOUNG)
+        };
+        self.0.iter().any(|(_, mark)| is_young(mark))
+    }
+}
+
+fn mark(file: &Path) -> Mark {
+    use std::os::unix::fs::MetadataExt;
+    let metadata = fs::metadata(file).ok()?;
+    Some((metadata.len(), metadata.ino(), metadata.modified().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_that_come_go_grow_and_are_replaced_have_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, other) = (folder.path().join("a.toml"), folder.path().join("b.toml"));
+        let watched = |change: &dyn Fn()| {
+            let watched = Watched::new(&[file.clone(), other.clone()]);
+            assert!(!watched.have_changed());
+            change();
+            watched.have_changed()
+        };
+        assert!(watched(&|| fs::write(&file, "1").unwrap()));
+        assert!(watched(&|| fs::write(&file, "12").unwrap()));
+        assert!(watched(&|| fs::copy(&file, &other).map(drop).unwrap()));
+        assert!(watched(&|| fs::rename(&other, &file).unwrap()));
+        assert!(watched(&|| fs::remove_file(&file).unwrap()));
+        assert!(!watched(&|| {}));
+    }
+}
