@@ -12,7 +12,8 @@
 //! | [`render`] | scripts → images → film | POV-Ray's options; which images are up to date; ffmpeg |
 //!
 //! [`Run`] takes a scene through them. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
-//! what there is to choose from, and [`starter`] a scene to start from.
+//! what there is to choose from, and [`starter`] a scene to start from. [`surface`] has the triangles of shapes and plain looks of materials, for
+//! whatever draws without POV-Ray.
 //!
 //! # A snapshot test of a scene
 //!
@@ -52,6 +53,7 @@ mod run;
 pub mod scene;
 pub mod simulate;
 pub mod starter;
+pub mod surface;
 
 pub use run::{Run, RunError};
 pub use scene::Scene;

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::framing;
 use super::sdl::Style;
 use super::text::{self, Identifiers};
-use super::{framing, normals};
 use crate::dynamics::{Mesh, Shape};
 use crate::scene::{Layout, Scene};
+use crate::surface::normals;
 
 /// The meshes of a scene, each with an identifier.
 #[derive(Default)]

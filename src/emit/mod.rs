@@ -10,7 +10,6 @@ mod framing;
 mod materials;
 mod meshes;
 mod names;
-mod normals;
 mod number;
 mod screen;
 mod sdl;

@@ -39,6 +39,11 @@ impl Color {
     pub fn from_code(code: u32) -> Color {
         Color([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
     }
+
+    /// The same color as linear light: red, green and blue from 0 to 1 (IEC 61966-2-1).
+    pub fn linear(self) -> [f64; 3] {
+        self.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
+    }
 }
 
 #[cfg(test)]
@@ -66,5 +71,13 @@ mod tests {
             assert!(pair[0].0 < pair[1].0, "{} is not in order", pair[1].0);
         }
         assert!(NAMES.iter().all(|(name, _)| name.bytes().all(|b| b.is_ascii_lowercase())));
+    }
+
+    #[test]
+    fn linear_light_is_darker_than_srgb_in_between() {
+        let [black, middle, white] = Color([0.0, 0.5, 1.0]).linear();
+        assert_eq!([black, white], [0.0, 1.0]);
+        // IEC 61966-2-1: sRGB 0.5 is 21.4 % of the light.
+        assert!((middle - 0.214_041).abs() < 1e-6, "{middle}");
     }
 }

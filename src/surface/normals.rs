@@ -5,16 +5,16 @@ use glam::DVec3;
 use crate::dynamics::Mesh;
 
 /// The normals of a mesh, and the numbers of those at the corners of each triangle.
-pub(super) struct Normals {
-    pub(super) vectors: Vec<DVec3>,
-    pub(super) corners: Vec<[u32; 3]>,
+pub(crate) struct Normals {
+    pub(crate) vectors: Vec<DVec3>,
+    pub(crate) corners: Vec<[u32; 3]>,
 }
 
 /// The normals at the corners of each triangle: the mean of its own and of those of all triangles at the same vertex that
 /// it meets at no more than `smooth` rad, each weighing as the angle of its corner (G. Thürmer, C. A. Wüthrich, *Computing
 /// Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998).
 #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer corners than 32 bits can count")]
-pub(super) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
+pub(crate) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
     let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
     let around = Around::new(vertices.len(), triangles);
     let least_cosine = libm::cos(smooth);

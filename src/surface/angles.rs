@@ -1,0 +1,16 @@
+//! Angles that divide a circle evenly.
+
+use std::f64::consts::TAU;
+
+/// The cosine and sine of so many of `count` equal parts of a circle; `count` is divisible by four. Points that a
+/// reflection takes to one another are so to the last bit, and those on an axis are on it.
+pub(super) fn circle(part: u32, count: u32) -> (f64, f64) {
+    let quarter = count / 4;
+    let (sine, cosine) = libm::sincos(TAU * f64::from(part % quarter) / f64::from(count));
+    match (part / quarter) % 4 {
+        0 => (cosine, sine),
+        1 => (-sine, cosine),
+        2 => (-cosine, -sine),
+        _ => (sine, -cosine),
+    }
+}

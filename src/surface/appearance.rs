@@ -1,0 +1,249 @@
+//! What is left of materials for a renderer that knows no POV-Ray.
+
+use crate::scene::{Color, Finish, LibraryMaterial, Look, Preset};
+
+/// What a material looks like to a renderer that knows no POV-Ray, in the terms of metallic-roughness shading, as glTF
+/// has it. Colors are linear light from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Appearance {
+    /// Its color: red, green, blue, and how much it covers (1: nothing shines through).
+    pub color: [f64; 4],
+    /// Whether it is a metal (1) or not (0).
+    pub metallic: f64,
+    /// How much it scatters what it reflects: from 0, a mirror, to 1, chalk.
+    pub roughness: f64,
+    /// Whether it shines by itself, in its color.
+    pub emissive: bool,
+    /// Its pattern.
+    pub pattern: Motif,
+    /// The other color of the pattern, red, green and blue.
+    pub second: Option<[f64; 3]>,
+}
+
+/// A pattern that shows how a body turns. All lengths are in radii of a ball of the body's volume, but for those of
+/// the ground; the pattern's middle and axes are the body's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Motif {
+    /// None.
+    None,
+    /// Cubes of 0.5 of both colors by turns; a corner of theirs is in the middle of the body, and the one from 0 to 0.5
+    /// along all axes has the second color.
+    Checkered,
+    /// Bands of 0.22 of both colors by turns around y; the middle one, from -0.11 to 0.11, has the second color.
+    Striped,
+    /// Six sectors around y, in the colors [`BEACH_BALL`]; the poles, from |y| = 0.911 on, have the second color. The
+    /// color of the whole is the mean.
+    BeachBall,
+    /// Tiles of both colors by turns, on a plane.
+    Ground,
+}
+
+/// The colors of a beach ball's sectors. The first goes from x by 60° towards -z, and the others follow.
+pub const BEACH_BALL: [Color; 6] = [
+    Color([0.83, 0.13, 0.15]),
+    Color([0.96, 0.95, 0.92]),
+    Color([0.98, 0.76, 0.14]),
+    Color([0.1, 0.52, 0.36]),
+    Color([0.93, 0.46, 0.1]),
+    Color([0.1, 0.36, 0.75]),
+];
+
+/// The white of toys.
+const WHITE: Color = Color([0.96, 0.95, 0.92]);
+
+/// What is not known: the words of POV-Ray may mean anything.
+const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
+
+impl Appearance {
+    fn new(color: [f64; 3], metallic: f64, roughness: f64) -> Appearance {
+        let [red, green, blue] = color.map(|part| part.min(1.0));
+        let color = [red, green, blue, 1.0];
+        Appearance { color, metallic, roughness, emissive: false, pattern: Motif::None, second: None }
+    }
+
+    fn patterned(self, pattern: Motif, second: Color) -> Appearance {
+        Appearance { pattern, second: Some(second.linear()), ..self }
+    }
+
+    /// The color for one that draws no patterns: the mean of both.
+    #[must_use]
+    pub fn mean(&self) -> [f64; 4] {
+        match (self.pattern, self.second) {
+            (Motif::Checkered | Motif::Striped | Motif::Ground, Some(second)) => {
+                let mean = |i: usize| f64::midpoint(self.color[i], second[i]);
+                [mean(0), mean(1), mean(2), self.color[3]]
+            }
+            _ => self.color,
+        }
+    }
+}
+
+/// What a look is like; gray where only POV-Ray knows. The checkered look of the ground is that of daylight (see
+/// [`ground`]).
+#[must_use]
+pub fn appearance(look: &Look) -> Appearance {
+    match look {
+        Look::Plain { color, finish } => plain(*color, *finish),
+        Look::Library { material, color } => library(material, color.unwrap_or(Color::WHITE)),
+        Look::Checkered => ground(Preset::Daylight),
+        Look::Texture(_) | Look::Sdl(_) => Appearance::new(UNKNOWN.linear(), 0.0, 0.6),
+    }
+}
+
+fn plain(color: Color, finish: Finish) -> Appearance {
+    let color = color.linear();
+    match finish {
+        Finish::Matte => Appearance::new(color, 0.0, 1.0),
+        Finish::Satin => Appearance::new(color, 0.0, 0.5),
+        Finish::Glossy => Appearance::new(color, 0.0, 0.2),
+        Finish::Metal => Appearance::new(color, 1.0, 0.25),
+        // It reflects in no color, and has a hint of its own.
+        Finish::Mirror => Appearance::new(color.map(|part| 0.85 + 0.06 * part), 1.0, 0.03),
+        Finish::Luminous => Appearance { emissive: true, ..Appearance::new(color, 0.0, 1.0) },
+    }
+}
+
+/// A material of the library whose color is given, if it takes one. Where its pattern has shades of that color, the
+/// color is their mean.
+fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
+    let tint = tint.linear();
+    let opaque = |shade: f64, metallic: f64, roughness: f64| {
+        Appearance::new(tint.map(|part| shade * part), metallic, roughness)
+    };
+    let clear = |cover: f64, roughness: f64| {
+        let [red, green, blue] = tint;
+        Appearance { color: [red, green, blue, cover], ..Appearance::new(tint, 0.0, roughness) }
+    };
+    let look = match material.name {
+        "brass" | "copper" => opaque(1.0, 1.0, 0.25),
+        "bronze" => opaque(1.0, 1.0, 0.35),
+        "gold" | "silver" => opaque(1.0, 1.0, 0.2),
+        "chrome" => opaque(1.0, 1.0, 0.05),
+        "steel" => opaque(1.0, 1.0, 0.4),
+        "iron" => opaque(0.95, 1.0, 0.65),
+        "glass" => clear(0.35, 0.02),
+        "tinted_glass" => clear(0.5, 0.02),
+        "water" => clear(0.45, 0.05),
+        "ice" => clear(0.7, 0.3),
+        "bubble" => clear(0.15, 0.02),
+        "plastic" => opaque(1.0, 0.0, 0.35),
+        "rubber" => opaque(1.0, 0.0, 0.8),
+        "porcelain" => opaque(1.0, 0.0, 0.1),
+        "car_paint" => opaque(0.9, 0.3, 0.2),
+        "neon" => opaque(1.0, 0.0, 1.0),
+        // Bright at the rim, and dark where it is seen from above, which is more of it.
+        "velvet" => opaque(0.6, 0.0, 1.0),
+        "felt" => opaque(0.88, 0.0, 1.0),
+        "paper" => opaque(0.97, 0.0, 0.95),
+        "chalk" => opaque(0.95, 0.0, 1.0),
+        "cork" => opaque(0.8, 0.0, 0.95),
+        "clay" | "terracotta" => opaque(0.96, 0.0, 0.95),
+        "concrete" | "sandstone" => opaque(0.92, 0.0, 0.95),
+        "marble" => opaque(0.88, 0.0, 0.2),
+        "granite" => opaque(0.9, 0.0, 0.15),
+        "jade" => opaque(0.95, 0.0, 0.2),
+        "wood" => opaque(0.85, 0.0, 0.5),
+        "dark_wood" => opaque(0.82, 0.0, 0.25),
+        "checkered" => opaque(1.0, 0.0, 0.3).patterned(Motif::Checkered, WHITE),
+        "striped" => opaque(1.0, 0.0, 0.3).patterned(Motif::Striped, WHITE),
+        "beach_ball" => Appearance::new(mean(&BEACH_BALL), 0.0, 0.3).patterned(Motif::BeachBall, WHITE),
+        "moon" => opaque(0.8, 0.0, 1.0),
+        // Two thirds ocean, some land, and clouds.
+        "earth" => Appearance::new(Color([0.38, 0.48, 0.6]).linear(), 0.0, 0.7),
+        "gas_giant" => opaque(0.85, 0.0, 1.0),
+        "sun" => {
+            let [red, green, blue] = tint;
+            Appearance::new([red * 1.1, green * 0.9, blue * 0.7], 0.0, 1.0)
+        }
+        _ => opaque(1.0, 0.0, 0.5),
+    };
+    Appearance { emissive: material.glows(), ..look }
+}
+
+/// The mean of some colors, which is one of light.
+fn mean(colors: &[Color; 6]) -> [f64; 3] {
+    let sum = colors.iter().fold([0.0; 3], |sum, color| {
+        let [red, green, blue] = color.linear();
+        [sum[0] + red, sum[1] + green, sum[2] + blue]
+    });
+    sum.map(|part| part / 6.0)
+}
+
+/// The checkered ground of surroundings, and of planes without a material there.
+#[must_use]
+pub fn ground(preset: Preset) -> Appearance {
+    let [light, dark] = tiles(preset);
+    Appearance::new(dark.linear(), 0.0, 0.9).patterned(Motif::Ground, light)
+}
+
+/// The light and the dark tiles of the ground: those of `templates/common.inc`.
+fn tiles(preset: Preset) -> [Color; 2] {
+    let [light, dark] = match preset {
+        Preset::Daylight => [[0.83, 0.8, 0.755], [0.69, 0.672, 0.645]],
+        Preset::Studio => [[0.88; 3], [0.86; 3]],
+        Preset::Night => [[0.5, 0.52, 0.56], [0.38, 0.4, 0.44]],
+        Preset::Blackboard => [[0.22, 0.26, 0.27], [0.16, 0.195, 0.205]],
+        Preset::Paper => [[0.98; 3], [0.86, 0.89, 0.93]],
+        Preset::Space => [[0.5; 3], [0.4; 3]],
+    };
+    [Color(light), Color(dark)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::MATERIALS;
+
+    fn look(material: &'static LibraryMaterial) -> Look {
+        Look::Library { material, color: material.color.map(Color::from_code) }
+    }
+
+    /// An opaque one of no metal with roughness 0.5 would be one that the table does not know.
+    #[test]
+    fn every_material_of_the_library_is_known() {
+        for material in MATERIALS.iter().filter(|material| Finish::named(material.name).is_none()) {
+            let found = appearance(&look(material));
+            let part = |part: f64| (0.0..=1.0).contains(&part);
+            assert!(found.color.into_iter().chain([found.metallic, found.roughness]).all(part), "{found:?}");
+            assert_eq!(found.emissive, material.glows(), "{}", material.name);
+            assert_eq!(found.color[3] < 1.0, material.ior.is_some(), "{}", material.name);
+            assert_eq!(found.metallic == 1.0, material.family == "metals", "{}", material.name);
+            let usual = Appearance::new(found.color[..3].try_into().unwrap(), 0.0, 0.5);
+            assert!(found != usual || material.name == "wood", "{} is not in the table", material.name);
+        }
+    }
+
+    #[test]
+    fn what_has_a_finish_has_its_color() {
+        let red = Color([1.0, 0.0, 0.0]);
+        for finish in Finish::ALL {
+            let found = appearance(&Look::Plain { color: red, finish });
+            assert!(found.color[0] > found.color[1] && found.color[3] == 1.0, "{finish:?}");
+            assert_eq!(found.emissive, finish == Finish::Luminous);
+        }
+    }
+
+    #[test]
+    fn patterns_have_the_colors_of_the_scripts() {
+        let toys = include_str!("../../templates/library/toys.inc");
+        for Color([red, green, blue]) in BEACH_BALL.into_iter().chain([WHITE]) {
+            assert!(toys.contains(&format!("color srgb <{red}, {green}, {blue}>")), "{red}");
+        }
+        let common = include_str!("../../templates/common.inc");
+        for preset in Preset::ALL {
+            let [Color(light), Color(dark)] = tiles(preset);
+            let text = format!("\"{}\": {{\"light\": {light:?}, \"dark\": {dark:?},", preset.name());
+            assert!(common.contains(&text), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_mean_of_a_pattern_lies_between_its_colors() {
+        for material in ["checkered", "striped"] {
+            let found = appearance(&look(LibraryMaterial::named(material).unwrap()));
+            let second = found.second.unwrap();
+            let mean = found.mean();
+            assert!((0..3).all(|i| (found.color[i] - mean[i]) * (mean[i] - second[i]) > 0.0), "{mean:?}");
+        }
+    }
+}

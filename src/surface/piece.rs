@@ -1,0 +1,116 @@
+//! The forms that a body is drawn of.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::Form;
+use crate::dynamics::{Shape, cone_base};
+use crate::scene::Color;
+
+/// One of the forms that a body is drawn of, in the body's own frame: it is scaled, then turned, then moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The form.
+    pub form: Form,
+    /// The length of one unit of the form along each of its axes, m.
+    pub scale: DVec3,
+    /// Where its origin is, m.
+    pub location: DVec3,
+    /// How it is turned.
+    pub orientation: DQuat,
+    /// A color of its own, whatever the body is made of.
+    pub color: Option<Color>,
+}
+
+impl Piece {
+    fn new(form: Form, scale: DVec3) -> Piece {
+        Piece { form, scale, location: DVec3::ZERO, orientation: DQuat::IDENTITY, color: None }
+    }
+}
+
+/// The forms that a shape is drawn of. A compound has those of all its parts; a plane has a square of 2 m × 2 m, which
+/// whoever draws it makes as large as it has to be.
+#[must_use]
+pub fn pieces(shape: &Shape) -> Vec<Piece> {
+    let even = |form, length| vec![Piece::new(form, DVec3::splat(length))];
+    match *shape {
+        Shape::Sphere { radius } => even(Form::Ball, radius),
+        Shape::Box { size } => vec![Piece::new(Form::Cube, size / 2.0)],
+        Shape::RoundedBox { size, rounding } => {
+            let longest = size.max_element() / 2.0;
+            let form = Form::RoundedBox { half: size / 2.0 / longest, rounding: rounding / longest };
+            even(form, longest)
+        }
+        Shape::Cylinder { radius, height } => {
+            vec![Piece::new(Form::Cylinder, DVec3::new(radius, height / 2.0, radius))]
+        }
+        Shape::Capsule { radius, height } => {
+            let straight = (height / 2.0 / radius - 1.0).max(0.0);
+            // As long as it is wide, it is a ball, but for rounding.
+            even(if straight < 1e-6 { Form::Ball } else { Form::Capsule { straight } }, radius)
+        }
+        Shape::Cone { radius, top_radius, height } => vec![cone(radius, top_radius, height)],
+        Shape::Torus { radius, tube_radius } => even(Form::Torus { tube: tube_radius / radius }, radius),
+        Shape::Plane { normal } => {
+            let orientation = DQuat::from_rotation_arc(DVec3::Y, normal);
+            vec![Piece { orientation, ..Piece::new(Form::Plane, DVec3::ONE) }]
+        }
+        Shape::Axes { length } => axes(length),
+        Shape::Compound(ref compound) => {
+            let placed = compound.parts().iter().flat_map(|part| {
+                pieces(&part.shape).into_iter().map(|piece| Piece {
+                    location: part.location + part.orientation * piece.location,
+                    orientation: part.orientation * piece.orientation,
+                    ..piece
+                })
+            });
+            placed.collect()
+        }
+        Shape::Mesh { ref mesh, scale } => even(Form::Mesh(Arc::clone(mesh)), scale),
+    }
+}
+
+/// A cone or a frustum; one with equal ends is a cylinder.
+fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
+    let wide = radius.max(top_radius);
+    let scale = DVec3::new(wide, height / 2.0, wide);
+    if radius == top_radius {
+        return Piece::new(Form::Cylinder, scale);
+    }
+    Piece::new(Form::Cone { bottom: radius / wide, top: top_radius / wide }, scale)
+}
+
+/// The color of the ball in the middle of axes, and of their arms along x, y and z: those of `templates/axes.inc`.
+const AXES: [Color; 4] =
+    [Color([0.82, 0.81, 0.79]), Color([0.8, 0.1, 0.12]), Color([0.1, 0.54, 0.2]), Color([0.14, 0.3, 0.82])];
+
+/// The triad of `templates/axes.inc` without its letters: a ball, and for each arm a shaft and a tip.
+fn axes(length: f64) -> Vec<Piece> {
+    let [middle, arms @ ..] = AXES;
+    let mut pieces =
+        vec![Piece { color: Some(middle), ..Piece::new(Form::Ball, DVec3::splat(0.055 * length)) }];
+    for (axis, color) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(arms) {
+        let orientation = DQuat::from_rotation_arc(DVec3::Y, axis);
+        let shaft = Piece::new(Form::Cylinder, DVec3::new(0.03, 0.4, 0.03) * length);
+        pieces.push(Piece { location: axis * 0.4 * length, orientation, color: Some(color), ..shaft });
+        let (radius, height) = (0.078 * length, 0.24 * length);
+        let location = axis * (length - height - cone_base(radius, 0.0, height));
+        pieces.push(Piece { location, orientation, color: Some(color), ..cone(radius, 0.0, height) });
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_have_the_colors_of_the_scripts() {
+        let template = include_str!("../../templates/axes.inc");
+        for Color([red, green, blue]) in AXES {
+            let color = format!("color srgb <{red}, {green}, {blue}>");
+            assert!(template.contains(&color), "{color}");
+        }
+    }
+}
