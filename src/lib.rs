@@ -7,6 +7,7 @@
 //! | [`scene`] | text → checked [`Scene`] | the scene language; every mistake at its place |
 //! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
 //! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
+//! | [`picture`] | frames → what their pictures show | camera, lights, arrows, texts, in metres; no program that draws |
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //! | [`render`] | scripts → images → film | POV-Ray's options; which images are up to date; ffmpeg |
@@ -46,6 +47,7 @@ pub mod emit;
 pub mod explain;
 pub mod export;
 pub mod output;
+pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;
 pub mod render;

@@ -6,7 +6,8 @@ use sha2::{Digest, Sha256};
 
 use super::sdl::Style;
 use super::text::Identifiers;
-use crate::scene::{Body, Look, Material, Pattern, Scene};
+use crate::picture;
+use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
 
 /// A material as templates see it.
 #[derive(Clone, Debug, Serialize)]
@@ -69,9 +70,7 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
 
 /// A material for ghosts, paler than that of the body; none where it has colors of its own.
 fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> Option<MaterialText> {
-    const PALER: f64 = 0.5;
-    let towards = if dark { 0.12 } else { 0.93 };
-    let color = material.color?.map(|part| part + PALER * (towards - part));
+    let color = picture::pale(Color(material.color?), dark).0;
     Some(MaterialText {
         name: format!("{}, ghost", material.name),
         identifier: identifiers.add("Ghost", &material.name),

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::framing;
 use super::sdl::Style;
 use super::text::{self, Identifiers};
 use crate::dynamics::{Mesh, Shape};
+use crate::picture::decimal_step;
 use crate::scene::{Layout, Scene};
 use crate::surface::normals;
 
@@ -52,7 +52,7 @@ impl Meshes {
                 let reach = |p: &DVec3| p.abs().max_element();
                 let reach = mesh.vertices().iter().map(reach).fold(0.0, f64::max);
                 // POV-Ray takes triangles for none that are very small as numbers, and what is very near for here.
-                let unit = framing::decimal_step(reach.max(f64::MIN_POSITIVE)) / 10.0;
+                let unit = decimal_step(reach.max(f64::MIN_POSITIVE)) / 10.0;
                 let identifier = identifiers.add("Mesh", mesh.name());
                 self.all.push(Known { mesh: Arc::clone(mesh), identifier, unit });
             }

@@ -4,14 +4,10 @@
 //! any frame into its script, in any order and from several threads at once.
 
 mod bodies;
-mod camera;
 mod error;
-mod framing;
 mod materials;
 mod meshes;
 mod names;
-mod number;
-mod screen;
 mod sdl;
 mod shapes;
 mod showing;
@@ -19,15 +15,18 @@ mod shutter;
 mod stage;
 mod templates;
 mod text;
+mod unit;
 mod values;
 
 use self::bodies::Block;
 use self::meshes::Meshes;
 use self::sdl::Style;
 use self::showing::Showing;
-use self::stage::Stage;
+use self::stage::StageText;
 use self::templates::Templates;
+use self::unit::Unit;
 use self::values::FrameConstants;
+use crate::picture::{Plan, number};
 use crate::scene::{Camera, Layout, Scene, Shutter};
 use crate::simulate::{Diverged, Frame, Survey};
 
@@ -45,10 +44,10 @@ pub struct Emitter {
     constants: FrameConstants,
     block: Block,
     showing: Showing,
-    unit: f64,
+    /// What the pictures show.
+    plan: Plan,
+    unit: Unit,
     digits: usize,
-    too_thin: Option<usize>,
-    too_small: Option<f64>,
     /// The names of the bodies.
     names: Vec<String>,
 }
@@ -60,8 +59,10 @@ impl Emitter {
     /// Where a template fails.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
-        let stage = Stage::new(scene, camera, survey);
-        let style = Style { unit: stage.unit, digits: scene.povray.digits };
+        let plan = Plan::new(scene, camera, survey);
+        let unit = Unit::of(scene, &plan);
+        let stage = StageText::new(&plan, unit.length);
+        let style = Style { unit: unit.length, digits: scene.povray.digits };
         let materials = materials::texts(scene);
         let meshes = Meshes::new(scene);
         let mut common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
@@ -71,23 +72,14 @@ impl Emitter {
             Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),
         };
         let with_bodies = templates.mention("bodies");
-        let showing = Showing::new(scene, &materials, &meshes, &stage, survey, style);
         Ok(Emitter {
-            constants: FrameConstants::new(
-                scene,
-                in_every_script,
-                stage.moving,
-                &materials,
-                style,
-                with_bodies,
-            ),
+            constants: FrameConstants::new(scene, in_every_script, &materials, style, with_bodies),
             shared,
             block: Block::new(scene, &materials, &meshes, style),
-            showing,
-            unit: stage.unit,
+            showing: Showing::new(scene, &plan, &materials, &meshes, style),
+            plan,
+            unit,
             digits: scene.povray.digits,
-            too_thin: stage.too_thin,
-            too_small: stage.too_small,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
             templates,
         })
@@ -95,18 +87,23 @@ impl Emitter {
 
     /// The length of one unit of POV-Ray's in the scripts, m.
     pub fn unit(&self) -> f64 {
-        self.unit
+        self.unit.length
+    }
+
+    /// What the pictures show.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// The name of a body that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
     /// enough.
     pub fn too_thin(&self) -> Option<&str> {
-        self.too_thin.map(|body| self.names[body].as_str())
+        self.unit.too_thin.map(|body| self.names[body].as_str())
     }
 
     /// How many pixels the largest body is wide, if that is too little to be seen.
     pub fn too_small(&self) -> Option<f64> {
-        self.too_small
+        self.plan.too_small()
     }
 
     /// The script of a frame.
@@ -118,8 +115,8 @@ impl Emitter {
         self.block
             .write(&mut bodies_sdl, frame)
             .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
-        self.showing.write(&mut bodies_sdl, frame);
-        self.templates.render("frame.pov", &self.constants.of(frame, bodies_sdl))
+        self.showing.write(&mut bodies_sdl, &self.plan, frame, &self.names);
+        self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, bodies_sdl))
     }
 
     /// The script of an image with motion blur, piece by piece, so that its moments need not be held together: `put`

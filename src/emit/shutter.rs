@@ -3,7 +3,7 @@
 //! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen of them, one after another, in one process. What is
 //! between them is what a camera sees while its shutter is open: their mean.
 
-use super::number;
+use crate::picture::number;
 use crate::scene::Shutter;
 use crate::simulate::Frame;
 

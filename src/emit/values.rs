@@ -9,13 +9,14 @@ use super::materials::MaterialText;
 use super::names;
 use super::sdl::Style;
 use super::showing::Shows;
-use super::stage::{Moving, Stage};
+use super::stage::{self, CameraText, StageText};
 use crate::dynamics::Shape;
+use crate::picture::Plan;
 use crate::scene::{Body, Include, Layout, Scene};
 use crate::simulate::{BodyFrame, Frame};
 
 /// The values of `common.inc`.
-pub(super) fn common(scene: &Scene, stage: &Stage, materials: &[MaterialText]) -> Value {
+pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText]) -> Value {
     let include = |include: &Include| match include {
         Include::Standard(name) => context! { name => name.clone(), text => () },
         Include::Text { name, text } => context! { name => name.clone(), text => text.clone() },
@@ -67,8 +68,6 @@ pub(super) struct FrameConstants {
     title: Value,
     frames: usize,
     common: Value,
-    /// The camera and the lights, if they move.
-    moving: Moving,
     style: Style,
     /// Made for templates that look at `bodies`; the built-in ones do not.
     bodies: Option<Vec<BodyConstants>>,
@@ -100,7 +99,6 @@ impl FrameConstants {
     pub(super) fn new(
         scene: &Scene,
         common: String,
-        moving: Moving,
         materials: &[MaterialText],
         style: Style,
         with_bodies: bool,
@@ -114,24 +112,25 @@ impl FrameConstants {
             title: Value::from(scene.title.clone()),
             frames: scene.simulation.frames(),
             common: Value::from(common),
-            moving,
             style,
             bodies: with_bodies.then(|| scene.bodies.iter().map(body).collect()),
         }
     }
 
     /// All values of a frame; `bodies_sdl` is the block of its bodies.
-    pub(super) fn of(&self, frame: &Frame, bodies_sdl: String) -> Value {
+    pub(super) fn of(&self, plan: &Plan, frame: &Frame, bodies_sdl: String) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
         });
-        let camera = self.moving.camera.as_ref().map(|camera| Value::from(Serde(camera.text(frame))));
-        let lights = self.moving.lights.as_ref().map(|lights| Value::from(Serde(lights.at(frame.time))));
-        let center = self.moving.lights.as_ref().map(super::stage::Lights::center);
+        let unit = self.style.unit;
+        // What does not move stands in what all scripts have in common.
+        let camera = plan.camera_moves().then(|| CameraText::new(&plan.camera(frame), unit));
+        let lights = plan.lights_move().then(|| stage::lights(plan, frame.time, unit));
+        let center = plan.lights_move().then(|| (plan.stage().center / unit).to_array());
         context! {
-            camera,
-            lights,
+            camera => camera.map(|camera| Value::from(Serde(camera))),
+            lights => lights.map(|lights| Value::from(Serde(lights))),
             center,
             frame => frame.index,
             time => frame.time,
@@ -230,16 +229,16 @@ mod tests {
             ",
         )
         .unwrap();
-        let stage = Stage::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        let stage = StageText::new(&plan, 1.0);
         let materials = materials::texts(&scene);
         let style = Style { unit: 1.0, digits: 9 };
-        let constants =
-            FrameConstants::new(&scene, String::new(), Moving::default(), &materials, style, true);
+        let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
         let frame = Frames::new(&scene).next().unwrap().unwrap();
 
         for (heading, value) in [
             ("## The values of `common.inc`", common(&scene, &stage, &materials)),
-            ("## The values of `frame.pov`", constants.of(&frame, String::new())),
+            ("## The values of `frame.pov`", constants.of(&plan, &frame, String::new())),
             ("## The values of `animation.pov` and `animation.ini`", sequence(&scene)),
         ] {
             let mut found = BTreeSet::new();

@@ -29,7 +29,9 @@ impl Refused {
         match self {
             Refused::Host => "this server answers to 127.0.0.1 and localhost only\n",
             Refused::Origin => "this server answers to its own page only\n",
-            Refused::Token => "the token is missing or wrong: open the address that `jabuka preview` has printed\n",
+            Refused::Token => {
+                "the token is missing or wrong: open the address that `jabuka preview` has printed\n"
+            }
         }
     }
 }
@@ -38,7 +40,7 @@ impl Token {
     /// A new one: 128 bits of the system's random numbers.
     pub(super) fn new() -> std::io::Result<Token> {
         let mut bytes = [0; 16];
-        getrandom::fill(&mut bytes).map_err(std::io::Error::from)?;
+        getrandom::fill(&mut bytes)?;
         Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
     }
 
@@ -96,7 +98,9 @@ mod tests {
         for host in ["127.0.0.1", "127.0.0.1:8080", "localhost:1", "[::1]:65535"] {
             assert_eq!(asked(host, None), Ok(()), "{host}");
         }
-        for host in ["evil.example", "127.0.0.1.evil.example", "localhost:99999", "localhost:", "127.0.0.2", ""] {
+        for host in
+            ["evil.example", "127.0.0.1.evil.example", "localhost:99999", "localhost:", "127.0.0.2", ""]
+        {
             assert_eq!(asked(host, None), Err(Refused::Host), "{host}");
         }
         assert_eq!(is_own(&HeaderMap::new()), Err(Refused::Host));
@@ -116,7 +120,9 @@ mod tests {
         let asked = |query: &str| token.admits(&format!("/api/events?{query}").parse().unwrap());
         assert_eq!(asked(&format!("token={}", token.as_str())), Ok(()));
         assert_eq!(asked(&format!("from=3&token={}", token.as_str())), Ok(()));
-        for query in ["", "token=", &format!("token={}", other.as_str()), &format!("token={}0", token.as_str())] {
+        for query in
+            ["", "token=", &format!("token={}", other.as_str()), &format!("token={}0", token.as_str())]
+        {
             assert_eq!(asked(query), Err(Refused::Token), "{query}");
         }
     }

@@ -71,7 +71,8 @@ impl Preview {
         let renderer = Arc::new(Renderer::new(self.povray));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
-        let following = thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
+        let following =
+            thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
         let served = runtime.block_on(async {
             tokio::select! {
                 served = axum::serve(listener, routes::router(server)).into_future() => served,

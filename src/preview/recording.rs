@@ -53,8 +53,10 @@ impl Recording {
     /// Adds the next frame.
     pub(super) fn push(&self, frame: &Frame) -> io::Result<()> {
         let mut bytes = Vec::with_capacity(self.frame_bytes());
-        let mut put = |numbers: &[f64]| numbers.iter().for_each(|n| bytes.extend_from_slice(&n.to_le_bytes()));
-        let Balance { kinetic, potential, work, total, linear_momentum, angular_momentum, drift } = frame.balance;
+        let mut put =
+            |numbers: &[f64]| numbers.iter().for_each(|n| bytes.extend_from_slice(&n.to_le_bytes()));
+        let Balance { kinetic, potential, work, total, linear_momentum, angular_momentum, drift } =
+            frame.balance;
         put(&[frame.time, kinetic, potential, total, work, drift]);
         put(&linear_momentum.to_array());
         put(&angular_momentum.to_array());

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use serde::Deserialize;
 
@@ -13,13 +13,13 @@ use crate::Run;
 use crate::diagnostic::Report;
 use crate::output::{self, Folder, OutputError};
 use crate::render::{Images, Job, PovRay, Quality, RenderError, Sequence, options};
-use crate::scene::Options;
 
 /// Renders one frame after another.
 pub(super) struct Renderer {
     povray: Option<PathBuf>,
     one_at_a_time: Mutex<()>,
-    stop: Arc<AtomicBool>,
+    /// What somebody waits for, or has waited for.
+    wishes: Mutex<Vec<Weak<AtomicBool>>>,
 }
 
 /// What is wanted of POV-Ray.
@@ -61,7 +61,7 @@ impl Wanted {
 impl Renderer {
     /// One that takes the given POV-Ray, or that of the `PATH`.
     pub(super) fn new(povray: Option<PathBuf>) -> Renderer {
-        Renderer { povray, one_at_a_time: Mutex::new(()), stop: Arc::default() }
+        Renderer { povray, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
     /// Whether there is a POV-Ray.
@@ -71,12 +71,17 @@ impl Renderer {
 
     /// Ends what is being rendered: the server ends.
     pub(super) fn end(&self) {
-        self.stop.store(true, Ordering::Relaxed);
+        let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
+        wishes.iter().filter_map(Weak::upgrade).for_each(|stop| stop.store(true, Ordering::Relaxed));
     }
 
     /// A wish for an image.
     pub(super) fn wish(&self) -> Wish {
-        Wish(Arc::default())
+        let stop = Arc::default();
+        let mut wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
+        wishes.retain(|wish| wish.strong_count() > 0);
+        wishes.push(Arc::downgrade(&stop));
+        Wish(stop)
     }
 
     /// The image of a frame as a PNG.
@@ -84,7 +89,6 @@ impl Renderer {
         &self,
         run: &Simulation,
         wanted: &Wanted,
-        options_of_scene: &Options,
         stop: &AtomicBool,
     ) -> Result<Vec<u8>, Failed> {
         let Some(Ok(outcome)) = run.outcome() else {
@@ -95,14 +99,14 @@ impl Renderer {
         if stop.load(Ordering::Relaxed) {
             return Err(Failed::Gone);
         }
-        let _ = options_of_scene;
         let scene = &run.scene;
         let whole = Run::surveyed(scene, outcome.survey.clone()).map_err(|error| of_output(error.into()))?;
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen.map_err(|error| of_output(error.into()))?.unwrap_or(whole);
         // No scene has this name.
-        let folder = Folder::open(&Path::new("out").join(format!("{}.preview", scene.name))).map_err(of_output)?;
+        let folder =
+            Folder::open(&Path::new("out").join(format!("{}.preview", scene.name))).map_err(of_output)?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
         output::write_moment(&seen, &folder, time).map_err(of_output)?;
         self.image(&folder, time, wanted.fine, stop)

@@ -243,7 +243,8 @@ async fn poses(
             }
             let many = (TOGETHER / run.recording.pose_bytes().max(1)).max(1);
             let until = recorded.min(frame + many);
-            let bytes: std::io::Result<Vec<Vec<u8>>> = (frame..until).map(|k| run.recording.poses(k)).collect();
+            let bytes: std::io::Result<Vec<Vec<u8>>> =
+                (frame..until).map(|k| run.recording.poses(k)).collect();
             if sender.blocking_send(bytes.map(|bytes| bytes.concat().into())).is_err() {
                 return;
             }
@@ -271,7 +272,8 @@ async fn series(
     if frames.body >= run.scene.bodies.len() {
         return Err(Failed::Gone);
     }
-    blocking(move || Ok(binary(Body::from(samples::of_body(&run, frames.body, frames.recorded(&run))?)))).await
+    blocking(move || Ok(binary(Body::from(samples::of_body(&run, frames.body, frames.recorded(&run))?))))
+        .await
 }
 
 async fn what_is_shown(
@@ -296,8 +298,7 @@ async fn render(State(server): State<Server>, Json(wanted): Json<Wanted>) -> Res
     // When the page goes away, so does the wish.
     let wish = server.renderer.wish();
     let stop = wish.stop();
-    let image =
-        blocking(move || server.renderer.render(&run, &wanted, &server.session.options, &stop)).await?;
+    let image = blocking(move || server.renderer.render(&run, &wanted, &stop)).await?;
     drop(wish);
     Ok(([(header::CONTENT_TYPE, "image/png")], image).into_response())
 }

@@ -183,8 +183,5 @@ fn failed(error: RunError) -> Report {
 fn no_room(error: &io::Error) -> Report {
     let message = format!("the frames cannot be kept: {error}");
     let help = "they go to a file below /var/tmp, or where TMPDIR says; 128 bytes a body and frame";
-    Report {
-        diagnostics: vec![Diagnostic::error("cannot-write", message).help(help)],
-        ..Report::default()
-    }
+    Report { diagnostics: vec![Diagnostic::error("cannot-write", message).help(help)], ..Report::default() }
 }

@@ -30,7 +30,8 @@ pub(super) fn of_body(
     let mut all = Vec::new();
     for frame in frames {
         let at = run.recording.body(frame, body)?;
-        let vectors = [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
+        let vectors =
+            [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
         let time = [run.scene.simulation.time(frame)];
         let energy = [kinetic(rigid, &at)];
         let numbers = time.iter().chain(vectors.iter().flatten()).chain(&energy);
@@ -71,9 +72,9 @@ mod tests {
             [body.hammer]
             velocity = [1, 2, 3]
             angular_velocity = [3, 1, 0.2]
-            [[body.hammer.shape.compound]]
+            [[body.hammer.shape.compound.parts]]
             cylinder = { radius = 0.1, height = 1 }
-            [[body.hammer.shape.compound]]
+            [[body.hammer.shape.compound.parts]]
             box.size = [0.4, 0.2, 0.1]
             location = [0.1, 0.5, 0]
             ",

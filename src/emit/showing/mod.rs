@@ -1,44 +1,29 @@
-//! What shows the physics of a frame beside its bodies: arrows, axes, ghosts, trails and coils.
+//! What shows the physics of a frame beside its bodies, in POV-Ray's words: arrows, axes, ghosts, trails, coils, texts.
 //!
-//! Each is planned once, when the emitter is made; a frame puts places into the plans. What nobody asks for leaves no
-//! trace in a script.
+//! What is to be shown, and where, is said by the [`Plan`]. What nobody asks for leaves no trace in a script.
 
 mod arrows;
 mod coils;
 mod ghosts;
-mod labels;
-mod rulers;
+mod grid;
+mod texts;
 mod trails;
 
 use serde::Serialize;
 
-use self::arrows::Arrows;
-use self::coils::Coils;
 use self::ghosts::Ghosts;
-use self::labels::Labels;
-use self::rulers::Rulers;
-use self::trails::Trails;
-use super::camera::Moving;
 use super::materials::MaterialText;
 use super::meshes::Meshes;
-use super::screen::Screen;
 use super::sdl::Style;
-use super::stage::Stage;
+use crate::picture::{Plan, has_texts};
 use crate::scene::{Color, ForceKind, Scene};
-use crate::simulate::{Frame, Survey};
+use crate::simulate::Frame;
 
-/// The plans of what is shown beside the bodies.
+/// What is the same in all frames about what is shown beside the bodies.
 pub(super) struct Showing {
-    coils: Coils,
     ghosts: Ghosts,
-    trails: Trails,
-    arrows: Arrows,
-    rulers: Rulers,
-    labels: Labels,
-    /// The plane on which texts stand, if there are any.
-    screen: Option<Screen>,
-    /// The camera before which it is, if that moves.
-    moving: Option<Moving>,
+    /// The lines of the grid.
+    grid: String,
     style: Style,
 }
 
@@ -59,50 +44,45 @@ impl Shows {
         Shows {
             arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_drawn(&force.kind)),
-            labels: !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some(),
+            labels: has_texts(scene),
         }
     }
 }
 
 impl Showing {
-    /// Plans what a scene asks for.
+    /// Writes what is the same in all frames of a plan.
     pub(super) fn new(
         scene: &Scene,
+        plan: &Plan,
         materials: &[MaterialText],
         meshes: &Meshes,
-        stage: &Stage,
-        survey: &Survey,
         style: Style,
     ) -> Showing {
         Showing {
-            coils: Coils::new(scene, style),
             ghosts: Ghosts::new(scene, materials, meshes, style),
-            trails: Trails::new(scene, materials, stage.scenery.stroke, style),
-            arrows: Arrows::new(scene, survey.arrow_scales, stage.scenery.stroke, style),
-            rulers: Rulers::new(scene, &stage.scenery, style),
-            labels: Labels::new(scene, style),
-            screen: Shows::of(scene).labels.then_some(stage.scenery.screen),
-            moving: stage.moving.camera.clone(),
+            grid: plan.grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
             style,
         }
     }
 
-    /// Appends what is to be shown of a frame.
-    pub(super) fn write(&self, out: &mut String, frame: &Frame) {
-        self.coils.write(out, frame);
-        self.ghosts.write(out, frame);
-        for ghost in &frame.past.ghosts {
-            if self.ghosts.is_drawn(ghost, frame) {
-                self.arrows.write_ghost(out, &ghost.body);
-            }
+    /// Appends what is to be shown of a frame, whose bodies have the given names.
+    pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[String]) {
+        let style = self.style;
+        coils::write(out, plan, frame, style);
+        self.ghosts.write(out, plan, frame);
+        for ghost in plan.ghosts(frame) {
+            arrows::write_ghost(out, plan, &ghost.body, names, style);
         }
-        self.trails.write(out, frame);
-        self.arrows.write(out, frame);
-        if let Some(still) = &self.screen {
-            let screen = &self.moving.as_ref().map_or(*still, |camera| camera.screen(frame));
-            out.push_str(&format!("#local Screen = transform {{ {} }}\n", screen.transform(self.style)));
-            self.rulers.write(out, screen);
-            self.labels.write(out, frame, screen);
+        trails::write(out, plan, frame, names, style);
+        arrows::write(out, plan, frame, names, style);
+        if let Some(screen) = plan.screen(frame) {
+            out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));
+            out.push_str(&self.grid);
+            plan.numbers(&screen).iter().for_each(|text| texts::write(out, text, style));
+            if let Some((bar, number)) = plan.bar_on(&screen) {
+                texts::write_bar(out, &bar, &number, style);
+            }
+            plan.labels(frame, &screen).iter().for_each(|text| texts::write(out, text, style));
         }
     }
 }

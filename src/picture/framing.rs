@@ -134,7 +134,7 @@ fn middle_of_picture(
 
 /// Bounds rounded outward to two digits of their largest edge, so that a small edit of a scene does not move its
 /// camera.
-pub(super) fn rounded_outward(bounds: Bounds) -> Bounds {
+pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
     let step = decimal_step((bounds.max - bounds.min).max_element()) / 10.0;
     // What lies on a mark but for rounding stays there.
     let slack = DVec3::splat(1e-6);
@@ -142,7 +142,7 @@ pub(super) fn rounded_outward(bounds: Bounds) -> Bounds {
 }
 
 /// The largest power of ten that is not larger than a positive number.
-pub(super) fn decimal_step(number: f64) -> f64 {
+pub(crate) fn decimal_step(number: f64) -> f64 {
     let exponent = libm::floor(libm::log10(number) + 1e-12);
     libm::pow(10.0, exponent)
 }

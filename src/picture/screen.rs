@@ -3,15 +3,13 @@
 
 use glam::DVec3;
 
-use super::sdl::Style;
-
 /// How far before the camera the plane is, as part of the distance to what is looked at.
 const NEAR: f64 = 0.01;
 
 /// The plane before a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the
 /// same scale, and 0 in the middle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Screen {
+pub struct Screen {
     location: DVec3,
     right: DVec3,
     up: DVec3,
@@ -26,11 +24,13 @@ pub(super) struct Screen {
 
 /// A place on the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spot {
-    pub(super) x: f64,
-    pub(super) y: f64,
+pub struct Spot {
+    /// How far to the right of the middle.
+    pub x: f64,
+    /// How far above the middle.
+    pub y: f64,
     /// How large a metre is there.
-    pub(super) metre: f64,
+    pub metre: f64,
 }
 
 impl Screen {
@@ -55,26 +55,18 @@ impl Screen {
         Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }
     }
 
-    /// The transform from the plane to the world, in POV-Ray's words.
-    pub(super) fn transform(&self, style: Style) -> String {
-        let middle = self.location - self.back * self.depth;
-        let mut out = "matrix <".to_owned();
-        for row in [self.right * self.half, self.up * self.half, self.back * self.half] {
-            for entry in (row / style.unit).to_array() {
-                super::number::write(&mut out, entry, style.digits);
-                out.push_str(", ");
-            }
-        }
-        let middle = (middle / style.unit).to_array();
-        for (i, entry) in middle.into_iter().enumerate() {
-            super::number::write(&mut out, entry, style.digits);
-            out.push_str(if i < 2 { ", " } else { ">" });
-        }
-        out
+    /// The point of the world that is in the middle of the plane, m.
+    pub fn middle(&self) -> DVec3 {
+        self.location - self.back * self.depth
+    }
+
+    /// What 1 to the right, up, and towards the viewer on the plane is in the world, m.
+    pub fn axes(&self) -> [DVec3; 3] {
+        [self.right * self.half, self.up * self.half, self.back * self.half]
     }
 
     /// Where on the plane a point of the world is seen; none if it is not before the camera.
-    pub(super) fn spot(&self, point: DVec3) -> Option<Spot> {
+    pub fn spot(&self, point: DVec3) -> Option<Spot> {
         let offset = point - self.location;
         let depth = -offset.dot(self.back);
         let half = match self.slope {
@@ -87,12 +79,12 @@ impl Screen {
     }
 
     /// The direction in the world that is up in the picture.
-    pub(super) fn up(&self) -> DVec3 {
+    pub fn up(&self) -> DVec3 {
         self.up
     }
 
     /// The direction in the world that is right in the picture.
-    pub(super) fn right(&self) -> DVec3 {
+    pub fn right(&self) -> DVec3 {
         self.right
     }
 }

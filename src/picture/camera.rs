@@ -1,55 +1,44 @@
 //! The camera: as given, or as it follows from the motion.
 
 use glam::{DQuat, DVec3};
-use serde::Serialize;
 
 use super::framing::{self, Field, Framing};
 use super::screen::Screen;
-use crate::scene::{Blur, Body, Camera, Output, Projection};
+use crate::scene::{Blur, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
 /// A camera that has its place, in metres.
-#[derive(Clone, Debug)]
-pub(super) struct Placed {
-    pub(super) location: DVec3,
-    pub(super) look_at: DVec3,
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    location: DVec3,
+    look_at: DVec3,
     lens: Lens,
     blur: Option<Blur>,
     output: Output,
 }
 
 /// How a camera sees.
-#[derive(Clone, Copy, Debug)]
-enum Lens {
-    Perspective { angle: f64, field: Field },
-    Orthographic { width: f64 },
-}
-
-/// The camera as templates see it; lengths are in POV-Ray's units.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct CameraText {
-    location: [f64; 3],
-    look_at: [f64; 3],
-    /// The horizontal field of view of a perspective camera, degrees.
-    angle: Option<f64>,
-    /// The width that an orthographic camera sees.
-    width: Option<f64>,
-    /// Whether it looks straight up or down, where «up» needs another meaning.
-    vertical: bool,
-    /// The diameter of the lens, if it has one.
-    aperture: Option<f64>,
-    /// The point that is sharp.
-    focus: Option<[f64; 3]>,
-    blur_samples: Option<u32>,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// As eyes do: what is farther is smaller.
+    Perspective {
+        /// The horizontal field of view, degrees.
+        angle: f64,
+    },
+    /// By parallel rays, as in a technical drawing.
+    Orthographic {
+        /// The width that is seen, m.
+        width: f64,
+    },
 }
 
 impl Placed {
     /// The camera of a picture of the given size; what is not given follows from the bounds of the motion.
-    pub(super) fn new(camera: &Camera, bounds: Bounds, output: Output) -> Placed {
+    fn new(camera: &Camera, bounds: Bounds, output: Output) -> Placed {
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
                 let field = Field::new(angle, output);
-                (Lens::Perspective { angle, field }, framing::perspective(bounds, field, camera.look_at))
+                (Lens::Perspective { angle }, framing::perspective(bounds, field, camera.look_at))
             }
             Projection::Orthographic { width } => {
                 let towards =
@@ -84,19 +73,51 @@ impl Placed {
         }
         let lens = match (self.lens, &motion.angle) {
             (Lens::Perspective { .. }, Some(angle)) => {
-                let angle = angle.at(time).clamp(0.1, 179.9);
-                Lens::Perspective { angle, field: Field::new(angle, self.output) }
+                Lens::Perspective { angle: angle.at(time).clamp(0.1, 179.9) }
             }
             (lens, _) => lens,
         };
         Placed { location, look_at, lens, blur: self.blur, output: self.output }
     }
 
+    /// Where it is, m.
+    pub fn location(&self) -> DVec3 {
+        self.location
+    }
+
+    /// The point in the middle of the picture, m.
+    pub fn look_at(&self) -> DVec3 {
+        self.look_at
+    }
+
+    /// How it sees.
+    pub fn lens(&self) -> Lens {
+        self.lens
+    }
+
+    /// How it blurs what is not in focus, if it does.
+    pub fn blur(&self) -> Option<Blur> {
+        self.blur
+    }
+
+    /// The point that is sharp, m, if not everything is.
+    pub fn focus(&self) -> Option<DVec3> {
+        self.blur.map(|blur| blur.focus.unwrap_or(self.look_at))
+    }
+
+    /// Whether it looks straight up or down, where «up» in the picture needs another meaning: away from the viewer.
+    pub fn is_vertical(&self) -> bool {
+        let sight = self.look_at - self.location;
+        sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
+    }
+
     /// How many pixels a ball is wide whose centre is so far from the camera, m.
     pub(super) fn pixels(&self, radius: f64, distance: f64) -> f64 {
         let width = f64::from(self.output.width);
         match self.lens {
-            Lens::Perspective { field, .. } => radius / distance / field.horizontal * width,
+            Lens::Perspective { angle } => {
+                radius / distance / Field::new(angle, self.output).horizontal * width
+            }
             Lens::Orthographic { width: seen } => 2.0 * radius / seen * width,
         }
     }
@@ -104,76 +125,63 @@ impl Placed {
     /// The width of what is seen at a distance, m.
     pub(super) fn width_at(&self, distance: f64) -> f64 {
         match self.lens {
-            Lens::Perspective { field, .. } => 2.0 * distance * field.horizontal,
+            Lens::Perspective { angle } => 2.0 * distance * Field::new(angle, self.output).horizontal,
             Lens::Orthographic { width } => width,
         }
     }
 
     /// The plane before the camera on which texts stand.
-    pub(super) fn screen(&self) -> Screen {
+    pub fn screen(&self) -> Screen {
         let (slope, width) = match self.lens {
-            Lens::Perspective { angle, .. } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
+            Lens::Perspective { angle } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
             Lens::Orthographic { width } => (None, width),
         };
-        let sharp = self.blur.map(|blur| blur.focus.unwrap_or(self.look_at));
-        Screen::new(self.location, self.look_at, slope, width, sharp)
-    }
-
-    /// The camera as templates see it, for a unit of so many metres.
-    pub(super) fn text(&self, unit: f64) -> CameraText {
-        let (angle, width) = match self.lens {
-            Lens::Perspective { angle, .. } => (Some(angle), None),
-            Lens::Orthographic { width } => (None, Some(width / unit)),
-        };
-        let sight = self.look_at - self.location;
-        CameraText {
-            location: (self.location / unit).to_array(),
-            look_at: (self.look_at / unit).to_array(),
-            angle,
-            width,
-            vertical: sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs(),
-            aperture: self.blur.map(|blur| blur.aperture / unit),
-            focus: self.blur.map(|blur| (blur.focus.unwrap_or(self.look_at) / unit).to_array()),
-            blur_samples: self.blur.map(|blur| blur.samples),
-        }
+        Screen::new(self.location, self.look_at, slope, width, self.focus())
     }
 }
 
-/// A camera that is not the same in all frames.
+/// A camera of a run, which may move.
 #[derive(Clone, Debug)]
-pub(super) struct Moving {
-    camera: Camera,
+pub(super) struct Eye {
     placed: Placed,
+    moving: Option<Moving>,
+}
+
+/// How a camera moves.
+#[derive(Clone, Debug)]
+struct Moving {
+    camera: Camera,
     /// Of the body that it follows: its number, where it is at the start, and its size, m.
     followed: Option<(usize, DVec3, f64)>,
-    unit: f64,
 }
 
-impl Moving {
-    /// A camera, if it moves.
-    pub(super) fn new(camera: &Camera, placed: Placed, bodies: &[Body], unit: f64) -> Option<Moving> {
+impl Eye {
+    /// A camera of a scene; what is not given follows from the bounds of the motion.
+    pub(super) fn new(camera: &Camera, bounds: Bounds, scene: &Scene) -> Eye {
         let followed = camera.motion.follow.map(|follow| {
-            let body = &bodies[follow.body];
+            let body = &scene.bodies[follow.body];
             let size = body.drawn().support(DQuat::IDENTITY, DVec3::Y).unwrap_or(1.0);
             (follow.body, body.start.location, size)
         });
-        camera.motion.moves().then(|| Moving { camera: camera.clone(), placed, followed, unit })
+        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed });
+        Eye { placed: Placed::new(camera, bounds, scene.output), moving }
     }
 
-    /// The camera of a frame, in words.
-    pub(super) fn text(&self, frame: &Frame) -> CameraText {
-        self.of(frame).text(self.unit)
+    /// The camera before it moves.
+    pub(super) fn placed(&self) -> &Placed {
+        &self.placed
     }
 
-    /// The plane before it on which texts of a frame stand.
-    pub(super) fn screen(&self, frame: &Frame) -> Screen {
-        self.of(frame).screen()
+    /// Whether it is not the same in all frames.
+    pub(super) fn moves(&self) -> bool {
+        self.moving.is_some()
     }
 
-    fn of(&self, frame: &Frame) -> Placed {
-        let (body, start, size) = self.followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
-        let follow = self.camera.motion.follow;
-        let behind = follow.and_then(|follow| {
+    /// The camera of a frame.
+    pub(super) fn at(&self, frame: &Frame) -> Placed {
+        let Some(Moving { camera, followed }) = &self.moving else { return self.placed };
+        let (body, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+        let behind = camera.motion.follow.and_then(|follow| {
             let lag = follow.lag?;
             frame.past.lagging.iter().find(|lagging| lagging.is_of(follow.body, lag))
         });
@@ -181,7 +189,7 @@ impl Moving {
             Some(lagging) => lagging.location,
             None => frame.bodies.get(body).map_or(start, |body| body.location),
         };
-        self.placed.moved(&self.camera, size, frame.time, [start, here])
+        self.placed.moved(camera, size, frame.time, [start, here])
     }
 }
 

@@ -1,29 +1,28 @@
 //! Texts in the picture, with the numbers of the moment.
 
-use super::super::screen::Screen;
-use super::super::{number, sdl::Style, text};
-use super::color;
+use super::number;
+use super::screen::Screen;
+use super::text::{MARGIN, Text, Vertical, across, is_top};
 use crate::dynamics::Balance;
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
 use crate::simulate::{BodyFrame, Frame};
 
-/// The distance of texts from the edges of the picture, whose width is 2.
-pub(super) const MARGIN: f64 = 0.035;
-
 /// The labels of a scene.
+#[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
     /// The bodies of the scene, if labels look at any.
     bodies: Vec<Body>,
 }
 
+#[derive(Clone, Debug)]
 struct Planned {
     label: Label,
     /// The height of a line on the screen.
     height: f64,
-    color: String,
+    color: Color,
     /// In a corner: how far its middle is from the edge, on the screen.
     inset: f64,
 }
@@ -38,7 +37,7 @@ struct Moment<'a> {
 
 impl Labels {
     /// Plans the labels for pictures of a height, as part of their width.
-    pub(super) fn new(scene: &Scene, style: Style) -> Labels {
+    pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let mut used = [0.0; Corner::ALL.len()];
         let plan = |label: &Label| {
@@ -49,62 +48,57 @@ impl Labels {
                 inset = MARGIN + *used + height / 2.0;
                 *used += 1.15 * height;
             }
-            let own = label.color.unwrap_or(ink(scene));
-            Planned { label: label.clone(), height, color: color(own, style), inset }
+            Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let bodies = if labels.is_empty() { Vec::new() } else { scene.bodies.clone() };
         Labels { labels, bodies }
     }
 
-    /// Appends the labels of a frame.
-    pub(super) fn write(&self, out: &mut String, frame: &Frame, screen: &Screen) {
+    /// The labels of a frame, on the plane before its camera.
+    pub(super) fn at<'a>(&'a self, frame: &Frame, screen: &Screen) -> Vec<Text<'a>> {
         let now = Moment {
             time: frame.time,
             frame: frame.index,
             balance: Some(&frame.balance),
             bodies: &frame.bodies,
         };
+        let mut texts = Vec::new();
         for planned in &self.labels {
             match planned.label.place {
-                LabelPlace::Corner(corner) => self.in_corner(out, planned, corner, &now),
+                LabelPlace::Corner(corner) => texts.push(self.in_corner(planned, corner, &now)),
                 LabelPlace::Body { body, side, ghosts } => {
                     for ghost in frame.past.ghosts.iter().filter(|ghost| ghosts && ghost.body.id == body) {
                         let bodies = std::slice::from_ref(&ghost.body);
                         let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
-                        self.beside(out, planned, (&ghost.body, side), &then, screen);
+                        texts.extend(self.beside(planned, (&ghost.body, side), &then, screen));
                     }
-                    self.beside(out, planned, (&frame.bodies[body], side), &now, screen);
+                    texts.extend(self.beside(planned, (&frame.bodies[body], side), &now, screen));
                 }
             }
         }
+        texts
     }
 
-    fn in_corner(&self, out: &mut String, planned: &Planned, corner: Corner, now: &Moment<'_>) {
+    fn in_corner<'a>(&'a self, planned: &'a Planned, corner: Corner, now: &Moment<'_>) -> Text<'a> {
         let (x, align) = across(corner);
-        let mut inset = String::new();
-        number::write(&mut inset, planned.inset + 0.3 * planned.height, 4);
-        let y = if is_top(corner) {
-            format!("Screen_top - {inset}")
-        } else {
-            let mut inset = String::new();
-            number::write(&mut inset, planned.inset - 0.3 * planned.height, 4);
-            format!("{inset} - Screen_top")
+        let y = match is_top(corner) {
+            true => Vertical::Top(planned.inset + 0.3 * planned.height),
+            false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
         };
-        self.put(out, planned, (&short(x), &y), align, now);
+        self.text(planned, (x, y), align, now)
     }
 
-    fn beside(
-        &self,
-        out: &mut String,
-        planned: &Planned,
+    fn beside<'a>(
+        &'a self,
+        planned: &'a Planned,
         (at, side): (&BodyFrame, Side),
         moment: &Moment<'_>,
         screen: &Screen,
-    ) {
+    ) -> Option<Text<'a>> {
         let shape = self.bodies[at.id].drawn();
         let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0);
-        let Some(spot) = screen.spot(at.location) else { return };
+        let spot = screen.spot(at.location)?;
         let (up, right) = (screen.up(), screen.right());
         let (x, y, align) = match side {
             Side::Above => (0.0, reach(up) * spot.metre + 0.3 * planned.height, 0.5),
@@ -114,15 +108,26 @@ impl Labels {
         };
         let (x, y) = (spot.x + x, spot.y + y);
         // What is out of the picture may be far out.
-        if x.abs() < 2.0 && y.abs() < 2.0 {
-            self.put(out, planned, (&short(x), &short(y)), align, moment);
-        }
+        let is_near = x.abs() < 2.0 && y.abs() < 2.0;
+        is_near.then(|| self.text(planned, (x, Vertical::Middle(y)), align, moment))
     }
 
-    fn put(&self, out: &mut String, planned: &Planned, at: (&str, &str), align: f64, moment: &Moment<'_>) {
-        let said = self.said(&planned.label, moment);
-        write(out, &said, at, planned.height, align, &planned.color);
-        out.push_str(&format!(" // {}\n", text::comment(&planned.label.name)));
+    fn text<'a>(
+        &'a self,
+        planned: &'a Planned,
+        (x, y): (f64, Vertical),
+        align: f64,
+        moment: &Moment<'_>,
+    ) -> Text<'a> {
+        Text {
+            name: &planned.label.name,
+            says: self.said(&planned.label, moment).into(),
+            x,
+            y,
+            height: planned.height,
+            align,
+            color: planned.color,
+        }
     }
 
     /// What a label says at a moment.
@@ -204,47 +209,6 @@ fn short_of(value: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, value, 3);
     out
-}
-
-/// A place on the screen: finer than a pixel, and no finer.
-pub(super) fn short(place: f64) -> String {
-    let mut out = String::new();
-    number::write(&mut out, (place * 1e5).round() / 1e5, 6);
-    out
-}
-
-/// Appends a text at a place on the screen: `align` is 0 if it begins there, 1 if it ends there.
-pub(super) fn write(
-    out: &mut String,
-    said: &str,
-    (x, y): (&str, &str),
-    height: f64,
-    align: f64,
-    color: &str,
-) {
-    // POV-Ray knows no text without a letter.
-    let said = if said.trim().is_empty() { "-" } else { said };
-    let said = text::string(said);
-    out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {}, {}, {color})", short(height), short(align)));
-}
-
-/// The usual color of what is written.
-pub(super) fn ink(scene: &Scene) -> Color {
-    if scene.environment.is_dark() { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
-}
-
-/// Where a text in a corner stands across the picture, and which end of it is there.
-pub(super) fn across(corner: Corner) -> (f64, f64) {
-    match corner {
-        Corner::TopLeft | Corner::BottomLeft => (MARGIN - 1.0, 0.0),
-        Corner::Top | Corner::Bottom => (0.0, 0.5),
-        Corner::TopRight | Corner::BottomRight => (1.0 - MARGIN, 1.0),
-    }
-}
-
-/// Whether a corner is at the top of the picture.
-pub(super) fn is_top(corner: Corner) -> bool {
-    matches!(corner, Corner::TopLeft | Corner::Top | Corner::TopRight)
 }
 
 #[cfg(test)]

@@ -1,0 +1,24 @@
+//! The lines of the grid, which are the same in all frames.
+
+use super::super::sdl::Style;
+use super::color;
+use crate::picture::Grid;
+
+/// The lines of a grid in POV-Ray's words.
+pub(super) fn lines(grid: &Grid, style: Style) -> String {
+    let mut out = "union { // grid\n".to_owned();
+    for line in &grid.lines {
+        out.push_str("  cylinder { ");
+        style.point(&mut out, line.from);
+        out.push_str(", ");
+        style.point(&mut out, line.to);
+        out.push_str(", ");
+        style.length(&mut out, line.radius);
+        out.push_str(" }\n");
+    }
+    let color = color(grid.color, style);
+    out.push_str(&format!(
+        "  pigment {{ color srgb {color} }} finish {{ ambient 0 diffuse 0 emission 1 }} no_shadow no_reflection\n}}\n"
+    ));
+    out
+}

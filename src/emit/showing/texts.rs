@@ -1,0 +1,66 @@
+//! What is written on the plane before the camera: texts, and the scale bar.
+
+use super::super::{sdl::Style, text};
+use super::color;
+use crate::picture::{Bar, Screen, Text, Vertical, number};
+
+/// The transform from the plane to the world.
+pub(super) fn transform(screen: &Screen, style: Style) -> String {
+    let mut out = "matrix <".to_owned();
+    for row in screen.axes() {
+        for entry in (row / style.unit).to_array() {
+            number::write(&mut out, entry, style.digits);
+            out.push_str(", ");
+        }
+    }
+    let middle = (screen.middle() / style.unit).to_array();
+    for (i, entry) in middle.into_iter().enumerate() {
+        number::write(&mut out, entry, style.digits);
+        out.push_str(if i < 2 { ", " } else { ">" });
+    }
+    out
+}
+
+/// Appends a text.
+pub(super) fn write(out: &mut String, text: &Text<'_>, style: Style) {
+    let digits = |inset: f64| {
+        let mut out = String::new();
+        number::write(&mut out, inset, 4);
+        out
+    };
+    label(out, text, &height(text.y, digits), style);
+}
+
+/// Appends the scale bar and its number.
+pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: Style) {
+    let y = height(bar.y, short);
+    let (from, to, thickness) = (short(bar.from), short(bar.to), short(bar.thickness));
+    let ink = color(bar.color, style);
+    out.push_str(&format!("Bar(<{from}, {y}, 0>, {to}, {thickness}, {ink}) // scale bar\n"));
+    label(out, number, &format!("{y} + {}", short(bar.above)), style);
+}
+
+fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
+    // POV-Ray knows no text without a letter.
+    let said = if text.says.trim().is_empty() { "-" } else { &text.says };
+    let said = text::string(said);
+    let (x, height, align) = (short(text.x), short(text.height), short(text.align));
+    let (ink, name) = (color(text.color, style), text::comment(text.name));
+    out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
+}
+
+/// A height in the picture, whose edges are known when it is rendered.
+fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
+    match y {
+        Vertical::Middle(height) => short(height),
+        Vertical::Top(below) => format!("Screen_top - {}", inset(below)),
+        Vertical::Bottom(above) => format!("{} - Screen_top", inset(above)),
+    }
+}
+
+/// A place on the screen: finer than a pixel, and no finer.
+fn short(place: f64) -> String {
+    let mut out = String::new();
+    number::write(&mut out, (place * 1e5).round() / 1e5, 6);
+    out
+}

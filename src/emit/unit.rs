@@ -1,0 +1,84 @@
+//! The length of one unit of POV-Ray's.
+
+use crate::picture::{Plan, decimal_step, rounded_outward};
+use crate::scene::Scene;
+use crate::simulate::Bounds;
+
+/// Half the thickness, in POV-Ray's units, below which it gets edges and shadows wrong, since places nearer than 0.001
+/// are one to it. Measured on POV-Ray 3.7.
+const THINNEST: f64 = 0.01;
+
+/// The unit of a scene's scripts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unit {
+    /// Its length, m.
+    pub(super) length: f64,
+    /// The number of a body that POV-Ray may not draw, since it is too thin in this unit.
+    pub(super) too_thin: Option<usize>,
+}
+
+impl Unit {
+    /// The unit that the scene gives, or one in which POV-Ray can draw it.
+    pub(super) fn of(scene: &Scene, plan: &Plan) -> Unit {
+        let thinnest = thinnest(scene);
+        let length = scene.povray.unit.unwrap_or_else(|| unit(reach(plan), thinnest.map(|(_, half)| half)));
+        let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
+        Unit { length, too_thin }
+    }
+}
+
+/// The thinnest body and half its thickness, m; none where there is no body with a size.
+fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
+    let halves =
+        scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
+    halves.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
+fn reach(plan: &Plan) -> f64 {
+    let Bounds { min, max } = rounded_outward(plan.stage().scenery.bounds);
+    let points = [min, max, plan.placed().location(), plan.placed().look_at()];
+    points.into_iter().map(|point| point.abs().max_element()).fold((max - min).length(), f64::max)
+}
+
+/// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.
+///
+/// What is farther than 10⁵ comes near to the 10⁷ at which POV-Ray 3.7 stops to look.
+fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
+    const FARTHEST: f64 = 1e5;
+    let thinnest = thinnest.unwrap_or(THINNEST);
+    // The powers of ten at or above what the far, at or below what the thin asks for; the far is asked first.
+    let far = 1.0 / decimal_step(FARTHEST / reach);
+    let thin = decimal_step(thinnest / THINNEST);
+    if thinnest >= THINNEST && reach <= FARTHEST {
+        1.0
+    } else if reach > FARTHEST {
+        far
+    } else {
+        thin.max(far)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_1_where_povray_can_draw_so() {
+        assert_eq!([unit(100.0, Some(0.01)), unit(1e5, Some(1.0)), unit(1.0, None)], [1.0, 1.0, 1.0]);
+    }
+
+    #[test]
+    fn other_units_keep_the_scene_within_reach_and_thin_bodies_thick_enough() {
+        for (reach, thinnest) in
+            [(1e-9, 1e-10), (1e13, 6e6), (1e11, 1e8), (2.0, 0.004), (3e5, 50.0), (0.2, 1e-4)]
+        {
+            let unit = unit(reach, Some(thinnest));
+            assert!(
+                reach / unit <= 1.000_001e5 && thinnest / unit >= THINNEST * 0.99,
+                "{reach} {thinnest}: {unit}"
+            );
+            assert!((libm::log10(unit) - libm::log10(unit).round()).abs() < 1e-9, "{unit} is a power of ten");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! The scale bar: how long a metre is in the middle of the motion.
+
+use glam::DVec3;
+
+use super::framing::decimal_step;
+use super::grid::SIZE;
+use super::length::{prefixed, value};
+use super::screen::Screen;
+use super::stage::Scenery;
+use super::text::{MARGIN, Text, Vertical, across, is_top};
+use crate::scene::{Color, ScaleBar, Scene};
+
+/// A scale bar on the plane before the camera, on which the picture is 2 wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bar {
+    /// Where it begins across the picture.
+    pub from: f64,
+    /// Where it ends across the picture.
+    pub to: f64,
+    /// How high it is in the picture.
+    pub y: Vertical,
+    /// Its thickness.
+    pub thickness: f64,
+    /// How far above it the base line of its number is.
+    pub above: f64,
+    /// Its color.
+    pub color: Color,
+}
+
+/// The scale bars of all frames.
+#[derive(Clone, Debug)]
+pub(super) struct ScaleBars {
+    bar: ScaleBar,
+    /// The middle of the motion.
+    middle: DVec3,
+    /// The height of a line of text on the screen.
+    height: f64,
+    ink: Color,
+}
+
+impl ScaleBars {
+    pub(super) fn new(scene: &Scene, bar: ScaleBar, scenery: &Scenery, ink: Color) -> ScaleBars {
+        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
+        ScaleBars { bar, middle, height: SIZE * 2.0 * aspect, ink }
+    }
+
+    /// The bar on the plane before a camera, and its number; none if the middle of the motion is behind the camera.
+    pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
+        let spot = screen.spot(self.middle)?;
+        let fifth = 0.5 / spot.metre;
+        let length = self.bar.length.unwrap_or_else(|| decimal_step(fifth) * digit(fifth));
+        let width = length * spot.metre;
+        let (x, align) = across(self.bar.corner);
+        let left = x - align * width;
+        let y = match is_top(self.bar.corner) {
+            true => Vertical::Top(MARGIN + 1.6 * self.height),
+            false => Vertical::Bottom(MARGIN + 0.25 * self.height),
+        };
+        let above = 0.45 * self.height;
+        let bar = Bar { from: left, to: left + width, y, thickness: 0.005, above, color: self.ink };
+        let (unit, symbol) = prefixed(length);
+        let number = Text {
+            name: "scale bar",
+            says: format!("{} {symbol}", value(length / unit)).into(),
+            x: left + width / 2.0,
+            y: y.raised(above),
+            height: self.height,
+            align: 0.5,
+            color: self.ink,
+        };
+        Some((bar, number))
+    }
+}
+
+/// 1, 2 or 5: the largest that is not larger than a number within its decade.
+fn digit(number: f64) -> f64 {
+    let rest = number / decimal_step(number) + 1e-9;
+    [5.0, 2.0].into_iter().find(|digit| *digit <= rest).unwrap_or(1.0)
+}

@@ -1,0 +1,150 @@
+//! Springs, as coils between the surfaces of what they are fastened to.
+
+use glam::DVec3;
+
+use crate::dynamics::Shape;
+use crate::scene::{self, Body, Color, ForceKind, Scene, SpringEnd, SpringLink};
+use crate::simulate::{Frame, surface};
+
+/// The usual color of the wire.
+const STEEL: Color = Color([0.62, 0.64, 0.67]);
+/// The radius of the wire, as part of that of the coil.
+const WIRE: f64 = 0.14;
+
+/// A spring that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coil<'a> {
+    /// The name of its force in the scene.
+    pub name: &'a str,
+    /// Where the coil begins and ends, m; none where bodies that touch leave no room for it.
+    pub span: Option<[DVec3; 2]>,
+    /// The points that it is fastened to, m, where that is no body: for the beginning and for the end.
+    pub fixed: [Option<DVec3>; 2],
+    /// The radius of the knobs at those points, m.
+    pub knob: f64,
+    /// The radius of the coil, m.
+    pub radius: f64,
+    /// The radius of the wire, m.
+    pub wire: f64,
+    /// The number of its turns.
+    pub turns: u32,
+    /// The color of the wire.
+    pub color: Color,
+}
+
+/// The springs of a scene that are drawn.
+#[derive(Clone, Debug)]
+pub(super) struct Coils {
+    coils: Vec<Planned>,
+    /// The drawn shapes of bodies, by their numbers.
+    shapes: Vec<Shape>,
+}
+
+#[derive(Clone, Debug)]
+struct Planned {
+    between: [SpringEnd; 2],
+    /// The radius of the coil, m.
+    radius: f64,
+    turns: u32,
+    color: Color,
+    name: String,
+}
+
+impl Coils {
+    pub(super) fn new(scene: &Scene) -> Coils {
+        let mut coils = Vec::new();
+        for force in &scene.forces {
+            let ForceKind::Spring { links, coil: Some(coil), .. } = &force.kind else { continue };
+            coils.extend(links.iter().map(|link| plan(scene, &force.name, link, coil)));
+        }
+        let shapes =
+            if coils.is_empty() { Vec::new() } else { scene.bodies.iter().map(Body::drawn).collect() };
+        Coils { coils, shapes }
+    }
+
+    /// The coils as they are in a frame.
+    pub(super) fn at(&self, frame: &Frame) -> Vec<Coil<'_>> {
+        self.coils.iter().map(|coil| self.coil(coil, frame)).collect()
+    }
+
+    fn coil<'a>(&'a self, coil: &'a Planned, frame: &Frame) -> Coil<'a> {
+        let centre = |end: SpringEnd| match end {
+            SpringEnd::Body(body) => frame.bodies[body].location,
+            SpringEnd::Point(point) => point,
+        };
+        let [from, to] = coil.between.map(centre);
+        let along = (to - from).normalize_or_zero();
+        let reach = |end: SpringEnd, direction: DVec3| match end {
+            SpringEnd::Body(body) => {
+                // A little below the surface, so that no gap is seen where that is not flat.
+                0.95 * surface(&self.shapes[body], frame.bodies[body].orientation, direction)
+            }
+            SpringEnd::Point(_) => 0.0,
+        };
+        let (begin, end) =
+            (from + along * reach(coil.between[0], along), to - along * reach(coil.between[1], -along));
+        let fixed = |end: SpringEnd| match end {
+            SpringEnd::Body(_) => None,
+            SpringEnd::Point(point) => Some(point),
+        };
+        let wire = WIRE * coil.radius;
+        // Bodies that touch leave no room for a spring.
+        let is_room = (end - begin).dot(along) > 4.0 * WIRE * coil.radius;
+        Coil {
+            name: &coil.name,
+            span: is_room.then_some([begin, end]),
+            fixed: coil.between.map(fixed),
+            knob: 0.6 * coil.radius,
+            radius: coil.radius,
+            wire,
+            turns: coil.turns,
+            color: coil.color,
+        }
+    }
+}
+
+/// How a spring looks: about as wide as half the smaller of the bodies at its ends, and with as many turns as keep
+/// their wires apart.
+fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &scene::Coil) -> Planned {
+    let place = |end: SpringEnd| match end {
+        SpringEnd::Body(body) => scene.bodies[body].start.location,
+        SpringEnd::Point(point) => point,
+    };
+    let along = place(link.between[1]) - place(link.between[0]);
+    let length = link.rest_length.max(along.length());
+    let towards = along.normalize_or(DVec3::Y);
+    let reach = |end: SpringEnd, direction: DVec3| match end {
+        SpringEnd::Body(body) => {
+            let body = &scene.bodies[body];
+            body.drawn().support(body.start.orientation, direction)
+        }
+        SpringEnd::Point(_) => None,
+    };
+    let widest =
+        |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
+    let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
+    let depth = |end: SpringEnd| match end {
+        SpringEnd::Body(body) => {
+            surface(&scene.bodies[body].drawn(), scene.bodies[body].start.orientation, towards)
+        }
+        SpringEnd::Point(_) => 0.0,
+    };
+    let free = length - link.between.map(depth).iter().sum::<f64>();
+    let free = if free > 0.0 { free } else { length };
+    let radius = coil.radius.unwrap_or_else(|| (0.5 * smallest).min(0.12 * free));
+    // Bodies at the same place, with a spring without length.
+    let radius = if radius > 0.0 { radius } else { smallest.min(1.0) / 2.0 };
+    Planned {
+        between: link.between,
+        radius,
+        turns: coil.turns.unwrap_or_else(|| turns(free / (1.5 * radius))),
+        color: coil.color.unwrap_or(STEEL),
+        name: name.to_owned(),
+    }
+}
+
+/// A number of turns near to what would be usual.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
+fn turns(usual: f64) -> u32 {
+    usual.round().clamp(4.0, 24.0) as u32
+}

@@ -1,0 +1,37 @@
+//! Colors that follow from others.
+
+use crate::scene::{Color, Look, Scene};
+
+/// The color of a ghost of a body of a color: nearer to what is behind it, which is `dark` or not.
+pub fn pale(color: Color, dark: bool) -> Color {
+    const PALER: f64 = 0.5;
+    let towards = if dark { 0.12 } else { 0.93 };
+    Color(color.0.map(|part| part + PALER * (towards - part)))
+}
+
+/// The single color of a look, if it has one that is known here.
+pub fn of_look(look: &Look) -> Option<Color> {
+    match look {
+        Look::Plain { color, .. } => Some(*color),
+        Look::Library { color, .. } => *color,
+        Look::Checkered | Look::Texture(_) | Look::Sdl(_) => None,
+    }
+}
+
+/// The usual color of what is written.
+pub(super) fn ink(scene: &Scene) -> Color {
+    if scene.environment.is_dark() { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ghosts_are_nearer_to_what_is_behind_them() {
+        let [red, green, _] = pale(Color([1.0, 0.0, 0.0]), false).0;
+        assert!(red > 0.9 && green > 0.4);
+        let [red, green, _] = pale(Color([1.0, 0.0, 0.0]), true).0;
+        assert!(red < 0.6 && green < 0.1);
+    }
+}

@@ -1,0 +1,47 @@
+//! Lengths as rulers have them.
+
+use super::number;
+
+/// The unit in which a length is written, m, and its symbol.
+pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
+    const UNITS: [(f64, &str); 8] = [
+        (1e9, "million km"),
+        (1e3, "km"),
+        (1.0, "m"),
+        (1e-2, "cm"),
+        (1e-3, "mm"),
+        (1e-6, "µm"),
+        (1e-9, "nm"),
+        (1e-12, "pm"),
+    ];
+    // Tenths of a metre are more usual than tens of centimetres.
+    let fits = |(unit, _): &&(f64, &str)| length >= if *unit == 1.0 { 0.1 } else { unit * 0.999_999 };
+    UNITS.iter().find(fits).copied().unwrap_or((1e-12, "pm"))
+}
+
+/// A number of a ruler: short, with a real minus sign.
+pub(super) fn value(number: f64) -> String {
+    let mut out = String::new();
+    number::write(&mut out, number, 6);
+    out.replace('-', "–")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_usual_units() {
+        for (length, said) in [
+            (2.0, "2 m"),
+            (0.5, "0.5 m"),
+            (0.05, "5 cm"),
+            (2e-9, "2 nm"),
+            (5e4, "50 km"),
+            (1e11, "100 million km"),
+        ] {
+            let (unit, symbol) = prefixed(length);
+            assert_eq!(format!("{} {symbol}", value(length / unit)), said);
+        }
+    }
+}

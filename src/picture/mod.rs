@@ -1,0 +1,39 @@
+//! Frames → what their pictures show.
+//!
+//! A [`Plan`] is made once for a run and a camera; then it says of any frame, in any order and from several threads at
+//! once, where the camera stands, what shines, and what is drawn beside the bodies: arrows, axes, coils, ghosts,
+//! trails, texts, a grid, a scale bar. All of it is in metres, and in no program's words, so that whatever draws a
+//! frame — POV-Ray, or a preview — draws the same.
+
+mod arrows;
+mod bar;
+mod camera;
+mod coils;
+mod colors;
+mod framing;
+mod ghosts;
+mod grid;
+mod labels;
+mod length;
+mod lights;
+pub(crate) mod number;
+mod plan;
+mod screen;
+mod stage;
+mod text;
+mod trails;
+
+pub use arrows::{Arrow, Axes};
+pub use bar::Bar;
+pub use camera::{Lens, Placed};
+pub use coils::Coil;
+pub use colors::{of_look, pale};
+pub(crate) use framing::{decimal_step, rounded_outward};
+pub use grid::{Grid, Line};
+pub use lights::{Lamp, PlacedLight};
+pub use plan::Plan;
+pub(crate) use plan::has_texts;
+pub use screen::{Screen, Spot};
+pub use stage::{Scenery, Stage, StageGround};
+pub use text::{Text, Vertical};
+pub use trails::Trail;

@@ -1,0 +1,169 @@
+//! What surrounds the bodies: ground, sky and haze, each as given or as it follows from the motion.
+
+use glam::DVec3;
+
+use super::camera::Placed;
+use super::framing;
+use crate::scene::{Color, Environment, Preset, Scene, Sky};
+use crate::simulate::{Bounds, Survey};
+
+/// What surrounds the bodies. Lengths are in metres.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The diagonal of the box in which everything takes place.
+    pub size: f64,
+    /// The middle of that box.
+    pub center: DVec3,
+    /// The ground, if one is seen.
+    pub ground: Option<StageGround>,
+    /// The edge of a tile of a checkered plane.
+    pub tile: f64,
+    /// The distance from the middle over which its tiles fade.
+    pub tiles_fade: f64,
+    /// The distance from the middle over which ground and checkered planes fade into the horizon.
+    pub fade: f64,
+    /// The surroundings, where nothing else is given.
+    pub preset: Preset,
+    /// The ambient light, linear; none: as materials expect it.
+    pub ambient: Option<[f64; 3]>,
+    /// The color of a plain sky; none is the usual sky of the preset.
+    pub sky: Option<Color>,
+    /// Whether there is nothing behind the bodies.
+    pub transparent: bool,
+    /// Whether the ground fades into haze.
+    pub fog: bool,
+    /// Where everything takes place, for what is measured there.
+    pub scenery: Scenery,
+}
+
+/// The ground. Lengths are in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageGround {
+    /// Its height.
+    pub height: f64,
+    /// The edge of one of its tiles.
+    pub tile: f64,
+    /// The distance from the middle over which the tiles fade.
+    pub tiles_fade: f64,
+}
+
+/// Where everything takes place, in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scenery {
+    /// The box in which everything takes place, not rounded.
+    pub bounds: Bounds,
+    /// The height of the ground, or where it would be.
+    pub ground: f64,
+    /// The edge of one of its tiles.
+    pub tile: f64,
+    /// The width of a line that is well seen in the middle of the motion.
+    pub stroke: f64,
+}
+
+/// Where there is nothing to see, this is looked at.
+const NOTHING: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
+
+/// The width of lines, as part of the picture's: four pixels of 1280.
+const STROKE: f64 = 0.0031;
+
+/// The box in which a run takes place, not rounded.
+pub(super) fn bounds(survey: &Survey) -> Bounds {
+    survey.bounds.unwrap_or(NOTHING)
+}
+
+impl Stage {
+    /// The surroundings of a scene whose run has taken place within exact bounds, and of which a camera sees all.
+    pub(super) fn new(scene: &Scene, exact: Bounds, camera: &Placed) -> Stage {
+        let bounds = framing::rounded_outward(exact);
+        let center = (bounds.min + bounds.max) / 2.0;
+        let size = two_digits_up((bounds.max - bounds.min).length());
+        let distance = camera.location().distance(center);
+        let around = scene.environment.ground.as_ref();
+        let scenery = Scenery {
+            bounds: exact,
+            ground: around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(exact.min.y, size)),
+            tile: around.and_then(|ground| ground.tile).unwrap_or_else(|| tile(size)),
+            stroke: STROKE * camera.width_at(distance),
+        };
+        let ground = around.filter(|_| !scene.output.transparent).map(|_| StageGround {
+            height: scenery.ground,
+            tile: scenery.tile,
+            // Tiles that are given may be larger than all that moves.
+            tiles_fade: (4.5 * size).max(38.0 * scenery.tile),
+        });
+        Stage {
+            size,
+            center,
+            ground,
+            tile: tile(size),
+            tiles_fade: 4.5 * size,
+            // From far away, more of the ground is to be seen.
+            fade: 11.0 * size.max(distance / 2.0),
+            preset: scene.environment.preset,
+            ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
+            sky: match scene.environment.sky {
+                Sky::Gradient => None,
+                Sky::Plain(color) => Some(color),
+            },
+            transparent: scene.output.transparent,
+            fog: scene.environment.fog,
+            scenery,
+        }
+    }
+}
+
+/// The ambient light, linear: that of the preset, or what a plain sky sends.
+fn ambient(environment: &Environment) -> [f64; 3] {
+    match environment.sky {
+        Sky::Gradient => environment.preset.ambient(),
+        // A plain sky of a light gray is as bright as the usual one. A little is left below a black one, since no
+        // place is quite without light.
+        Sky::Plain(color) => color.linear().map(|c| (0.03 + 1.6 * c).min(1.0)),
+    }
+}
+
+/// A positive number rounded up to two digits.
+fn two_digits_up(number: f64) -> f64 {
+    let step = framing::decimal_step(number) / 10.0;
+    (number / step - 1e-6).ceil() * step
+}
+
+/// A height just under the lowest point of the motion.
+fn just_under(lowest: f64, size: f64) -> f64 {
+    let step = framing::decimal_step(size) / 100.0;
+    (lowest / step - 0.1).floor() * step
+}
+
+/// The edge of a ground tile for a scene of the given size: 1, 2 or 5 times a power of ten.
+fn tile(size: f64) -> f64 {
+    let wanted = size / 12.0;
+    let decade = framing::decimal_step(wanted);
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
+    let nearness = |step: &f64| (libm::log(step / wanted)).abs();
+    steps.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ground_is_under_the_lowest_point_but_not_far() {
+        for (lowest, size) in [(-2.0, 84.0), (0.0, 3.0), (1.234, 0.5), (-1e-9, 1e-9), (7e12, 1e13)] {
+            let ground = just_under(lowest, size);
+            assert!(ground < lowest && lowest - ground < size / 50.0, "{lowest} {size}: {ground}");
+        }
+    }
+
+    #[test]
+    fn tiles_are_round_and_about_a_twelfth_of_the_scene() {
+        assert_eq!([tile(84.0), tile(12.0), tile(30.0)], [5.0, 1.0, 2.0]);
+        for size in [0.003, 0.7, 55.0, 1e4] {
+            assert!(
+                (size / tile(size) / 12.0).clamp(0.6, 1.7) == size / tile(size) / 12.0,
+                "{size}: {}",
+                tile(size)
+            );
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! A text in the picture, and where it stands.
+
+use std::borrow::Cow;
+
+use crate::scene::{Color, Corner};
+
+/// The distance of texts from the edges of the picture, whose width is 2.
+pub(super) const MARGIN: f64 = 0.035;
+
+/// A line of text on the plane before the camera, whose x goes from -1 at the left edge of the picture to 1 at the
+/// right one. Its y has the same scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text<'a> {
+    /// Of what it is: the name of the label, `grid`, or `scale bar`.
+    pub name: &'a str,
+    /// What it says.
+    pub says: Cow<'a, str>,
+    /// Where it stands across the picture.
+    pub x: f64,
+    /// Where its base line is.
+    pub y: Vertical,
+    /// The height of a line.
+    pub height: f64,
+    /// Which part of it stands at its place: 0 if it begins there, 0.5 if its middle is there, 1 if it ends there.
+    pub align: f64,
+    /// Its color.
+    pub color: Color,
+}
+
+/// A height in the picture, whose width is 2. The upper and the lower edge are those of the image that is made, whatever
+/// its shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Vertical {
+    /// Above the middle.
+    Middle(f64),
+    /// Below the upper edge.
+    Top(f64),
+    /// Above the lower edge.
+    Bottom(f64),
+}
+
+impl Vertical {
+    /// The height above the middle, in a picture that is so many times as high as it is wide.
+    pub fn above_middle(self, aspect: f64) -> f64 {
+        match self {
+            Vertical::Middle(height) => height,
+            Vertical::Top(inset) => aspect - inset,
+            Vertical::Bottom(inset) => inset - aspect,
+        }
+    }
+
+    /// A height that is higher by so much.
+    #[must_use]
+    pub fn raised(self, by: f64) -> Vertical {
+        match self {
+            Vertical::Middle(height) => Vertical::Middle(height + by),
+            Vertical::Top(inset) => Vertical::Top(inset - by),
+            Vertical::Bottom(inset) => Vertical::Bottom(inset + by),
+        }
+    }
+}
+
+/// Where a text in a corner stands across the picture, and which part of it is there.
+pub(super) fn across(corner: Corner) -> (f64, f64) {
+    match corner {
+        Corner::TopLeft | Corner::BottomLeft => (MARGIN - 1.0, 0.0),
+        Corner::Top | Corner::Bottom => (0.0, 0.5),
+        Corner::TopRight | Corner::BottomRight => (1.0 - MARGIN, 1.0),
+    }
+}
+
+/// Whether a corner is at the top of the picture.
+pub(super) fn is_top(corner: Corner) -> bool {
+    matches!(corner, Corner::TopLeft | Corner::Top | Corner::TopRight)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_are_from_the_middle_and_from_the_edges() {
+        for (height, expected) in
+            [(Vertical::Middle(0.1), 0.1), (Vertical::Top(0.1), 0.4), (Vertical::Bottom(0.1), -0.4)]
+        {
+            assert!((height.above_middle(0.5) - expected).abs() < 1e-12, "{height:?}");
+            assert!((height.raised(0.2).above_middle(0.5) - expected - 0.2).abs() < 1e-12, "{height:?}");
+        }
+    }
+}

@@ -1,0 +1,323 @@
+//! What the page is told of a run: all that stays the same.
+
+use std::collections::HashMap;
+
+use glam::{DQuat, DVec3};
+use serde::Serialize;
+
+use super::run::{Outcome, Simulation};
+use crate::dynamics::METHODS;
+use crate::picture::{Plan, of_look, pale};
+use crate::scene::{Body, Color, Look, Scene, Sky};
+use crate::simulate::Bounds;
+use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
+
+/// A run, without its frames. Lengths are metres, angles degrees, colors linear where nothing else is said.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Description<'a> {
+    id: String,
+    name: &'a str,
+    title: Option<&'a str>,
+    integrator: &'static str,
+    step: f64,
+    frames: usize,
+    frame_rate: f64,
+    methods: Vec<Method>,
+    size: [u32; 2],
+    preset: &'static str,
+    /// sRGB.
+    sky: Option<Color3>,
+    dark: bool,
+    bodies: Vec<BodyText<'a>>,
+    pieces: Vec<PieceText>,
+    materials: Vec<Surface>,
+    tiles: Surface,
+    views: Vec<&'a str>,
+    bounds: Option<[[f64; 3]; 2]>,
+    /// Whether there is more to be seen in a frame than where its bodies are.
+    shows: bool,
+    /// What is known when the run is finished.
+    stage: Option<Stage>,
+}
+
+type Color3 = [f64; 3];
+
+#[derive(Serialize)]
+struct Method {
+    name: &'static str,
+    summary: &'static str,
+}
+
+#[derive(Serialize)]
+struct BodyText<'a> {
+    name: &'a str,
+    mass: f64,
+    /// `free`, `fixed`, or `driven` by a motion that is given.
+    kind: &'static str,
+    /// A number among the materials.
+    material: Option<usize>,
+    ghosts: bool,
+    trail: Option<TrailText>,
+}
+
+#[derive(Serialize)]
+struct TrailText {
+    /// How far back it goes, s.
+    duration: Option<f64>,
+}
+
+/// One of the forms that a body is drawn of.
+#[derive(Serialize)]
+struct PieceText {
+    body: usize,
+    /// A number among the forms.
+    form: usize,
+    scale: [f64; 3],
+    location: [f64; 3],
+    turn: [f64; 4],
+    /// sRGB; none: as the body's material.
+    color: Option<Color3>,
+    /// Whether it has no end.
+    plane: bool,
+    /// The radius of a ball of the body's volume, by which patterns are measured.
+    radius: f64,
+}
+
+#[derive(Serialize)]
+struct Surface {
+    color: [f64; 4],
+    metallic: f64,
+    roughness: f64,
+    emissive: bool,
+    motif: &'static str,
+    second: Option<Color3>,
+    /// The color of ghosts, linear.
+    pale: Color3,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Stage {
+    center: [f64; 3],
+    size: f64,
+    tile: f64,
+    tiles_fade: f64,
+    fade: f64,
+    fog: bool,
+    ambient: Option<Color3>,
+    ground: Option<Ground>,
+    timestep: f64,
+    steps_per_frame: u32,
+    drift: f64,
+    /// Half the width of trails, and their colors in sRGB, by the numbers of their bodies.
+    trails: Vec<Trail>,
+    grid: Vec<Line>,
+    /// Of each camera: where it stands before it moves.
+    cameras: Vec<super::shown::Camera>,
+    lights: Vec<super::shown::Light>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Ground {
+    height: f64,
+    tile: f64,
+    tiles_fade: f64,
+}
+
+#[derive(Serialize)]
+struct Trail {
+    body: usize,
+    radius: f64,
+    color: Color3,
+    tapers: bool,
+}
+
+#[derive(Serialize)]
+struct Line {
+    from: [f64; 3],
+    to: [f64; 3],
+    radius: f64,
+    color: Color3,
+}
+
+/// Describes a run as far as it is known.
+pub(super) fn describe(run: &Simulation) -> Description<'_> {
+    let scene: &Scene = &run.scene;
+    let dark = scene.environment.is_dark();
+    let (simulation, outcome) = (&scene.simulation, run.outcome().and_then(Result::ok));
+    Description {
+        id: run.id.to_string(),
+        name: &scene.name,
+        title: scene.title.as_deref(),
+        integrator: simulation.method.name,
+        step: simulation.step,
+        frames: simulation.frames(),
+        frame_rate: simulation.frame_rate,
+        methods: METHODS.iter().map(|m| Method { name: m.name, summary: m.summary }).collect(),
+        size: [scene.output.width, scene.output.height],
+        preset: scene.environment.preset.name(),
+        sky: match scene.environment.sky {
+            Sky::Plain(color) => Some(color.0),
+            Sky::Gradient => None,
+        },
+        dark,
+        bodies: scene.bodies.iter().map(body).collect(),
+        pieces: placed(scene),
+        materials: scene
+            .materials
+            .iter()
+            .map(|m| surface(&appearance(&m.look), Some(&m.look), dark))
+            .collect(),
+        tiles: surface(&ground(scene.environment.preset), None, dark),
+        views: scene.views.iter().map(|view| view.name.as_str()).collect(),
+        bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
+        shows: shows(scene, outcome),
+        stage: outcome.map(stage),
+    }
+}
+
+/// The triangles of all forms, one after another: how many vertices and indices there are, positions, normals and
+/// indices, in little-endian numbers of 32 bits.
+pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
+    let detail = detail(scene);
+    let mut bytes = Vec::new();
+    for form in forms(scene) {
+        let triangles = form.triangles(detail);
+        let counts = [triangles.positions.len(), triangles.indices.len()];
+        let counts = counts.map(|count| u32::try_from(count).unwrap_or(u32::MAX));
+        let floats = triangles.positions.iter().chain(&triangles.normals).flatten();
+        counts.iter().for_each(|count| bytes.extend_from_slice(&count.to_le_bytes()));
+        floats.for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+        triangles.indices.iter().for_each(|index| bytes.extend_from_slice(&index.to_le_bytes()));
+    }
+    bytes
+}
+
+/// Many bodies are small in the picture, and few need to be perfectly round.
+fn detail(scene: &Scene) -> Detail {
+    const MANY: usize = 1_000;
+    if scene.bodies.len() > MANY { Detail::Coarse } else { Detail::Fine }
+}
+
+/// The forms of a scene, each once, in the order in which bodies need them.
+fn forms(scene: &Scene) -> Vec<Form> {
+    let mut known = HashMap::new();
+    let mut forms = Vec::new();
+    for piece in scene.bodies.iter().flat_map(|body| pieces(&body.drawn())) {
+        known.entry(piece.form.clone()).or_insert_with(|| forms.push(piece.form));
+    }
+    forms
+}
+
+fn placed(scene: &Scene) -> Vec<PieceText> {
+    let numbers: HashMap<Form, usize> =
+        forms(scene).into_iter().enumerate().map(|(i, form)| (form, i)).collect();
+    let mut all = Vec::new();
+    for (number, body) in scene.bodies.iter().enumerate() {
+        let drawn = body.drawn();
+        let radius = drawn.volume().map_or(1.0, |volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
+        all.extend(pieces(&drawn).into_iter().map(|piece| {
+            let Piece { form, scale, location, orientation, color } = piece;
+            PieceText {
+                body: number,
+                form: numbers.get(&form).copied().unwrap_or_default(),
+                scale: DVec3::to_array(&scale),
+                location: DVec3::to_array(&location),
+                turn: DQuat::to_array(&orientation),
+                color: color.map(|Color(color)| color),
+                plane: matches!(form, Form::Plane),
+                radius,
+            }
+        }));
+    }
+    all
+}
+
+fn body(body: &Body) -> BodyText<'_> {
+    BodyText {
+        name: &body.name,
+        mass: body.start.mass,
+        kind: match (&body.motion, body.start.fixed) {
+            (Some(_), _) => "driven",
+            (None, true) => "fixed",
+            (None, false) => "free",
+        },
+        material: body.material,
+        ghosts: body.showing.ghosts.is_some(),
+        trail: body.showing.trail.map(|trail| TrailText { duration: trail.duration }),
+    }
+}
+
+fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
+    let [red, green, blue, _] = look.mean();
+    let pale = of.and_then(of_look).map_or([red, green, blue], |color| pale(color, dark).linear());
+    Surface {
+        color: look.color,
+        metallic: look.metallic,
+        roughness: look.roughness,
+        emissive: look.emissive,
+        motif: match look.pattern {
+            Motif::None => "none",
+            Motif::Checkered => "checkered",
+            Motif::Striped => "striped",
+            Motif::BeachBall => "beach-ball",
+            Motif::Ground => "ground",
+        },
+        second: look.second,
+        pale,
+    }
+}
+
+fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
+    let bodies = scene
+        .bodies
+        .iter()
+        .any(|body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some));
+    let springs = scene
+        .forces
+        .iter()
+        .any(|force| matches!(force.kind, crate::scene::ForceKind::Spring { coil: Some(_), .. }));
+    let texts = !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some();
+    let moves = |plan: &Plan| plan.camera_moves() || plan.lights_move();
+    bodies || springs || texts || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
+}
+
+fn stage(outcome: &Outcome) -> Stage {
+    let (plan, survey) = (&outcome.plans[0], &outcome.survey);
+    let stage = plan.stage();
+    Stage {
+        center: stage.center.to_array(),
+        size: stage.size,
+        tile: stage.tile,
+        tiles_fade: stage.tiles_fade,
+        fade: stage.fade,
+        fog: stage.fog,
+        ambient: stage.ambient,
+        ground: stage.ground.as_ref().map(|ground| Ground {
+            height: ground.height,
+            tile: ground.tile,
+            tiles_fade: ground.tiles_fade,
+        }),
+        timestep: survey.timestep,
+        steps_per_frame: survey.steps_per_frame,
+        drift: survey.drift,
+        trails: plan
+            .planned_trails()
+            .iter()
+            .map(|t| Trail { body: t.body, radius: t.radius, color: t.color.0, tapers: t.tapers })
+            .collect(),
+        grid: plan.grid().map_or_else(Vec::new, |grid| {
+            let line = |line: &crate::picture::Line| Line {
+                from: line.from.to_array(),
+                to: line.to.to_array(),
+                radius: line.radius,
+                color: grid.color.0,
+            };
+            grid.lines.iter().map(line).collect()
+        }),
+        cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
+        lights: plan.lights(0.0).iter().map(super::shown::Light::of).collect(),
+    }
+}

@@ -1,0 +1,142 @@
+// What is drawn in lines: trails, arrows, coils, grids, axes, and where the scene's camera stands.
+
+import { add, cross, dot, length, linear, sub, times, turned, unit } from "./math.js";
+
+/** Lines of a picture: for each its ends, its radius there, and its color in sRGB. Lengths are metres. */
+export class Lines {
+  constructor() {
+    this.numbers = [];
+  }
+
+  add(from, to, radius, color, radiusAtEnd = radius, alpha = 1) {
+    this.numbers.push(...from, radius, ...to, radiusAtEnd, ...color, alpha);
+  }
+
+  get count() {
+    return this.numbers.length / 12;
+  }
+
+  /** The numbers in the world of the shaders. */
+  packed({ center, size }) {
+    const out = new Float32Array(this.numbers);
+    for (let i = 0; i < out.length; i += 12) {
+      for (let k = 0; k < 3; k++) {
+        out[i + k] = (this.numbers[i + k] - center[k]) / size;
+        out[i + 4 + k] = (this.numbers[i + 4 + k] - center[k]) / size;
+      }
+      out[i + 3] /= size;
+      out[i + 7] /= size;
+    }
+    return out;
+  }
+}
+
+/** An arrow, with a head as in the templates. */
+export function arrow(lines, { from, to, radius, color }) {
+  const along = sub(to, from);
+  const shaft = Math.min(radius, length(along) / 14);
+  const neck = sub(to, times(unit(along), 9 * shaft));
+  lines.add(from, neck, shaft, color);
+  lines.add(neck, to, 3.2 * shaft, color, 0);
+}
+
+/** A spring, as in the templates. */
+export function coil(lines, { span, fixed, knob, radius, wire, turns, color }) {
+  for (const point of fixed) lines.add(sub(point, [0, knob, 0]), add(point, [0, knob, 0]), knob, color);
+  if (!span) return;
+  const [a, b] = span;
+  const axis = sub(b, a);
+  const sideways = unit(cross(axis, Math.abs(unit(axis)[2]) < 0.98 ? [0, 0, 1] : [1, 0, 0]), [1, 0, 0]);
+  const across = times(sideways, radius);
+  const upward = times(unit(cross(sideways, axis), [0, 1, 0]), radius);
+  const begin = add(a, times(axis, 0.08));
+  lines.add(a, begin, wire, color);
+  let last = begin;
+  for (let i = 0; i <= 14 * turns; i++) {
+    const angle = (2 * Math.PI * i) / 14;
+    const next = add(add(add(begin, times(axis, (0.84 * i) / (14 * turns))), times(across, Math.cos(angle))), times(upward, Math.sin(angle)));
+    lines.add(last, next, wire, color);
+    last = next;
+  }
+  const end = sub(b, times(axis, 0.08));
+  lines.add(last, end, wire, color);
+  lines.add(end, b, wire, color);
+}
+
+const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
+
+export function axes(lines, { location, turn, length: arm }) {
+  AXES.forEach((color, i) => {
+    const direction = turned(turn, [0, 1, 2].map((k) => (k === i ? arm : 0)));
+    lines.add(location, add(location, times(direction, 0.8)), 0.03 * arm, color);
+    lines.add(add(location, times(direction, 0.76)), add(location, direction), 0.078 * arm, color, 0);
+  });
+}
+
+/** The way of a body up to the present position in the film, as far as its frames are there. */
+export function trail(lines, run, { body, radius, color, tapers }, position) {
+  const rate = run.rate;
+  const duration = run.description.bodies[body].trail?.duration;
+  const first = duration ? Math.max(0, position - duration * rate) : 0;
+  const points = [];
+  const stride = Math.max(1, Math.ceil((position - first) / 1500));
+  for (let frame = Math.ceil(first); frame < position; frame += stride) {
+    const poses = run.poses(frame);
+    if (poses) points.push(Array.from(poses.subarray(3 * body, 3 * body + 3)));
+    else points.length = 0;
+  }
+  const here = between(run, body, position);
+  if (here) points.push(here);
+  const smooth = rounded(points);
+  for (let i = 1; i < smooth.length; i++) {
+    const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
+    lines.add(smooth[i - 1], smooth[i], width(i - 1), color, width(i));
+  }
+}
+
+/** Where a body is at a position in the film, between two frames on a straight line. */
+export function between(run, body, position) {
+  const frame = Math.floor(position + 1e-9);
+  const from = run.poses(frame);
+  if (!from) return undefined;
+  const here = Array.from(from.subarray(3 * body, 3 * body + 3));
+  const part = position - frame;
+  const to = part > 1e-6 ? run.poses(frame + 1) : undefined;
+  if (!to) return here;
+  return here.map((a, k) => a + part * (to[3 * body + k] - a));
+}
+
+/** More points where a line bends, on a curve through all of them (Catmull–Rom). */
+function rounded(points) {
+  if (points.length < 3 || points.length > 800) return points;
+  const out = [points[0]];
+  for (let i = 1; i < points.length; i++) {
+    const [a, b, c, d] = [points[Math.max(0, i - 2)], points[i - 1], points[i], points[Math.min(points.length - 1, i + 1)]];
+    const [u, v, w] = [sub(b, a), sub(c, b), sub(d, c)];
+    const bend = Math.max(angle(u, v), angle(v, w));
+    const pieces = bend < Math.PI / 2 ? Math.min(8, Math.ceil(bend / 0.06)) : 1;
+    for (let k = 1; k <= pieces; k++) {
+      const s = k / pieces;
+      out.push(b.map((_, j) => 0.5 * (2 * b[j] + (c[j] - a[j]) * s + (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * s * s + (3 * b[j] - a[j] - 3 * c[j] + d[j]) * s ** 3)));
+    }
+  }
+  return out;
+}
+
+function angle(a, b) {
+  const [p, q] = [unit(a), unit(b)];
+  return Math.acos(Math.max(-1, Math.min(1, dot(p, q)))) || 0;
+}
+
+/** The scene's camera as another one sees it: its place, and the frame of its film. */
+export function camera(lines, { location, right, up, back, tangentX, tangentY, depth }, radius) {
+  const color = [0.95, 0.62, 0.1];
+  const corner = (x, y) => add(add(sub(location, times(back, depth)), times(right, x * tangentX * depth)), times(up, y * tangentY * depth));
+  const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+  corners.forEach((point, i) => {
+    lines.add(location, point, radius, color);
+    lines.add(point, corners[(i + 1) % 4], radius, color);
+  });
+}
+
+export { linear };

@@ -1,0 +1,449 @@
+// Draws a picture with WebGL2.
+
+import { add, length, product, orthographic, axes as axesOf, lookAt, sub, times, turned, unit } from "./math.js";
+import { surroundings } from "./surroundings.js";
+import * as shaders from "./shaders.js";
+
+/** The numbers of one instance of a form. */
+const INSTANCE = 23;
+const MOTIFS = { none: 0, ground: 0, checkered: 1, striped: 2, "beach-ball": 3 };
+const SHADOW = 1024;
+/** With more vertices than this, shadows would take too long. */
+const MOST_SHADOWED = 4e6;
+
+export class Painter {
+  constructor(canvas) {
+    const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+    if (!gl) throw new Error("This browser has no WebGL2, by which the picture is drawn.");
+    this.gl = gl;
+    this.canvas = canvas;
+    this.body = program(gl, shaders.BODY_VERTEX, shaders.BODY_FRAGMENT);
+    this.depth = program(gl, shaders.BODY_VERTEX, shaders.DEPTH_FRAGMENT);
+    this.ground = program(gl, shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT);
+    this.sky = program(gl, shaders.SKY_VERTEX, shaders.SKY_FRAGMENT);
+    this.line = program(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
+    this.square = corners(gl, [-1, -1, 1, -1, -1, 1, 1, 1]);
+    this.lineVertices = lineVertices(gl);
+    this.shadow = shadowMap(gl);
+    /** Batches of bodies: the run's, the other run's, the ghosts. */
+    this.batches = {};
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  /** Takes the forms of a run, and its bodies. */
+  take(run) {
+    const { gl } = this;
+    this.forms?.forEach((form) => form.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
+    Object.keys(this.batches).forEach((name) => this.release(name));
+    this.forms = run.forms.map((form) => upload(gl, form));
+    this.description = run.description;
+    this.space = spaceOf(run.description);
+    this.planes = run.description.pieces.filter((piece) => piece.plane);
+    const bodies = run.description.bodies.map((_, number) => ({ body: number, pose: number }));
+    this.put("run", bodies);
+  }
+
+  /** Makes a batch of bodies, each with the number of its pose. */
+  put(name, bodies, pale = false) {
+    this.release(name);
+    const { gl, description, space } = this;
+    const byBody = this.piecesByBody(description);
+    const groups = new Map();
+    for (const { body, pose } of bodies) {
+      for (const piece of byBody[body] ?? []) {
+        const material = description.materials[description.bodies[body].material] ?? PLAIN;
+        const clear = !piece.color && material.color[3] < 1;
+        const key = `${piece.form} ${clear}`;
+        if (!groups.has(key)) groups.set(key, { form: piece.form, clear, numbers: [] });
+        groups.get(key).numbers.push(...instance(piece, material, pose, space.size, pale));
+      }
+    }
+    const made = [...groups.values()].map(({ form, clear, numbers }) => {
+      const { vertices, buffer } = instances(gl, this.forms[form], new Float32Array(numbers));
+      return { form: this.forms[form], clear, vertices, buffer, count: numbers.length / INSTANCE };
+    });
+    made.sort((a, b) => Number(a.clear) - Number(b.clear));
+    const count = bodies.reduce((most, { pose }) => Math.max(most, pose + 1), 1);
+    const total = made.reduce((sum, group) => sum + group.count * group.form.count, 0);
+    this.batches[name] = { groups: made, poses: poseTexture(gl, count), total };
+  }
+
+  release(name) {
+    const batch = this.batches[name];
+    if (!batch) return;
+    batch.groups.forEach((group) => {
+      this.gl.deleteVertexArray(group.vertices);
+      this.gl.deleteBuffer(group.buffer);
+    });
+    this.gl.deleteTexture(batch.poses.texture);
+    delete this.batches[name];
+  }
+
+  piecesByBody(description) {
+    if (this.sorted?.of !== description.pieces) {
+      const byBody = [];
+      description.pieces.filter((piece) => !piece.plane).forEach((piece) => (byBody[piece.body] ??= []).push(piece));
+      this.sorted = { of: description.pieces, byBody };
+    }
+    return this.sorted.byBody;
+  }
+
+  /** Tells where the bodies of a batch are: `at(number)` gives location and orientation. */
+  place(name, at) {
+    const { poses } = this.batches[name];
+    const { center, size } = this.space;
+    for (let i = 0; i < poses.count; i++) {
+      const [x, y, z, a, b, c, d] = at(i);
+      const k = 8 * i;
+      poses.numbers[k] = (x - center[0]) / size;
+      poses.numbers[k + 1] = (y - center[1]) / size;
+      poses.numbers[k + 2] = (z - center[2]) / size;
+      poses.numbers[k + 4] = a;
+      poses.numbers[k + 5] = b;
+      poses.numbers[k + 6] = c;
+      poses.numbers[k + 7] = d;
+    }
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, poses.texture);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 2048, poses.rows, gl.RGBA, gl.FLOAT, poses.numbers);
+  }
+
+  /** Draws all: `view` is from where, `lamps` what shines, `lines` what is drawn in lines. */
+  draw(view, lamps, lines, planePose) {
+    const { gl, description } = this;
+    const around = surroundings(description);
+    const light = this.lamps(lamps, around);
+    const shaded = this.batches.run.total < MOST_SHADOWED && light.shade;
+    if (shaded) this.drawShadows(light.shade);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.BLEND);
+    this.common = (shader) => this.set(shader, view, light, around, shaded);
+    this.drawSky(view, around);
+    this.drawGround(planePose);
+    this.drawBodies("run", [0, 0, 0, 0]);
+    this.drawBodies("ghosts", [0, 0, 0, 0]);
+    this.drawLines(lines, view);
+    this.drawBodies("other", [0.9, 0.6, 0.05, 0.55]);
+  }
+
+  lamps(lamps, around) {
+    const { center, size } = this.space;
+    const near = (lamp) => (lamp.sun ? unit(sub(lamp.location, center)) : times(sub(lamp.location, center), 1 / size));
+    const given = lamps.length ? lamps.map((lamp) => ({ ...lamp, location: near(lamp) })) : around.lamps;
+    const sorted = [...given].sort((a, b) => Number(b.shadows) - Number(a.shadows)).slice(0, 4);
+    const first = sorted[0];
+    const shade = first?.shadows && length(first.location) > 0.7 ? this.shade(first) : undefined;
+    return { sorted, shade };
+  }
+
+  /** What the first lamp sees: all that moves. */
+  shade({ location }) {
+    const direction = unit(location);
+    const eye = times(direction, 2);
+    return product(orthographic(0.62, 0.62, 0.5, 4), lookAt(eye, axesOf(eye, [0, 0, 0])));
+  }
+
+  drawShadows(shade) {
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadow.framebuffer);
+    gl.viewport(0, 0, SHADOW, SHADOW);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.useProgram(this.depth.program);
+    gl.uniformMatrix4fv(this.depth.at("u_clip"), false, new Float32Array(shade));
+    this.groups("run", this.depth, () => true);
+  }
+
+  set(shader, view, light, around, shaded) {
+    const { gl } = this;
+    gl.useProgram(shader.program);
+    gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(view.clip));
+    gl.uniform3fv(shader.at("u_eye"), view.eye);
+    gl.uniform3fv(shader.at("u_toward"), view.toward);
+    gl.uniform1i(shader.at("u_lamps"), light.sorted.length);
+    const [places, colors] = [new Float32Array(16), new Float32Array(16)];
+    light.sorted.forEach((lamp, i) => {
+      places.set([...lamp.location, lamp.sun ? 0 : 1], 4 * i);
+      colors.set([...lamp.color, lamp.shadows ? 1 : 0], 4 * i);
+    });
+    gl.uniform4fv(shader.at("u_lamp"), places);
+    gl.uniform4fv(shader.at("u_lampColor"), colors);
+    gl.uniform3fv(shader.at("u_ambient"), around.ambient);
+    const sky = new Float32Array(28);
+    around.stops.forEach((stop, i) => sky.set(stop, 4 * i));
+    gl.uniform4fv(shader.at("u_sky"), sky);
+    gl.uniform1i(shader.at("u_stops"), around.stops.length);
+    gl.uniform1f(shader.at("u_shadows"), shaded ? 1 : 0);
+    gl.uniformMatrix4fv(shader.at("u_shade"), false, new Float32Array(light.shade ?? 16));
+    gl.uniform1i(shader.at("u_shadow"), 1);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.shadow.texture);
+    gl.activeTexture(gl.TEXTURE0);
+  }
+
+  drawSky(view, around) {
+    const { gl, sky } = this;
+    this.common(sky);
+    gl.uniform3fv(sky.at("u_forward"), times(view.back, -1));
+    const [x, y] = view.flat ? [0, 0] : [view.tangentX, view.tangentY];
+    gl.uniform3fv(sky.at("u_right"), times(view.right, x));
+    gl.uniform3fv(sky.at("u_up"), times(view.up, y));
+    gl.uniform1f(sky.at("u_stars"), around.stars);
+    gl.disable(gl.DEPTH_TEST);
+    gl.bindVertexArray(this.square);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  drawGround(planePose) {
+    const { description, space } = this;
+    const stage = description.stage;
+    if (stage?.ground) {
+      const { height, tile, tilesFade } = stage.ground;
+      const middle = [space.center[0], height, space.center[2]];
+      const fade = stage.fog ? stage.fade : 0;
+      this.drawPlane(middle, [1, 0, 0], [0, 0, 1], description.tiles, tile, tilesFade, fade);
+    }
+    for (const piece of this.planes) {
+      const [x, y, z, ...turn] = planePose(piece.body);
+      const axis = (v) => turned(turn, turned(piece.turn, v));
+      const material = description.materials[description.bodies[piece.body].material] ?? description.tiles;
+      const look = material.motif === "ground" ? description.tiles : material;
+      const [tile, tilesFade, fade] = [stage?.tile ?? space.size / 12, stage?.tilesFade ?? 4.5 * space.size, stage?.fog ? stage.fade : 0];
+      this.drawPlane([x, y, z], axis([1, 0, 0]), axis([0, 0, 1]), look, tile, tilesFade, fade);
+    }
+  }
+
+  drawPlane(middle, across, along, look, tile, tilesFade, fade) {
+    const { gl, ground, space } = this;
+    this.common(ground);
+    // Its square is about the foot of the scene's middle; its tiles begin at its own.
+    const offset = sub(space.center, middle);
+    const [a, b] = [across, along].map((axis) => offset[0] * axis[0] + offset[1] * axis[1] + offset[2] * axis[2]);
+    const foot = add(middle, add(times(across, a), times(along, b)));
+    const normal = [along[1] * across[2] - along[2] * across[1], along[2] * across[0] - along[0] * across[2], along[0] * across[1] - along[1] * across[0]];
+    const world = look.motif === "ground" && middle[0] === space.center[0] ? [space.center[0], space.center[2]] : [a, b];
+    gl.uniform3fv(ground.at("u_middle"), times(sub(foot, space.center), 1 / space.size));
+    gl.uniform3fv(ground.at("u_across"), across);
+    gl.uniform3fv(ground.at("u_along"), along);
+    gl.uniform3fv(ground.at("u_normal"), normal);
+    gl.uniform3fv(ground.at("u_light"), look.color.slice(0, 3));
+    gl.uniform3fv(ground.at("u_dark"), look.second ?? look.color.slice(0, 3));
+    gl.uniform2f(ground.at("u_origin"), (world[0] % (2 * tile)) / space.size, (world[1] % (2 * tile)) / space.size);
+    gl.uniform1f(ground.at("u_tile"), tile / space.size);
+    gl.uniform1f(ground.at("u_tilesFade"), tilesFade / space.size);
+    gl.uniform1f(ground.at("u_fade"), fade / space.size);
+    gl.bindVertexArray(this.square);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+  }
+
+  drawBodies(name, ghost) {
+    if (!this.batches[name]) return;
+    const { gl, body } = this;
+    this.common(body);
+    gl.uniform4fv(body.at("u_ghost"), ghost);
+    if (ghost[3] > 0) this.blended(() => this.groups(name, body, () => true));
+    else {
+      this.groups(name, body, (group) => !group.clear);
+      this.blended(() => this.groups(name, body, (group) => group.clear));
+    }
+  }
+
+  blended(draw) {
+    const { gl } = this;
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    draw();
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+  }
+
+  groups(name, shader, which) {
+    const { gl } = this;
+    const batch = this.batches[name];
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, batch.poses.texture);
+    gl.uniform1i(shader.at("u_poses"), 0);
+    for (const group of batch.groups.filter(which)) {
+      gl.bindVertexArray(group.vertices);
+      gl.drawElementsInstanced(gl.TRIANGLES, group.form.count, gl.UNSIGNED_INT, 0, group.count);
+    }
+  }
+
+  drawLines(lines, view) {
+    const { gl, line } = this;
+    if (!lines.count) return;
+    gl.useProgram(line.program);
+    gl.uniformMatrix4fv(line.at("u_clip"), false, new Float32Array(view.clip));
+    gl.uniform2f(line.at("u_pixels"), this.canvas.width / 2, this.canvas.height / 2);
+    gl.uniform1f(line.at("u_focal"), view.focal * (this.canvas.width / view.width));
+    gl.bindVertexArray(this.lineVertices.vertices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.lineVertices.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, lines.packed(this.space), gl.DYNAMIC_DRAW);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+  }
+
+  /** The number of the body at a pixel; undefined where there is none. */
+  pick(view, x, y) {
+    const { gl } = this;
+    this.picking ??= { ...pickTarget(gl), shader: program(gl, shaders.BODY_VERTEX, shaders.PICK_FRAGMENT) };
+    const { framebuffer, shader } = this.picking;
+    const [w, h] = [this.canvas.width, this.canvas.height];
+    // Only the one pixel is drawn: the picture is moved so that it is there.
+    const place = new Float64Array([w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1]);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+    gl.viewport(0, 0, 1, 1);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.useProgram(shader.program);
+    gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(product(place, view.clip)));
+    this.groups("run", shader, () => true);
+    const pixel = new Uint8Array(4);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    const number = pixel[0] + 256 * pixel[1] + 65536 * pixel[2];
+    return number > 0 ? number - 1 : undefined;
+  }
+}
+
+const PLAIN = { color: [0.3, 0.3, 0.3, 1], metallic: 0, roughness: 0.6, emissive: false, motif: "none", second: null, pale: [0.5, 0.5, 0.5] };
+
+/** Where the world of the shaders is: its middle, m, and the length of 1 there. */
+export function spaceOf({ stage, bounds }) {
+  if (stage) return { center: stage.center, size: stage.size };
+  if (!bounds) return { center: [0, 0, 0], size: 3 };
+  return { center: times(add(bounds[0], bounds[1]), 0.5), size: length(sub(bounds[1], bounds[0])) || 1 };
+}
+
+function instance(piece, material, pose, size, pale) {
+  const own = piece.color?.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const plain = Boolean(own) || pale;
+  const color = own ? [...own, 1] : pale ? [...material.pale, 1] : material.color;
+  const second = [...(material.second ?? [1, 1, 1]), plain ? 0 : MOTIFS[material.motif]];
+  const look = [own ? 0 : material.metallic, own ? 0.5 : material.roughness, !own && material.emissive ? 1 : 0, pose];
+  return [
+    ...times(piece.location, 1 / size), ...piece.turn, ...times(piece.scale, 1 / size),
+    ...color, ...second, ...look, piece.radius / size,
+  ];
+}
+
+function program(gl, vertex, fragment) {
+  const made = gl.createProgram();
+  for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(made, shader);
+  }
+  gl.linkProgram(made);
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS)) {
+    const logs = gl.getAttachedShaders(made).map((shader) => gl.getShaderInfoLog(shader));
+    throw new Error([gl.getProgramInfoLog(made), ...logs].join("\n"));
+  }
+  const places = new Map();
+  const at = (name) => {
+    if (!places.has(name)) places.set(name, gl.getUniformLocation(made, name));
+    return places.get(name);
+  };
+  return { program: made, at };
+}
+
+function upload(gl, { positions, normals, indices }) {
+  const buffer = (target, data) => {
+    const made = gl.createBuffer();
+    gl.bindBuffer(target, made);
+    gl.bufferData(target, data, gl.STATIC_DRAW);
+    return made;
+  };
+  gl.bindVertexArray(null);
+  const [p, n] = [positions, normals].map((data) => buffer(gl.ARRAY_BUFFER, data));
+  const i = buffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+  return { buffers: [p, n, i], count: indices.length };
+}
+
+function instances(gl, form, numbers) {
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  form.buffers.slice(0, 2).forEach((buffer, place) => {
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+  });
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, form.buffers[2]);
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
+  let offset = 0;
+  [3, 4, 3, 4, 4, 4, 1].forEach((size, i) => {
+    attribute(gl, 2 + i, size, 4 * INSTANCE, offset);
+    offset += 4 * size;
+  });
+  gl.bindVertexArray(null);
+  return { vertices, buffer };
+}
+
+/** One for each instance. */
+function attribute(gl, place, size, stride, offset) {
+  gl.enableVertexAttribArray(place);
+  gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);
+  gl.vertexAttribDivisor(place, 1);
+}
+
+function poseTexture(gl, count) {
+  const rows = Math.max(1, Math.ceil(count / 1024));
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, 2048, rows);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  return { texture, rows, count, numbers: new Float32Array(2048 * rows * 4) };
+}
+
+function corners(gl, numbers) {
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.STATIC_DRAW);
+  gl.enableVertexAttribArray(0);
+  gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+  return vertices;
+}
+
+function lineVertices(gl) {
+  const vertices = corners(gl, [0, -1, 0, 1, 1, -1, 1, 1]);
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  [1, 2, 3].forEach((place, i) => attribute(gl, place, 4, 48, 16 * i));
+  gl.bindVertexArray(null);
+  return { vertices, buffer };
+}
+
+function shadowMap(gl) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, SHADOW, SHADOW);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, texture, 0);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  return { texture, framebuffer };
+}
+
+function pickTarget(gl) {
+  const framebuffer = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+  const storage = (format, place) => {
+    const buffer = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+    gl.renderbufferStorage(gl.RENDERBUFFER, format, 1, 1);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
+  };
+  storage(gl.RGBA8, gl.COLOR_ATTACHMENT0);
+  storage(gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT);
+  return { framebuffer };
+}

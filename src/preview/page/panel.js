@@ -1,0 +1,83 @@
+// The values of the chosen body, and the choice of methods.
+
+import { length, short } from "./math.js";
+
+/** The numbers of a body in a frame come in blocks of so many frames. */
+const BLOCK = 200;
+
+export class Panel {
+  constructor(elements) {
+    Object.assign(this, elements);
+    this.body = undefined;
+    this.blocks = new Map();
+    this.chosen = () => {};
+    this.name.onchange = () => this.choose(this.numbers?.get(this.name.value));
+  }
+
+  take(run) {
+    const before = this.run?.description.bodies[this.body]?.name;
+    this.run = run;
+    this.blocks.clear();
+    this.numbers = new Map(run.description.bodies.map(({ name }, number) => [name, number]));
+    this.names.replaceChildren(...run.description.bodies.slice(0, 500).map(({ name }) => new Option(name)));
+    this.choose(this.numbers.get(before));
+  }
+
+  choose(body) {
+    this.body = body;
+    this.blocks.clear();
+    this.name.value = this.run?.description.bodies[body]?.name ?? "";
+    if (body === undefined) this.values.replaceChildren();
+    this.chosen(body);
+  }
+
+  /** Shows how the body is in a frame. */
+  async show(frame) {
+    const { run, body } = this;
+    if (!run || body === undefined || frame >= (run.progress?.recorded ?? 0)) return;
+    this.frame = frame;
+    const number = Math.floor(frame / BLOCK);
+    const at = 14 * (frame % BLOCK);
+    const known = this.blocks.get(number);
+    if (!known || known.length < at + 14) {
+      if (this.asking) return;
+      this.asking = true;
+      try {
+        const block = await run.series(body, number * BLOCK, (number + 1) * BLOCK);
+        if (run === this.run && body === this.body) this.blocks.set(number, block);
+      } catch (error) {
+        if (error.status !== 404) console.warn(error.message);
+      }
+      this.asking = false;
+      if (this.blocks.get(number)?.length >= at + 14 || this.frame !== frame) this.show(this.frame);
+      return;
+    }
+    const n = known.subarray(at, at + 14);
+    const description = run.description.bodies[body];
+    const three = (i) => Array.from(n.subarray(i, i + 3));
+    const written = (v, unit) => `${v.map((c) => short(c)).join(", ")} ${unit}`;
+    this.fill([
+      ["kind", { free: "moves freely", fixed: "fixed", driven: "its motion is given" }[description.kind]],
+      ["mass", `${short(description.mass)} kg`],
+      ["time", `${short(n[0], 6)} s`],
+      ["location", written(three(1), "m")],
+      ["velocity", written(three(4), "m/s")],
+      ["speed", `${short(length(three(4)))} m/s`],
+      ["angular velocity", written(three(7), "rad/s")],
+      ["force", written(three(10), "N")],
+      ["kinetic energy", `${short(n[13])} J`],
+    ]);
+  }
+
+  fill(rows) {
+    const made = rows.map(([name, value]) => {
+      const [row, head, cell] = ["tr", "th", "td"].map((tag) => document.createElement(tag));
+      head.textContent = name;
+      head.scope = "row";
+      cell.textContent = value;
+      row.append(head, cell);
+      return row;
+    });
+    this.values.replaceChildren(...made);
+  }
+}

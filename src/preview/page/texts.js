@@ -1,0 +1,61 @@
+// Labels and numbers, over the picture. All of it is set as text: what a scene says is never read as anything else.
+
+import { add, css, projected, sub, times } from "./math.js";
+
+export class Texts {
+  constructor(element) {
+    this.element = element;
+  }
+
+  /** Puts up the texts of a frame. `at(body)` tells where a body is. */
+  show(shown, view, space, at) {
+    const [left, top, width, height] = view.rectangle;
+    const spans = [];
+    // In the scene's own picture, its width is 2 and its middle 0.
+    const place = (x, y) => [left + ((x + 1) / 2) * width, top + height / 2 - (y / 2) * width];
+    for (const text of shown?.texts ?? []) {
+      let [x, y] = place(text.x, text.y);
+      if (view.rectangle[2] === view.width && text.in_world) continue;
+      if (view.own && text.beside) [x, y] = beside(text, view, space, at, width);
+      if (x === undefined) continue;
+      spans.push(this.span(text, x, y, (text.height / 2) * width));
+    }
+    if (shown?.bar && !view.own) spans.push(this.bar(shown.bar, place, width));
+    this.element.replaceChildren(...spans);
+  }
+
+  span(text, x, y, height) {
+    const span = document.createElement("span");
+    span.textContent = text.says;
+    const size = Math.max(9, height);
+    const halo = text.color[0] + text.color[1] + text.color[2] > 1.5 ? "#111" : "#fff";
+    span.style.fontSize = `${size}px`;
+    span.style.color = css(text.color);
+    span.style.textShadow = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([a, b]) => `${a}px ${b}px 1px ${halo}`).join(",");
+    span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, -85%)`;
+    return span;
+  }
+
+  bar(bar, place, width) {
+    const span = document.createElement("span");
+    const [x, y] = place(bar.from, bar.y);
+    span.style.width = `${((bar.to - bar.from) / 2) * width}px`;
+    span.style.height = `${Math.max(2, (bar.thickness / 2) * width)}px`;
+    span.style.background = css(bar.color);
+    span.style.transform = `translate(${x}px, ${y}px)`;
+    return span;
+  }
+}
+
+/** Where a label stands beside its body, as another camera than the scene's sees it. */
+function beside(text, view, space, at, width) {
+  const [body, side] = text.beside;
+  const location = at(body);
+  if (!location) return [];
+  const spot = projected(view.clip, times(sub(location, space.center), 1 / space.size));
+  if (!(spot.w > 0)) return [];
+  const away = { above: [0, -1.2], below: [0, 1.6], left: [-1, 0.4], right: [1, 0.4] }[side];
+  const size = (text.height / 2) * width;
+  const [x, y] = add([((spot.x + 1) / 2) * view.width, ((1 - spot.y) / 2) * view.height, 0], times([...away, 0], size));
+  return [x, y];
+}

@@ -1,0 +1,90 @@
+// From where the scene is seen: by its own camera, or by one that the viewer turns.
+
+import { add, axes, cross, length, lookAt, orthographic, perspective, product, sub, times, turned, unit } from "./math.js";
+
+export class Viewpoint {
+  constructor() {
+    /** Whether the viewer has taken the camera. */
+    this.own = false;
+    this.aim = [0, 0, 0];
+    this.distance = 1;
+    /** Around the vertical, and above the horizon, radians. */
+    this.around = 0.2;
+    this.above = 0.2;
+    this.tangent = Math.tan((20 * Math.PI) / 180);
+  }
+
+  /** Takes the camera where the scene's stands. */
+  take(camera) {
+    if (this.own) return;
+    this.own = true;
+    const away = sub(camera.location, camera.look_at);
+    this.aim = camera.look_at;
+    this.distance = length(away);
+    const [x, y, z] = unit(away, [0, 0, 1]);
+    this.around = Math.abs(x) + Math.abs(z) > 1e-9 ? Math.atan2(x, z) : 0;
+    this.above = Math.asin(Math.max(-1, Math.min(1, y)));
+    this.tangent = camera.angle ? Math.tan((Math.min(camera.angle, 150) * Math.PI) / 360) : Math.tan((20 * Math.PI) / 180);
+    if (camera.width) this.distance = camera.width / 2 / this.tangent;
+  }
+
+  turn(x, y) {
+    this.around -= x;
+    this.above = Math.max(-1.55, Math.min(1.55, this.above + y));
+  }
+
+  /** Comes nearer or goes away. */
+  approach(factor) {
+    this.distance *= factor;
+  }
+
+  /** Shifts what is looked at, in parts of the height of the picture. */
+  shift(x, y, aspect) {
+    const { right, up } = axes(this.location, this.aim);
+    const height = (2 * this.distance * this.tangent) / Math.max(aspect, 1e-6);
+    this.aim = add(this.aim, add(times(right, -x * height), times(up, y * height)));
+  }
+
+  get location() {
+    const [c, s] = [Math.cos(this.above), Math.sin(this.above)];
+    return add(this.aim, times([c * Math.sin(this.around), s, c * Math.cos(this.around)], this.distance));
+  }
+
+  /** What is needed to draw: the picture is `width` x `height`, that of the scene `size`, which fits into it. */
+  view(camera, { center, size }, width, height, film) {
+    const [w, h] = film;
+    const aspect = this.own ? width / height : w / h;
+    const scale = Math.min(width / w, height / h) * (Math.abs(width / height - w / h) < 0.01 ? 1 : 0.96);
+    const rectangle = this.own ? [0, 0, width, height] : [(width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale];
+    const location = this.own ? this.location : camera.location;
+    const aim = this.own ? this.aim : camera.look_at;
+    const { right, up, back } = axes(location, aim);
+    const near = (point) => times(sub(point, center), 1 / size);
+    const eye = near(location);
+    const distance = Math.max(1e-6, length(sub(location, aim)) / size);
+    // How much is seen beside the film.
+    const [moreX, moreY] = [width / rectangle[2], height / rectangle[3]];
+    const flat = !this.own && camera.width;
+    const reach = 240 + 4 * distance;
+    let projection, tangentX, tangentY;
+    if (flat) {
+      tangentX = camera.width / size / 2;
+      tangentY = tangentX / aspect;
+      projection = orthographic(tangentX * moreX, tangentY * moreY, -reach, reach);
+    } else {
+      tangentX = this.own ? this.tangent * Math.max(1, aspect / 1.2) : Math.tan((Math.min(camera.angle, 170) * Math.PI) / 360);
+      tangentY = tangentX / aspect;
+      projection = perspective(tangentX * moreX, tangentY * moreY, Math.max(1e-5, 0.01 * distance), reach);
+    }
+    return {
+      location, right, up, back, eye, rectangle, aspect, flat, width, height,
+      tangentX: tangentX * moreX, tangentY: tangentY * moreY, filmTangents: [tangentX, tangentY],
+      clip: product(projection, lookAt(eye, { right, up, back })),
+      toward: flat ? back : [0, 0, 0],
+      // The length of 1 at distance 1, in pixels.
+      focal: width / 2 / (tangentX * moreX),
+    };
+  }
+}
+
+export { cross, turned };

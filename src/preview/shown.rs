@@ -1,0 +1,209 @@
+//! What is seen in a frame beside its bodies, as the page is told: lengths in metres, colors in sRGB.
+
+use std::io;
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::run::Simulation;
+use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Vertical};
+use crate::scene::{LabelPlace, Scene, Side};
+use crate::simulate::Frame;
+
+type Vector = [f64; 3];
+
+/// What is seen in a frame beside its bodies.
+#[derive(Serialize)]
+pub(super) struct Shown {
+    camera: Camera,
+    /// Given only where they move.
+    lights: Option<Vec<Light>>,
+    arrows: Vec<Arrow>,
+    axes: Vec<Axes>,
+    coils: Vec<Coil>,
+    texts: Vec<Text>,
+    bar: Option<Bar>,
+}
+
+/// A camera at a moment.
+#[derive(Serialize)]
+pub(super) struct Camera {
+    location: Vector,
+    look_at: Vector,
+    /// The horizontal field of view in perspective, degrees.
+    angle: Option<f64>,
+    /// The width that is seen without perspective.
+    width: Option<f64>,
+}
+
+/// A light at a moment.
+#[derive(Serialize)]
+pub(super) struct Light {
+    location: Vector,
+    /// Linear, times its intensity.
+    color: Vector,
+    shadows: bool,
+    /// Whether its rays are parallel; then it is far away in the direction of its location.
+    sun: bool,
+}
+
+#[derive(Serialize)]
+struct Arrow {
+    from: Vector,
+    to: Vector,
+    radius: f64,
+    color: Vector,
+}
+
+#[derive(Serialize)]
+struct Axes {
+    location: Vector,
+    turn: [f64; 4],
+    length: f64,
+}
+
+#[derive(Serialize)]
+struct Coil {
+    span: Option<[Vector; 2]>,
+    fixed: Vec<Vector>,
+    knob: f64,
+    radius: f64,
+    wire: f64,
+    turns: u32,
+    color: Vector,
+}
+
+#[derive(Serialize)]
+struct Text {
+    says: String,
+    /// The place on the screen, whose x goes from -1 to 1, and whose y has the same scale and is 0 in the middle.
+    x: f64,
+    y: f64,
+    height: f64,
+    align: f64,
+    color: Vector,
+    /// The body beside which it stands, and on which side.
+    beside: Option<(usize, &'static str)>,
+    /// Whether it stands at a place of the world, as the numbers of a grid do.
+    in_world: bool,
+}
+
+#[derive(Serialize)]
+struct Bar {
+    from: f64,
+    to: f64,
+    y: f64,
+    thickness: f64,
+    color: Vector,
+}
+
+/// A body as it was.
+#[derive(Serialize)]
+pub(super) struct Ghost {
+    time: f64,
+    body: usize,
+    location: Vector,
+    orientation: [f64; 4],
+}
+
+impl Camera {
+    pub(super) fn of(placed: &Placed) -> Camera {
+        let (angle, width) = match placed.lens() {
+            Lens::Perspective { angle } => (Some(angle), None),
+            Lens::Orthographic { width } => (None, Some(width)),
+        };
+        let (location, look_at) = (placed.location().to_array(), placed.look_at().to_array());
+        Camera { location, look_at, angle, width }
+    }
+}
+
+impl Light {
+    pub(super) fn of(light: &PlacedLight) -> Light {
+        let sun = light.kind == picture::Lamp::Sun;
+        Light { location: light.location.to_array(), color: light.color, shadows: light.shadows, sun }
+    }
+}
+
+/// What a camera sees in some frames; none where the run is not finished, since its cameras have no place yet.
+pub(super) fn frames(
+    run: &Simulation,
+    view: usize,
+    frames: impl Iterator<Item = usize>,
+) -> io::Result<Vec<Shown>> {
+    let Some(Ok(outcome)) = run.outcome() else { return Ok(Vec::new()) };
+    let plan = outcome.plans.get(view).unwrap_or(&outcome.plans[0]);
+    frames.map(|frame| Ok(shown(&run.scene, plan, &run.frame(frame)?))).collect()
+}
+
+/// The ghosts so far, in the order of their times.
+pub(super) fn ghosts(run: &Simulation) -> Vec<Ghost> {
+    let ghost = |ghost: &crate::simulate::Ghost| Ghost {
+        time: ghost.time,
+        body: ghost.body.id,
+        location: ghost.body.location.to_array(),
+        orientation: ghost.body.orientation.to_array(),
+    };
+    run.ghosts().iter().map(|each| ghost(each)).collect()
+}
+
+fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
+    let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+    let height = |y: Vertical| y.above_middle(aspect);
+    let mut arrows = plan.arrows(frame);
+    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows(&ghost.body)));
+    let arrow = |arrow: &picture::Arrow| Arrow {
+        from: arrow.from.to_array(),
+        to: arrow.to.to_array(),
+        radius: arrow.radius,
+        color: arrow.color.0,
+    };
+    let axes = |axes: &picture::Axes| Axes {
+        location: axes.location.to_array(),
+        turn: axes.orientation.to_array(),
+        length: axes.length,
+    };
+    let coil = |coil: &picture::Coil<'_>| Coil {
+        span: coil.span.map(|ends| ends.map(|end| DVec3::to_array(&end))),
+        fixed: coil.fixed.iter().flatten().map(DVec3::to_array).collect(),
+        knob: coil.knob,
+        radius: coil.radius,
+        wire: coil.wire,
+        turns: coil.turns,
+        color: coil.color.0,
+    };
+    let text = |text: &picture::Text<'_>| Text {
+        says: text.says.to_string(),
+        x: text.x,
+        y: height(text.y),
+        height: text.height,
+        align: text.align,
+        color: text.color.0,
+        beside: beside(scene, text.name),
+        in_world: text.name == "grid",
+    };
+    let bar = |bar: picture::Bar| Bar {
+        from: bar.from,
+        to: bar.to,
+        y: height(bar.y),
+        thickness: bar.thickness,
+        color: bar.color.0,
+    };
+    Shown {
+        camera: Camera::of(&plan.camera(frame)),
+        lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
+        arrows: arrows.iter().map(arrow).collect(),
+        axes: plan.axes(frame).iter().map(axes).collect(),
+        coils: plan.coils(frame).iter().map(coil).collect(),
+        texts: plan.texts(frame).iter().map(text).collect(),
+        bar: plan.bar(frame).map(bar),
+    }
+}
+
+/// The body beside which a label of a name stands.
+fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
+    let label = scene.labels.iter().find(|label| label.name == name)?;
+    match label.place {
+        LabelPlace::Body { body, side, .. } => Some((body, Side::name(side))),
+        LabelPlace::Corner(_) => None,
+    }
+}
