@@ -67,7 +67,7 @@ impl Placed {
             let turn = DQuat::from_rotation_y(std::f64::consts::TAU * time / period);
             location = look_at + turn * (location - look_at);
         }
-        // POV-Ray refuses a camera at the point that it looks at; on its way through, it looks as it did.
+        // At the point that it looks at, a camera has no direction; on its way through, it looks as it did.
         if location.distance(look_at) <= 1e-6 * self.location.distance(self.look_at) {
             look_at = location + (self.look_at - self.location);
         }

@@ -29,7 +29,7 @@ pub(super) struct Field {
 impl Field {
     /// The field of a camera with a horizontal angle in degrees.
     pub(super) fn new(angle: f64, output: Output) -> Field {
-        // POV-Ray's `angle` may reach 180°, where no distance would be enough.
+        // An angle may reach 180°, where no distance would be enough.
         let horizontal = libm::tan(angle.min(160.0).to_radians() / 2.0);
         Field { horizontal, vertical: horizontal * f64::from(output.height) / f64::from(output.width) }
     }

@@ -193,7 +193,7 @@ fn written(value: f64, format: Format) -> String {
     }
     let text = match format {
         Format::Short => short_of(value),
-        // Longer numbers are no easier to read, and POV-Ray's strings are short.
+        // Longer numbers are no easier to read, and what draws them may know short texts only.
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };

@@ -2,8 +2,8 @@
 //!
 //! A [`Plan`] is made once for a run and a camera; then it says of any frame, in any order and from several threads at
 //! once, where the camera stands, what shines, and what is drawn beside the bodies: arrows, axes, coils, ghosts,
-//! trails, texts, a grid, a scale bar. All of it is in metres, and in no program's words, so that whatever draws a
-//! frame — POV-Ray, or a preview — draws the same.
+//! trails, texts, a grid, a scale bar. All of it is in metres, and in no program's words, so that all that draws a
+//! frame draws the same.
 
 mod arrows;
 mod bar;

@@ -44,7 +44,7 @@ impl Screen {
         sharp: Option<DVec3>,
     ) -> Screen {
         let back = (location - look_at).normalize_or(DVec3::Z);
-        // As the camera of the scripts decides which way is up when it looks straight down.
+        // As [`Placed`](super::Placed) says which way is up when it looks straight down.
         let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
         let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
         let depth = match sharp {
