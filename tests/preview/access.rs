@@ -10,8 +10,11 @@ use crate::support::root;
 /// A scene that nobody else has.
 const SECRET: &str = "title = 'Sekret'\nsimulation.duration = 1\n[body.sekret]\nshape.sphere.radius = 1\n";
 
+/// A server that has read its scene.
 fn server() -> Server {
-    Scene::of(SECRET).served()
+    let server = Scene::of(SECRET).served();
+    server.wait_for_the_run();
+    server
 }
 
 /// All paths of the server, by its source, with a run and a body in them.

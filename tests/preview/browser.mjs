@@ -44,16 +44,15 @@ export async function newPage(browser, { size = { width: 900, height: 640 }, may
   return page;
 }
 
-/** A page of the preview, after its first frame is drawn. */
-export async function opened(browser, address, options) {
-  const page = await newPage(browser, options);
+/** Opens the preview, and waits until its first frame is drawn. */
+export async function open(page, address) {
   await page.goto(address);
-  await page.waitForFunction(() => window.jabuka?.drawn.count > 0);
+  await until(page, (jabuka) => jabuka?.drawn.count > 0);
   return page;
 }
 
 /**
- * Runs the test that the command line names: `tests({ async name({ browser, address, scene, page }) { … } })`.
+ * Runs the test that the command line names: `tests({ async name({ open, scene, … }) { … } })`.
  * Whatever it opens must have had no errors, and asked for nothing but the server's own.
  */
 export async function tests(all) {
@@ -61,20 +60,23 @@ export async function tests(all) {
   const browser = await launch();
   const pages = [];
   // Tests of several pages, or of what comes before the first frame, open them by themselves.
-  const open = async (options) => keep(await opened(browser, address, options));
   const keep = (page) => (pages.push(page), page);
+  const opened = async (options) => open(keep(await newPage(browser, options)), address);
   // A browser for which a name points to this machine.
   const rebound = (name) => launch([`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
   try {
-    await all[name]({ browser, address, scene, open, keep, rebound });
+    await all[name]({ browser, address, scene, open: opened, keep, rebound });
+    const own = address.split("\n").flatMap((each) => [`${new URL(each).origin}/`, `blob:${new URL(each).origin}/`]);
     for (const page of pages) {
       assert.deepEqual(page.wrong, [], "what the page has complained of");
-      const own = new URL(address).origin;
-      const foreign = page.asked.map((request) => request.url()).filter((url) => !url.startsWith(`${own}/`) && !url.startsWith(`blob:${own}/`));
+      const foreign = page.asked.map((request) => request.url()).filter((url) => !own.some((own) => url.startsWith(own)));
       assert.deepEqual(foreign, [], "what the page has asked others for");
       const referers = await Promise.all(page.asked.map((request) => request.headerValue("referer").catch(() => null)));
       assert.ok(referers.every((referer) => !referer?.includes("token")), "the token is in a Referer");
     }
+  } catch (error) {
+    console.error("The pages have complained of", pages.map((page) => page.wrong));
+    throw error;
   } finally {
     await browser.close();
   }

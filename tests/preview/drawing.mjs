@@ -1,7 +1,7 @@
 // What is drawn.
 
 import assert from "node:assert/strict";
-import { drawn, seek, tests, until } from "./browser.mjs";
+import { drawn, newPage, open, seek, tests, until } from "./browser.mjs";
 import { box, color, digest, isBlue, isRed, place } from "./picture.mjs";
 
 await tests({
@@ -56,13 +56,23 @@ await tests({
     assert.equal(await digest(page), before);
   },
 
-  async it_draws_and_nothing_is_wrong({ open }) {
-    const page = await open();
-    await until(page, (jabuka) => jabuka.settled);
-    const [, middle] = [await seek(page, 0), await page.evaluate(() => Math.floor(window.jabuka.frames / 2))];
-    const first = await digest(page);
-    await seek(page, middle);
-    assert.notEqual(await digest(page), first, "what moves is seen to move");
-    assert.equal(await page.evaluate(() => window.jabuka.problem), null);
+  /** `address` is that of several servers, one a line. */
+  async all_are_drawn_without_a_complaint({ browser, address, keep }) {
+    const page = keep(await newPage(browser, { size: { width: 480, height: 420 } }));
+    for (const each of address.split("\n")) {
+      await open(page, each);
+      await until(page, (jabuka) => jabuka.settled);
+      const title = await page.title();
+      const first = await digest(page);
+      const middle = await page.evaluate(() => Math.floor(window.jabuka.frames / 2));
+      await seek(page, middle);
+      const moved = await page.evaluate((middle) => {
+        const at = (frame) => JSON.stringify(window.jabuka.bodies.map((_, body) => window.jabuka.pose(body, frame)));
+        return at(0) !== at(middle);
+      }, middle);
+      assert.equal((await digest(page)) !== first, moved, `${title}: what moves is seen to move`);
+      assert.equal(await page.evaluate(() => window.jabuka.problem), null, title);
+      assert.deepEqual(page.wrong, [], title);
+    }
   },
 });

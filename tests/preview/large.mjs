@@ -10,7 +10,7 @@ await tests({
     assert.ok(recorded < frames && !settled, `drawn when ${recorded} of ${frames} were there`);
     await until(page, (jabuka) => jabuka.recorded > 20);
     await seek(page, 10);
-    const { location } = await page.evaluate(() => window.jabuka.pose("ball[9999]"));
+    const { location } = await page.evaluate(() => window.jabuka.pose(9999));
     assert.ok(location[1] < 0 && location.every(Number.isFinite), `${location}`);
     await until(page, (jabuka) => jabuka.settled, null, 3 * LONG);
     await seek(page, 999);

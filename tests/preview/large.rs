@@ -2,18 +2,18 @@
 
 use std::fs;
 
-use crate::http::{count, get};
+use crate::http::count;
 use crate::server::{Scene, Server};
 
 const BODIES: u64 = 10_000;
 const FRAMES: u64 = 1_000;
 
-/// One step a frame, and nothing that could meet.
+/// Few steps a frame, and nothing that could meet; but enough for a page to be opened meanwhile.
 const MANY: &str = "
     [simulation]
     duration = 9.99
     frame_rate = 100
-    step = 0.01
+    step = 0.0005
     integrator = 'euler-cromer'
     gravity = [0, -10, 0]
     [body.ball]
@@ -34,11 +34,8 @@ fn the_page_works_while_the_run_goes_on() {
     // Another page has all poses sent to it, from the first frame on, as soon as they are there.
     let poses = std::thread::scope(|scope| {
         let streamed = scope.spawn(|| {
-            let of_run = |what: &str| format!("/api/runs/1{what}?token={}", server.token());
-            while get(server.port(), &of_run("")).status != 200 {
-                std::thread::yield_now();
-            }
-            count(server.port(), &of_run("/poses"))
+            server.wait_for_the_run();
+            count(server.port(), &format!("/api/runs/1/poses?token={}", server.token()))
         });
         server.shows("large.mjs", "the_page_works_while_the_run_goes_on");
         streamed.join().unwrap()

@@ -76,6 +76,8 @@ fn a_scene_that_is_not_there_is_the_error_of_every_command() {
 #[test]
 fn two_at_once_keep_to_themselves() {
     let (one, two) = (parabola().served(), Scene::gallery("hammer").served());
+    one.wait_for_the_run();
+    two.wait_for_the_run();
     assert_ne!(one.port(), two.port());
     assert_ne!(one.token(), two.token());
     let run = |of: &crate::server::Server, token: &str| get(of.port(), &format!("/api/runs/1?token={token}"));

@@ -5,6 +5,7 @@ use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 
+use crate::http::get;
 use crate::support::{jabuka, root, scene};
 
 /// A folder with a scene, and what it needs; `jabuka` works there, so that nothing is written elsewhere.
@@ -97,8 +98,13 @@ impl Scene {
 impl Server {
     /// Runs a test of a script in a browser, which must succeed, and returns what it prints.
     pub(crate) fn shows(&self, script: &str, test: &str) -> String {
+        self.shows_at(&self.address, script, test)
+    }
+
+    /// The same with another address in place of its own.
+    pub(crate) fn shows_at(&self, address: &str, script: &str, test: &str) -> String {
         let output = Command::new(root().join("tests/preview/browser"))
-            .args([script, test, &self.address])
+            .args([script, test, address])
             .arg(self.scene.path())
             .env("JABUKA", env!("CARGO_BIN_EXE_jabuka"))
             .current_dir(self.scene.folder())
@@ -107,6 +113,13 @@ impl Server {
         let said = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{test}: {said}\nthe server said: {}", self.said());
         String::from_utf8(output.stdout).unwrap()
+    }
+
+    /// Waits until the first run of the scene has begun.
+    pub(crate) fn wait_for_the_run(&self) {
+        while get(self.port(), &format!("/api/runs/1?token={}", self.token())).status != 200 {
+            std::thread::yield_now();
+        }
     }
 
     /// The port.

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
-import { newPage, tests, until } from "./browser.mjs";
+import { newPage, seek, tests, until } from "./browser.mjs";
 
 /** Tries all that a page of another origin can try, and tells what it has got. */
 const TRY = async (address) => {
@@ -95,6 +95,7 @@ await tests({
     await page.keyboard.press("n");
     assert.equal(await page.locator("#body-name").inputValue(), name);
     await page.locator("#other-integrator").selectOption("explicit-euler");
+    await seek(page, 20);
     await until(page, (jabuka, name) => jabuka.comparison.includes(name), name);
     await page.locator("#texts span").filter({ hasText: "<b>bold</b>" }).first().waitFor();
     const more = await page.evaluate(() => [...document.querySelectorAll("script, b, #title *, #texts *:not(span), iframe, img")].map((e) => e.outerHTML));

@@ -59,8 +59,12 @@ async function refresh() {
   if (serial !== open.serial) return;
   if (first && first !== open.run?.id) await show(first, serial);
   if (serial !== open.serial) return;
+  if (!other.integrator) delete open.wanted.second;
   const second = other.integrator ? await wanted("second", other, null) : null;
   if (serial !== open.serial) return;
+  const problems = [open.wanted.first?.problem, open.wanted.second?.problem].filter(Boolean);
+  element("method-problem").textContent = problems.join("\n\n");
+  element("method-problem").hidden = !problems.length;
   if (second !== (open.other?.id ?? null)) await compare(second, serial);
   if (open.run) plots.take([open.run, ...(open.other ? [open.other] : [])], panel.body);
 }
@@ -72,23 +76,22 @@ function method(integrator, step) {
 
 /** The number of the run by a method, which the server begins if need be. */
 async function wanted(which, { integrator, step }, usual) {
-  if (usual && !integrator && !step) return usual;
+  if (usual && !integrator && !step) {
+    delete open.wanted[which];
+    return usual;
+  }
   const key = `${integrator} ${step}`;
   open.wanted[which] ??= {};
   if (open.wanted[which].key === key) return open.wanted[which].id;
-  const problem = element("method-problem");
   try {
     const current = open.run?.description.integrator;
     const order = { integrator: integrator || open.integrator || current || "euler-cromer", step };
     const progress = await (await post("/api/variants", order)).json();
-    problem.hidden = true;
     open.wanted[which] = { key, id: progress.id };
     open.state.runs[progress.id] ??= progress;
     return progress.id;
   } catch (error) {
-    problem.textContent = error.message;
-    problem.hidden = false;
-    open.wanted[which] = { key, id: which === "first" ? open.run?.id ?? usual : null };
+    open.wanted[which] = { key, id: which === "first" ? open.run?.id ?? usual : null, problem: error.message };
     return open.wanted[which].id;
   }
 }
