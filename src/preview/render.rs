@@ -64,11 +64,6 @@ impl Renderer {
         Renderer { povray, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
-    /// Whether there is a POV-Ray.
-    pub(super) fn is_there(&self) -> bool {
-        PovRay::locate(self.povray.as_deref()).is_ok()
-    }
-
     /// Ends what is being rendered: the server ends.
     pub(super) fn end(&self) {
         let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);

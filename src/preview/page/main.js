@@ -524,6 +524,7 @@ function listen() {
   element("camera").onclick = act(toggleCamera);
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;
+  element("image-close").onclick = act(() => (element("image").hidden = true));
   element("help").onclick = () => element("keys").showModal();
   for (const id of ["integrator", "step", "other-integrator", "other-step"]) {
     element(id).onchange = async () => {

@@ -8,6 +8,7 @@ const BUDGET = 256 << 20;
 const PIECE = 2 << 20;
 /** The numbers of a body that say where it is: location and orientation. */
 const POSE = 7;
+const NOTHING = new Float64Array();
 
 export class Run {
   constructor(id, description, forms) {
@@ -62,6 +63,7 @@ export class Run {
 
   /** Where the bodies are in a frame: locations of all, then orientations of all; undefined until it is fetched. */
   poses(frame) {
+    if (!this.bodies) return frame < (this.progress?.recorded ?? 0) ? NOTHING : undefined;
     const piece = this.pieces.get(Math.floor(frame / this.together));
     const at = frame % this.together;
     if (!piece || at >= piece.frames) return undefined;
@@ -119,6 +121,7 @@ export class Run {
 
   /** The number of the next piece to be fetched ahead of need, from the present frame on. */
   next(frame, recorded) {
+    if (!this.bodies) return undefined;
     const count = Math.ceil(recorded / this.together);
     const room = Math.max(2, Math.floor(BUDGET / (this.frameBytes * this.together)));
     const first = Math.floor(frame / this.together);
