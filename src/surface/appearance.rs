@@ -34,7 +34,7 @@ pub enum Motif {
     /// Six sectors around y, in the colors [`BEACH_BALL`]; the poles, from |y| = 0.911 on, have the second color. The
     /// color of the whole is the mean.
     BeachBall,
-    /// Tiles of both colors by turns, on a plane.
+    /// Tiles of edge 1 of both colors by turns, on a plane along x and z; the one from 0 to 1 has the second color.
     Ground,
 }
 
@@ -63,6 +63,17 @@ impl Appearance {
 
     fn patterned(self, pattern: Motif, second: Color) -> Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
+    }
+
+    /// The colors of its pattern, in the order of [`Motif::split`]; without one, its color.
+    #[must_use]
+    pub fn colors(&self) -> Vec<[f64; 3]> {
+        let [red, green, blue, _] = self.color;
+        let first = match self.pattern {
+            Motif::BeachBall => BEACH_BALL.map(Color::linear).to_vec(),
+            _ => vec![[red, green, blue]],
+        };
+        first.into_iter().chain(self.second).collect()
     }
 
     /// The color for one that draws no patterns: the mean of both.

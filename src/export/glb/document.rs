@@ -67,7 +67,7 @@ pub(super) struct Node {
 #[derive(Serialize)]
 pub(super) struct Mesh {
     pub(super) name: String,
-    pub(super) primitives: [Primitive; 1],
+    pub(super) primitives: Vec<Primitive>,
 }
 
 #[derive(Serialize)]

@@ -2,8 +2,10 @@
 
 use std::collections::HashMap;
 
+use glam::DAffine3;
+
 use super::document::{Accessor, Attributes, BufferView, FLOAT, UNSIGNED_INT};
-use crate::surface::{Detail, Form, Triangles};
+use crate::surface::{Detail, Form, Motif, Triangles};
 
 /// The views of the buffer, by number: they stand in it in this order.
 const VERTICES: u32 = 0;
@@ -37,13 +39,28 @@ impl Geometry {
         if let Some(known) = self.known.get(form) {
             return *known;
         }
-        let triangles = form.triangles(self.detail);
-        let known = (!triangles.indices.is_empty()).then(|| self.add(triangles, accessors));
+        let known = self.add(form.triangles(self.detail), accessors);
         self.known.insert(form.clone(), known);
         known
     }
 
-    fn add(&mut self, triangles: Triangles, accessors: &mut Vec<Accessor>) -> Known {
+    /// A form cut along the borders of a pattern; for each of its colors, the accessors of what has it.
+    pub(super) fn split(
+        &mut self,
+        form: &Form,
+        motif: Motif,
+        to_pattern: DAffine3,
+        accessors: &mut Vec<Accessor>,
+    ) -> Option<Vec<Option<Known>>> {
+        let parts = motif.split(&form.triangles(self.detail), to_pattern)?;
+        Some(parts.into_iter().map(|part| self.add(part, accessors)).collect())
+    }
+
+    /// Adds triangles, unless there are none.
+    fn add(&mut self, triangles: Triangles, accessors: &mut Vec<Accessor>) -> Option<Known> {
+        if triangles.indices.is_empty() {
+            return None;
+        }
         let Triangles { positions, normals, indices } = triangles;
         let first = accessors.len() as u32;
         let (min, max) = bounds(&positions);
@@ -68,7 +85,7 @@ impl Geometry {
         });
         self.vertices.extend(positions.into_iter().chain(normals));
         self.indices.extend(indices);
-        Known { attributes: Attributes { position: first, normal: first + 1 }, indices: first + 2 }
+        Some(Known { attributes: Attributes { position: first, normal: first + 1 }, indices: first + 2 })
     }
 
     /// The number of the view that has keys. What is empty is no view.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::document::{Material, Shading};
 use crate::scene::{Color, Finish, Look, Scene};
-use crate::surface::{Appearance, appearance, ground};
+use crate::surface::{Appearance, Motif, appearance, ground};
 
 /// What something is painted with.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -12,6 +12,8 @@ pub(super) struct Paint {
     pub(super) what: What,
     /// Whether its back is seen as well.
     pub(super) both_sides: bool,
+    /// Which of the colors of its pattern; none: their mean.
+    pub(super) color: Option<usize>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -51,8 +53,17 @@ impl Paints {
 }
 
 fn material(paint: Paint, scene: &Scene) -> Material {
-    let plain = |color| Look::Plain { color, finish: Finish::Satin };
-    let (name, appearance) = match paint.what {
+    let (mut name, mut look) = look(paint.what, scene);
+    if let Some((number, [red, green, blue])) = paint.color.and_then(|i| Some((i, *look.colors().get(i)?))) {
+        name = format!("{name}, color {}", number + 1);
+        look = Appearance { color: [red, green, blue, look.color[3]], pattern: Motif::None, ..look };
+    }
+    shaded(name, &look, paint.both_sides)
+}
+
+/// What something is painted with, and a name for it.
+pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
+    match what {
         What::Material(number) => {
             let material = &scene.materials[number];
             let look = match material.look {
@@ -61,11 +72,13 @@ fn material(paint: Paint, scene: &Scene) -> Material {
             };
             (material.name.clone(), look)
         }
-        What::Color(bits) => ("axes".to_owned(), appearance(&plain(Color(bits.map(f64::from_bits))))),
+        What::Color(bits) => {
+            let color = Color(bits.map(f64::from_bits));
+            ("axes".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
+        }
         What::Ground => ("ground".to_owned(), ground(scene.environment.preset)),
         What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl(String::new()))),
-    };
-    shaded(name, &appearance, paint.both_sides)
+    }
 }
 
 fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {

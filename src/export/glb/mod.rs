@@ -3,19 +3,23 @@
 //! | what | where |
 //! | --- | --- |
 //! | where the bodies are in all frames | `motion` |
-//! | forms, once each | `geometry` |
+//! | triangles, those of a form once | `geometry` |
 //! | looks | `materials` |
-//! | nodes, meshes, channels | `model` |
+//! | forms in their looks | `meshes` |
+//! | the nodes of the bodies, and the document of all | `model` |
+//! | what moves nodes | `channels` |
 //! | the words of glTF | `document` |
 //! | both chunks as bytes | `container` |
 //!
 //! The file is of metres and seconds, y is up, and all is below one node, so that whoever needs other units scales that.
 //! Numbers of vertices and poses are `f32`, as glTF has it.
 
+mod channels;
 mod container;
 mod document;
 mod geometry;
 mod materials;
+mod meshes;
 mod model;
 mod motion;
 #[cfg(test)]

@@ -1,17 +1,14 @@
 //! The bodies of a scene as nodes, with what moves them.
 
-use std::collections::HashMap;
-
 use glam::{DQuat, DVec3};
 
-use super::document::{
-    Accessor, Animation, Asset, Buffer, Channel, Document, Extras, FLOAT, Mesh, Node, Primitive, Sampler,
-    SceneOfNodes, Target,
-};
+use super::channels::animation;
+use super::document::{Animation, Asset, Buffer, Document, Extras, Node, SceneOfNodes};
 use super::geometry::Geometry;
-use super::materials::{Paint, Paints, What};
+use super::materials::What;
+use super::meshes::Meshes;
 use super::motion::{Motion, Way};
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Look, Scene};
 use crate::simulate::{Bounds, Survey};
 use crate::surface::{Detail, Form, Piece, pieces};
 
@@ -27,12 +24,7 @@ struct Model<'a> {
     /// Where everything takes place.
     bounds: Bounds,
     nodes: Vec<Node>,
-    meshes: Vec<Mesh>,
-    /// The number of each mesh; the map is only asked, never walked through.
-    known: HashMap<(Form, Paint), u32>,
-    paints: Paints,
-    accessors: Vec<Accessor>,
-    geometry: Geometry,
+    meshes: Meshes,
 }
 
 /// A scene whose motion is known, as a document, and the triangles that belong to it.
@@ -44,18 +36,15 @@ pub(super) fn model(scene: &Scene, survey: &Survey, motion: &Motion) -> (Documen
         scene,
         bounds: survey.bounds.unwrap_or(nothing),
         nodes: vec![Node { name: ROOT.to_owned(), ..Node::default() }],
-        meshes: Vec::new(),
-        known: HashMap::new(),
-        paints: Paints::default(),
-        accessors: Vec::new(),
-        geometry: Geometry::new(if many { Detail::Coarse } else { Detail::Fine }),
+        meshes: Meshes::new(if many { Detail::Coarse } else { Detail::Fine }),
     };
     let bodies = scene.bodies.iter().zip(motion.ways()).zip(drawn);
     let bodies: Vec<u32> = bodies.map(|((body, way), pieces)| model.body(body, way, pieces)).collect();
     let mut top = bodies.clone();
     top.extend(model.ground());
     model.nodes[0].children = top;
-    let (animation, keys) = animation(motion, &bodies, model.geometry.keys(), &mut model.accessors);
+    let meshes = &mut model.meshes;
+    let (animation, keys) = animation(motion, &bodies, meshes.geometry.keys(), &mut meshes.accessors);
     model.finish(motion, animation, keys)
 }
 
@@ -69,11 +58,18 @@ impl Model<'_> {
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
         let number = self.node(Node { name: body.name.clone(), ..at(way.location, way.orientation) });
         let single = pieces.len() == 1;
+        let material = body.material.map_or(What::Unknown, What::Material);
+        // A pattern is made for a ball of radius 1, and on a body as large as on a ball of its volume.
+        let ball = body.shape.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
         for mut piece in pieces {
+            let mut pattern = ball;
             if piece.form == Form::Plane {
                 self.spread(&mut piece, way);
+                let checkered =
+                    body.material.is_some_and(|m| self.scene.materials[m].look == Look::Checkered);
+                pattern = checkered.then(|| self.tile());
             }
-            let mesh = self.mesh(&piece, body.material.map_or(What::Unknown, What::Material));
+            let mesh = self.meshes.number(self.scene, &piece, material, pattern);
             let centred = piece.location == DVec3::ZERO && piece.orientation == DQuat::IDENTITY;
             let scale = Some(piece.scale.to_array());
             if single && centred {
@@ -109,6 +105,12 @@ impl Model<'_> {
         1.5 * self.size()
     }
 
+    /// The edge of a tile of the ground, m.
+    fn tile(&self) -> f64 {
+        let given = self.scene.environment.ground.as_ref().and_then(|ground| ground.tile);
+        given.unwrap_or(self.size() / 12.0)
+    }
+
     /// Adds the ground of the surroundings.
     fn ground(&mut self) -> Option<u32> {
         let ground = self.scene.environment.ground.as_ref().filter(|_| !self.scene.output.transparent)?;
@@ -117,27 +119,9 @@ impl Model<'_> {
         let scale = DVec3::splat(self.half_of_ground());
         let (location, orientation) = (self.middle().with_y(height), DQuat::IDENTITY);
         let piece = Piece { form: Form::Plane, scale, location, orientation, color: None };
-        let mesh = self.mesh(&piece, What::Ground);
+        let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(self.tile()));
         let name = "ground".to_owned();
         Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(location, orientation) }))
-    }
-
-    /// The number of the mesh that a piece is drawn of, unless it has no triangles.
-    fn mesh(&mut self, piece: &Piece, material: What) -> Option<u32> {
-        let what = piece.color.map_or(material, What::from);
-        let paint = Paint { what, both_sides: !piece.form.is_closed() };
-        let key = (piece.form.clone(), paint);
-        if let Some(&number) = self.known.get(&key) {
-            return Some(number);
-        }
-        let known = self.geometry.form(&piece.form, &mut self.accessors)?;
-        let material = self.paints.number(paint, self.scene);
-        let name = format!("{}, {}", piece.form.name(), self.paints.materials[material as usize].name);
-        let primitive = Primitive { attributes: known.attributes, indices: known.indices, material };
-        self.meshes.push(Mesh { name, primitives: [primitive] });
-        let number = self.meshes.len() as u32 - 1;
-        self.known.insert(key, number);
-        Some(number)
     }
 
     /// What the scene is called.
@@ -146,7 +130,7 @@ impl Model<'_> {
     }
 
     fn finish(self, motion: &Motion, animation: Option<Animation>, keys: u64) -> (Document, Geometry) {
-        let views = self.geometry.views(keys);
+        let views = self.meshes.geometry.views(keys);
         let bytes = views.iter().map(|view| view.byte_length).sum();
         let title = self.title();
         let document = Document {
@@ -162,14 +146,14 @@ impl Model<'_> {
             scene: 0,
             scenes: vec![SceneOfNodes { name: title, nodes: vec![0] }],
             nodes: self.nodes,
-            meshes: self.meshes,
-            materials: self.paints.materials,
+            meshes: self.meshes.meshes,
+            materials: self.meshes.paints.materials,
             animations: animation.into_iter().collect(),
-            accessors: self.accessors,
+            accessors: self.meshes.accessors,
             buffers: if views.is_empty() { vec![] } else { vec![Buffer { byte_length: bytes }] },
             buffer_views: views,
         };
-        (document, self.geometry)
+        (document, self.meshes.geometry)
     }
 }
 
@@ -180,43 +164,4 @@ fn at(location: DVec3, orientation: DQuat) -> Node {
         rotation: (orientation != DQuat::IDENTITY).then_some(orientation.to_array()),
         ..Node::default()
     }
-}
-
-/// What moves the nodes of the bodies, and how many bytes of keys that takes, which are those of a view; nothing where
-/// nothing moves.
-fn animation(
-    motion: &Motion,
-    nodes: &[u32],
-    view: u32,
-    accessors: &mut Vec<Accessor>,
-) -> (Option<Animation>, u64) {
-    if motion.ways().iter().all(|way| way.translations.is_empty() && way.rotations.is_empty()) {
-        return (None, 0);
-    }
-    let mut offset = 0;
-    let mut add = |kind, width: usize, min: Vec<f64>, max: Vec<f64>| {
-        let count = motion.times().len();
-        let byte_offset = offset;
-        offset += 4 * (width * count) as u64;
-        let numbers =
-            Accessor { buffer_view: view, byte_offset, component_type: FLOAT, count, kind, min, max };
-        accessors.push(numbers);
-        accessors.len() as u32 - 1
-    };
-    let end = |time: Option<&f32>| time.map(|&time| f64::from(time)).into_iter().collect();
-    let input = add("SCALAR", 1, end(motion.times().first()), end(motion.times().last()));
-    let mut animation = Animation { name: "motion".to_owned(), channels: Vec::new(), samplers: Vec::new() };
-    for (way, &node) in motion.ways().iter().zip(nodes) {
-        // In the order of `Motion::numbers`.
-        let parts = [("translation", "VEC3", 3, &way.translations), ("rotation", "VEC4", 4, &way.rotations)];
-        for (path, kind, width, values) in parts {
-            if !values.is_empty() {
-                let output = add(kind, width, Vec::new(), Vec::new());
-                let sampler = animation.samplers.len() as u32;
-                animation.samplers.push(Sampler { input, output });
-                animation.channels.push(Channel { sampler, target: Target { node, path } });
-            }
-        }
-    }
-    (Some(animation), offset)
 }
