@@ -38,7 +38,8 @@ async function changed(state) {
   sayProblem();
   for (const run of [open.run, open.other]) {
     const progress = run && state.runs[run.id];
-    if (progress) await run.progressed(progress);
+    // When a run is finished, it is known where its camera stands.
+    if (progress && (await run.progressed(progress)) && run === open.run) paint(run);
   }
   await refresh();
   redraw();
@@ -121,11 +122,17 @@ async function show(id, serial) {
   if (id === open.state.current) open.integrator = run.description.integrator;
   if (open.view > run.description.views.length) open.view = 0;
   player.take(run);
-  painter.take(run);
-  open.strobes = null;
+  paint(run);
   panel.take(run);
   describe(run);
   if (open.other) await compare(open.other.id, serial);
+}
+
+/** Makes the picture that of a run. */
+function paint(run) {
+  painter.take(run);
+  open.strobes = null;
+  if (open.other) painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
 }
 
 async function compare(id, serial) {
@@ -141,7 +148,7 @@ async function compare(id, serial) {
   if (open.other !== run) open.other?.close();
   open.other = run;
   run.changed = () => redraw();
-  painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
+  paint(open.run);
 }
 
 /** What stays the same while a run is shown. */
@@ -151,7 +158,7 @@ function describe(run) {
   document.title = `${title} – jabuka`;
   element("title").textContent = title;
   element("time").max = run.frames - 1;
-  for (const [id, none] of [["integrator", `${open.integrator} (the scene's)`], ["other-integrator", "nothing"]]) {
+  for (const [id, none] of [["integrator", `scene: ${open.integrator}`], ["other-integrator", "nothing"]]) {
     const select = element(id);
     const value = select.value;
     const options = description.methods.map(({ name, summary }) => Object.assign(new Option(name), { title: summary }));
