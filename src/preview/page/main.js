@@ -105,7 +105,10 @@ async function opened(id) {
 async function show(id, serial) {
   let run;
   try {
-    run = await opened(id);
+    const opening = opened(id);
+    // To start the graphics processor takes as long as to fetch a run, so both are done at once.
+    if (!startPainter()) return;
+    run = await opening;
   } catch (error) {
     // It has been replaced meanwhile; the next state tells by what.
     if (error.status === 404) return;
@@ -149,6 +152,19 @@ async function compare(id, serial) {
   open.other = run;
   run.changed = () => redraw();
   paint(open.run);
+}
+
+/** Makes what draws, at the first time; tells whether it is there. */
+function startPainter() {
+  if (painter !== undefined) return painter !== null;
+  try {
+    painter = new Painter(element("picture"));
+  } catch (error) {
+    painter = null;
+    element("nothing").textContent = error.message;
+    element("nothing").hidden = false;
+  }
+  return painter !== null;
 }
 
 /** What stays the same while a run is shown. */
@@ -227,7 +243,7 @@ function posesAt(run, position) {
 
 function draw() {
   const { run } = open;
-  if (!run || !painter.batches.run) return;
+  if (!run || !painter?.batches.run) return;
   const { position, frame } = player;
   run.want(frame, open.view);
   const at = posesAt(run, position);
@@ -604,12 +620,6 @@ function begin() {
     return;
   }
   nothing.textContent = "…";
-  try {
-    painter = new Painter(element("picture"));
-  } catch (error) {
-    nothing.textContent = error.message;
-    return;
-  }
   listen();
   let queue = Promise.resolve();
   const lost = () => {

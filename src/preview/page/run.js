@@ -30,9 +30,8 @@ export class Run {
 
   /** Fetches what stays the same in a run. */
   static async open(id) {
-    const description = await json(`/api/runs/${id}`);
-    const forms = readForms(await binary(`/api/runs/${id}/forms`));
-    return new Run(id, description, forms);
+    const [description, forms] = await Promise.all([json(`/api/runs/${id}`), binary(`/api/runs/${id}/forms`)]);
+    return new Run(id, description, readForms(forms));
   }
 
   get frames() {
