@@ -7,4 +7,4 @@ cargo build --quiet
 coproc SERVER { exec target/debug/jabuka preview --no-open scenes/damped_spring.toml 2>/dev/null; }
 trap 'kill "$SERVER_PID"' EXIT
 read -r address <&"${SERVER[0]}"
-tests/preview/browser picture.mjs "$address" docs/preview.png 44 ball
+tests/preview/browser screenshot.mjs "$address" docs/preview.png 44 ball

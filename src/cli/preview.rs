@@ -29,9 +29,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
     // A scene with mistakes can be mended while it is previewed; one that is not there is a mistyped name.
     if !arguments.scene.is_file() {
-        let message = format!("there is no scene file `{}`", arguments.scene.display());
-        say::error(&format!("error: {message}\n"));
-        return Err(Failure::Errors);
+        arguments.of_scene.read_with(&arguments.scene, &[])?;
     }
     let preview = Preview {
         scene: arguments.scene.clone(),
@@ -54,5 +52,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let port = arguments.port.map_or(String::new(), |port| format!(" on port {port}"));
         say::error(&format!("error: the page cannot be served{port}: {error}\n"));
         Failure::Errors
-    })
+    })?;
+    // Nothing else ends it.
+    Err(Failure::Interrupted)
 }

@@ -1,12 +1,16 @@
-// A real, headless browser, which notes whatever goes wrong on a page.
+// A real, headless browser, and pages that note whatever goes wrong on them.
 
+import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 
 const { chromium } = createRequire(`${process.env.JABUKA_MODULES}/`)("playwright-core");
 
 /** The browser of the system: the first that is there. */
-const PROGRAMS = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome", "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome"];
+const PROGRAMS = [
+  "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome",
+  "/Applications/Chromium.app/Contents/MacOS/Chromium", "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+];
 
 /** WebGL by the processor, so that it is the same everywhere; nothing that calls home. */
 const OPTIONS = [
@@ -14,34 +18,98 @@ const OPTIONS = [
   "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ];
 
-export async function launch() {
+/** What the driver of the software's WebGL says of a program that reads a pixel: that it is slow. */
+const OF_DRIVER = /GL Driver Message .* GPU stall due to ReadPixels/;
+
+/** However busy the machine is, a page has done what it should by then. */
+export const LONG = 60_000;
+
+export async function launch(more = []) {
   const executablePath = process.env.JABUKA_BROWSER ?? PROGRAMS.find(existsSync);
-  return chromium.launch({ executablePath, headless: true, args: OPTIONS });
+  return chromium.launch({ executablePath, headless: true, args: [...OPTIONS, ...more] });
 }
 
-/** A page that remembers its errors and all that it has asked for. */
-export async function newPage(browser, { size = { width: 1280, height: 800 }, ...more } = {}) {
+/** A page, not larger than it needs to be, that remembers its errors and all that it has asked for; what `may` matches is no error. */
+export async function newPage(browser, { size = { width: 900, height: 640 }, may = [], ...more } = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
   const page = await context.newPage();
+  page.setDefaultTimeout(LONG);
   page.wrong = [];
   page.asked = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && page.wrong.push(message.text()));
-  page.on("pageerror", (error) => page.wrong.push(String(error)));
-  page.on("request", (request) => page.asked.push(request.url()));
+  const note = (text) => [OF_DRIVER, ...may].some((known) => known.test(text)) || page.wrong.push(text);
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && note(message.text()));
+  page.on("pageerror", (error) => note(String(error)));
+  page.on("dialog", (dialog) => (note(`a dialog: ${dialog.message()}`), dialog.dismiss()));
+  page.on("request", (request) => page.asked.push(request));
   return page;
 }
 
-/** Waits until the frame that is wanted is drawn. */
+/** A page of the preview, after its first frame is drawn. */
+export async function opened(browser, address, options) {
+  const page = await newPage(browser, options);
+  await page.goto(address);
+  await page.waitForFunction(() => window.jabuka?.drawn.count > 0);
+  return page;
+}
+
+/**
+ * Runs the test that the command line names: `tests({ async name({ browser, address, scene, page }) { … } })`.
+ * Whatever it opens must have had no errors, and asked for nothing but the server's own.
+ */
+export async function tests(all) {
+  const [name, address, scene] = process.argv.slice(2);
+  const browser = await launch();
+  const pages = [];
+  // Tests of several pages, or of what comes before the first frame, open them by themselves.
+  const open = async (options) => keep(await opened(browser, address, options));
+  const keep = (page) => (pages.push(page), page);
+  // A browser for which a name points to this machine.
+  const rebound = (name) => launch([`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
+  try {
+    await all[name]({ browser, address, scene, open, keep, rebound });
+    for (const page of pages) {
+      assert.deepEqual(page.wrong, [], "what the page has complained of");
+      const own = new URL(address).origin;
+      const foreign = page.asked.map((request) => request.url()).filter((url) => !url.startsWith(`${own}/`) && !url.startsWith(`blob:${own}/`));
+      assert.deepEqual(foreign, [], "what the page has asked others for");
+      const referers = await Promise.all(page.asked.map((request) => request.headerValue("referer").catch(() => null)));
+      assert.ok(referers.every((referer) => !referer?.includes("token")), "the token is in a Referer");
+    }
+  } finally {
+    await browser.close();
+  }
+}
+
+/** Waits for something of the page: `is(window.jabuka, argument)` in the page. */
+export async function until(page, is, argument, long = LONG) {
+  // The page may not evaluate texts, so the function is made part of the one that waits for it.
+  const came = await page.evaluate(`(async () => {
+    const end = performance.now() + ${long};
+    while (!(${is})(window.jabuka, ${JSON.stringify(argument)})) {
+      if (performance.now() > end) return false;
+      await new Promise(requestAnimationFrame);
+    }
+    return true;
+  })()`);
+  assert.ok(came, `in vain: ${is} ${JSON.stringify(argument)}`);
+}
+
+/** Waits until the frame that is wanted is drawn, and gives its number. */
 export const drawn = (page) => page.evaluate(async () => (await window.jabuka.whenDrawn(), window.jabuka.frame));
 
-/** The color of a pixel of the picture, red, green and blue from 0 to 255. */
-export async function pixel(page, x, y) {
-  return page.evaluate(([x, y]) => {
-    const canvas = document.getElementById("picture");
-    const gl = canvas.getContext("webgl2");
-    const scale = canvas.width / canvas.clientWidth;
-    const bytes = new Uint8Array(4);
-    gl.readPixels(Math.round(x * scale), canvas.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    return Array.from(bytes.subarray(0, 3));
-  }, [x, y]);
+/** Goes to a frame, and waits until it is drawn. */
+export async function seek(page, frame) {
+  await page.evaluate((frame) => window.jabuka.seek(frame), frame);
+  assert.equal(await drawn(page), frame);
+}
+
+/** All poses of the run that is shown, as one text; waits until they are there. */
+export async function poses(page) {
+  return page.evaluate(async () => {
+    const { jabuka } = window;
+    await jabuka.whenDrawn(() => jabuka.settled && jabuka.pose(0, jabuka.frames - 1) && jabuka.pose(0, 0));
+    const frames = Array.from({ length: jabuka.frames }, (_, frame) => frame);
+    await jabuka.whenDrawn(() => frames.every((frame) => jabuka.pose(0, frame)));
+    return JSON.stringify(frames.map((frame) => jabuka.bodies.map((_, body) => jabuka.pose(body, frame))));
+  });
 }

@@ -1,0 +1,220 @@
+//! Who may ask the server: nobody but its own page, and that only with the token.
+
+use std::net::{IpAddr, SocketAddr, TcpStream, UdpSocket};
+use std::time::Duration;
+
+use crate::http::{Answer, ask, get};
+use crate::server::{Scene, Server};
+use crate::support::root;
+
+/// A scene that nobody else has.
+const SECRET: &str = "title = 'Sekret'\nsimulation.duration = 1\n[body.sekret]\nshape.sphere.radius = 1\n";
+
+fn server() -> Server {
+    Scene::of(SECRET).served()
+}
+
+/// All paths of the server, by its source, with a run and a body in them.
+fn paths() -> (Vec<(&'static str, String)>, Vec<(&'static str, String)>) {
+    let read = |file: &str| std::fs::read_to_string(root().join("src/preview").join(file)).unwrap();
+    let (routes, page) = (read("routes.rs"), read("page.rs"));
+    let of_api = routes.split(".route(\"").skip(1).map(|rest| {
+        let (path, after) = rest.split_once('"').unwrap();
+        (if after.contains("post(") && after.find("post(") < after.find('\n') { "POST" } else { "GET" }, path)
+    });
+    let api: Vec<_> = of_api.map(|(method, path)| (method, path.replace("{id}", "1"))).collect();
+    let files =
+        page.split("    (\"/").skip(1).map(|rest| ("GET", format!("/{}", rest.split('"').next().unwrap())));
+    let files: Vec<_> = files.collect();
+    assert!(api.len() >= 10 && api.iter().all(|(_, path)| path.starts_with("/api/")), "{api:?}");
+    assert!(api.iter().filter(|(method, _)| *method == "POST").count() == 2, "{api:?}");
+    assert!(files.len() >= 10, "{files:?}");
+    (api, files)
+}
+
+/// What is sent where an order is expected.
+const ORDER: &str = r#"{"integrator":"rk4","step":"","run":"1","frame":0}"#;
+
+fn host(port: u16) -> String {
+    format!("Host: 127.0.0.1:{port}\r\nContent-Type: application/json\r\n")
+}
+
+/// Asserts that nothing of the scene is in an answer.
+fn assert_refused(answer: &Answer, status: u16, what: &str) {
+    assert_eq!(answer.status, status, "{what}: {}", answer.text());
+    assert!(!answer.text().to_lowercase().contains("sekret"), "{what}: {}", answer.text());
+    assert!(answer.body.len() < 120, "{what}: {}", answer.text());
+}
+
+#[test]
+fn another_host_is_refused_on_every_path() {
+    let server = server();
+    let (port, token) = (server.port(), server.token());
+    let (api, files) = paths();
+    for (method, path) in api.into_iter().chain(files) {
+        for host in [
+            format!("evil.example:{port}"),
+            "evil.example".to_owned(),
+            format!("127.0.0.1.evil.example:{port}"),
+            "0.0.0.0".to_owned(),
+        ] {
+            let path = format!("{path}?token={token}");
+            let answer = ask(
+                port,
+                method,
+                &path,
+                &format!("Host: {host}\r\nContent-Type: application/json\r\n"),
+                ORDER,
+            );
+            assert_refused(&answer, 403, &format!("{host} {path}"));
+        }
+        let nameless = ask(port, method, &format!("{path}?token={token}"), "", ORDER);
+        assert_refused(&nameless, 403, &path);
+    }
+}
+
+#[test]
+fn nobody_is_told_of_the_scene_without_the_token() {
+    let server = server();
+    let (port, token) = (server.port(), server.token());
+    let other: String = token.chars().rev().collect();
+    let longer = format!("{token}0");
+    let wrong = [
+        "".to_owned(),
+        "?token=".to_owned(),
+        format!("?token={other}"),
+        format!("?token={longer}"),
+        format!("?token={}", &token[1..]),
+        format!("?tokens={token}"),
+        format!("?token={}", token.to_uppercase()),
+    ];
+    assert_ne!(token.to_uppercase(), token, "one without letters comes once in millions of starts");
+    for (method, path) in paths().0 {
+        for wrong in &wrong {
+            let answer = ask(port, method, &format!("{path}{wrong}"), &host(port), ORDER);
+            assert_refused(&answer, 403, &format!("{path}{wrong}"));
+        }
+    }
+}
+
+#[test]
+fn the_page_itself_knows_nothing_of_the_scene() {
+    let server = server();
+    for (_, path) in paths().1 {
+        let answer = get(server.port(), &path);
+        assert_eq!(answer.status, 200, "{path}");
+        let text = answer.text();
+        assert!(!text.to_lowercase().contains("sekret") && !text.contains(server.token()), "{path}");
+    }
+}
+
+#[test]
+fn a_page_of_another_origin_is_refused_even_with_the_token() {
+    let server = server();
+    let (port, token) = (server.port(), server.token());
+    let (api, files) = paths();
+    let foreign = [
+        "http://evil.example".to_owned(),
+        format!("http://127.0.0.1:{}", port ^ 1),
+        format!("http://localhost:{port}"),
+        format!("https://127.0.0.1:{port}"),
+        "null".to_owned(),
+    ];
+    for (method, path) in api.into_iter().chain(files) {
+        for origin in &foreign {
+            let headers = format!("{}Origin: {origin}\r\n", host(port));
+            let answer = ask(port, method, &format!("{path}?token={token}"), &headers, ORDER);
+            assert_refused(&answer, 403, &format!("{origin} {path}"));
+            assert_eq!(answer.header("access-control-allow-origin"), None);
+        }
+        let asked_first =
+            format!("{}Origin: http://evil.example\r\nAccess-Control-Request-Method: POST\r\n", host(port));
+        let answer = ask(port, "OPTIONS", &format!("{path}?token={token}"), &asked_first, "");
+        assert_refused(&answer, 403, &path);
+        assert_eq!(answer.header("access-control-allow-origin"), None);
+    }
+}
+
+#[test]
+fn its_own_page_is_answered() {
+    let server = server();
+    let (port, token) = (server.port(), server.token());
+    for (method, path) in paths().0.into_iter().filter(|(_, path)| path != "/api/render") {
+        let headers = format!("{}Origin: http://127.0.0.1:{port}\r\n", host(port));
+        let answer = ask(port, method, &format!("{path}?token={token}"), &headers, ORDER);
+        assert_eq!(answer.status, 200, "{path}: {}", answer.text());
+    }
+}
+
+#[test]
+fn every_answer_says_what_a_page_may_do_with_it() {
+    let server = server();
+    let (port, token) = (server.port(), server.token());
+    let mut asked: Vec<(&str, String, u16)> = vec![
+        ("GET", "/nowhere".to_owned(), 404),
+        ("GET", format!("/api/runs/99?token={token}"), 404),
+        ("GET", format!("/api/runs/x?token={token}"), 400),
+        ("POST", format!("/api/runs/1?token={token}"), 405),
+        ("GET", "/api/runs/1".to_owned(), 403),
+        ("GET", format!("/api/runs/1?token={token}"), 200),
+        ("GET", format!("/api/events?token={token}"), 200),
+        ("POST", format!("/api/variants?token={token}"), 422),
+    ];
+    asked.extend(paths().1.into_iter().map(|(method, path)| (method, path, 200)));
+    for (method, path, status) in asked {
+        let answer = ask(port, method, &path, &host(port), r#"{"integrator":"none","step":""}"#);
+        assert_eq!(answer.status, status, "{path}: {}", answer.text());
+        let policy = answer.header("content-security-policy").unwrap();
+        for rule in [
+            "default-src 'none'",
+            "script-src 'self'",
+            "connect-src 'self'",
+            "base-uri 'none'",
+            "form-action 'none'",
+            "frame-ancestors 'none'",
+        ] {
+            assert!(policy.contains(rule), "{path}: {policy}");
+        }
+        assert!(!policy.contains("unsafe"), "{path}: {policy}");
+        let others = [
+            ("x-content-type-options", "nosniff"),
+            ("referrer-policy", "no-referrer"),
+            ("cache-control", "no-store"),
+            ("x-frame-options", "DENY"),
+            ("cross-origin-resource-policy", "same-origin"),
+        ];
+        for (name, value) in others {
+            assert_eq!(answer.header(name), Some(value), "{path}");
+        }
+    }
+}
+
+/// The addresses of this machine that other machines can reach, as far as one can tell without sending anything.
+fn reachable() -> Vec<IpAddr> {
+    let toward = |from: &str, to: &str| {
+        let socket = UdpSocket::bind(from).ok()?;
+        socket.connect(to).ok()?;
+        Some(socket.local_addr().ok()?.ip())
+    };
+    // Addresses that are reserved for examples: a UDP socket only looks up the way there.
+    let found = [toward("0.0.0.0:0", "192.0.2.1:9"), toward("[::]:0", "[2001:db8::1]:9")];
+    found.into_iter().flatten().filter(|address| !address.is_loopback()).collect()
+}
+
+#[test]
+fn it_listens_on_the_loopback_address_alone() {
+    let server = server();
+    let port = server.port();
+    let others = ["127.0.0.2".parse().unwrap(), "::1".parse().unwrap()];
+    for address in reachable().into_iter().chain(others) {
+        let tried = TcpStream::connect_timeout(&SocketAddr::new(address, port), Duration::from_secs(2));
+        assert!(tried.is_err(), "{address} answers");
+    }
+    // The kernel's own list: port and address of what this process listens on.
+    let Ok(table) = std::fs::read_to_string("/proc/net/tcp") else { return };
+    let listens = |line: &&str| line.split_whitespace().nth(3) == Some("0A");
+    let locals: Vec<&str> =
+        table.lines().filter(listens).filter_map(|line| line.split_whitespace().nth(1)).collect();
+    let here: Vec<&&str> = locals.iter().filter(|local| local.ends_with(&format!(":{port:04X}"))).collect();
+    assert_eq!(here, [&format!("0100007F:{port:04X}")]);
+}

@@ -1,0 +1,52 @@
+// Bodies: their poses, and the values of the one that is chosen.
+
+import assert from "node:assert/strict";
+import { poses, seek, tests, until } from "./browser.mjs";
+import { box, click, place } from "./picture.mjs";
+
+/** The rows of the panel, once they are those of a time. */
+async function values(page, time) {
+  await page.waitForFunction((time) => document.getElementById("body-values").innerText.includes(`time\t${time}`), `${time} s`);
+  const rows = await page.locator("#body-values tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.innerText)));
+  return Object.fromEntries(rows);
+}
+
+await tests({
+  /** Prints them, and the test compares. */
+  async poses({ open }) {
+    const page = await open();
+    const all = JSON.parse(await poses(page));
+    const names = await page.evaluate(() => window.jabuka.bodies);
+    process.stdout.write(JSON.stringify({ names, frames: all }));
+  },
+
+  async a_click_on_a_body_shows_its_values_at_that_time({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await seek(page, 100);
+    await click(page, await place(page, "ball"));
+    assert.equal(await page.evaluate(() => window.jabuka.selected), "ball");
+    assert.equal(await page.locator("#body-name").inputValue(), "ball");
+    // x = 20 + 2 t; the method falls half a step behind the parabola: y = 10 t - t (t + 0.01 s) / 2.
+    const then = await values(page, 4);
+    assert.equal(then.location, "28, 31.98, 0 m");
+    assert.equal(then.velocity, "2, 6, 0 m/s");
+    assert.equal(then["kinetic energy"], "20 J");
+    assert.equal(then.mass, "1 kg");
+    await seek(page, 200);
+    assert.equal((await values(page, 8)).velocity, "2, 2, 0 m/s", "the values go with the time");
+  },
+
+  async a_click_beside_all_bodies_chooses_none_and_names_can_be_typed({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await click(page, await place(page, "ball"));
+    assert.equal(await page.evaluate(() => window.jabuka.selected), "ball");
+    await click(page, [(await box(page)).width / 2, 8]);
+    assert.equal(await page.evaluate(() => window.jabuka.selected), null);
+    await page.locator("#body-name").fill("axes");
+    await page.keyboard.press("Enter");
+    await until(page, (jabuka) => jabuka.selected === "axes");
+    assert.equal((await values(page, 0)).velocity, "0, 1, 0 m/s");
+  },
+});

@@ -1,0 +1,21 @@
+// Ten thousand bodies.
+
+import assert from "node:assert/strict";
+import { drawn, LONG, seek, tests, until } from "./browser.mjs";
+
+await tests({
+  async the_page_works_while_the_run_goes_on({ open }) {
+    const page = await open({ size: { width: 480, height: 400 } });
+    const { recorded, frames, settled } = await page.evaluate(() => ({ ...window.jabuka }));
+    assert.ok(recorded < frames && !settled, `drawn when ${recorded} of ${frames} were there`);
+    await until(page, (jabuka) => jabuka.recorded > 20);
+    await seek(page, 10);
+    const { location } = await page.evaluate(() => window.jabuka.pose("ball[9999]"));
+    assert.ok(location[1] < 0 && location.every(Number.isFinite), `${location}`);
+    await until(page, (jabuka) => jabuka.settled, null, 3 * LONG);
+    await seek(page, 999);
+    assert.equal((await page.evaluate(() => window.jabuka.drawn)).frame, 999);
+    await page.keyboard.press("Space");
+    assert.equal(await drawn(page), 0);
+  },
+});

@@ -1,0 +1,177 @@
+// What is saved is seen.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, readFileSync, renameSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { drawn, newPage, seek, tests, until } from "./browser.mjs";
+import { color, isRed, place } from "./picture.mjs";
+
+const state = (page) => page.evaluate(() => ({ ...window.jabuka }));
+
+/** Replaces a piece of a file. */
+function edit(file, piece, by) {
+  const text = readFileSync(file, "utf8");
+  assert.ok(text.includes(piece), `${file} has ${piece}`);
+  writeFileSync(file, text.replace(piece, by));
+}
+
+/** Waits until another run than this one is drawn, and gives its number. */
+async function another(page, run) {
+  await until(page, (jabuka, run) => jabuka.run !== run && jabuka.drawn.run === jabuka.run, run);
+  return (await state(page)).run;
+}
+
+/** What `jabuka check` says of a scene that has errors, without the line that counts them. */
+function errors(scene) {
+  const { status, stderr } = spawnSync(process.env.JABUKA, ["check", scene], { encoding: "utf8" });
+  assert.equal(status, 1);
+  return stderr.replace(/\n?[^\n]*\d+ errors?\n$/, "").trim();
+}
+
+/** Waits for the error that the terminal would show. */
+async function wrong(page, scene) {
+  await until(page, (jabuka) => jabuka.problem);
+  const text = errors(scene);
+  await until(page, (jabuka, text) => jabuka.problem?.trim() === text, text);
+  assert.ok(await page.locator("#problem").isVisible());
+  return text;
+}
+
+const mended = (page) => until(page, (jabuka) => jabuka.problem === null && jabuka.run);
+const x = (page, body = "ball") => page.evaluate((body) => window.jabuka.pose(body)?.location[0], body);
+
+await tests({
+  async a_change_that_is_saved_is_shown_at_the_same_time_without_a_reload({ open, scene }) {
+    const page = await open();
+    const { run } = await state(page);
+    await page.evaluate(() => (window.before = true));
+    await seek(page, 100);
+    edit(scene, "velocity = [2.0, 10.0", "velocity = [3.0, 10.0");
+    await another(page, run);
+    assert.equal(await drawn(page), 100);
+    assert.ok(Math.abs((await x(page)) - 32) < 1e-9, "20 + 3 t");
+    assert.equal(await page.evaluate(() => window.before), true);
+    await until(page, (jabuka) => jabuka.settled);
+    assert.ok(isRed(await color(page, await place(page, "ball"))));
+    // An editor that writes another file, and moves it here.
+    const { run: second } = await state(page);
+    writeFileSync(`${scene}~`, readFileSync(scene, "utf8").replace("velocity = [3.0", "velocity = [4.0"));
+    renameSync(`${scene}~`, scene);
+    await another(page, second);
+    assert.ok(Math.abs((await x(page)) - 36) < 1e-9);
+  },
+
+  async a_mistake_is_shown_as_in_the_terminal_and_the_last_good_run_stays({ open, scene }) {
+    const page = await open();
+    const { run } = await state(page);
+    await seek(page, 50);
+    edit(scene, "mass = 1.0", "mass = -1.0");
+    const text = await wrong(page, scene);
+    const line = readFileSync(scene, "utf8").split("\n").findIndex((text) => text.startsWith("mass")) + 1;
+    assert.ok(text.includes(`${scene}:${line}:8`), text);
+    assert.equal((await state(page)).run, run);
+    await seek(page, 400);
+    edit(scene, "mass = -1.0", "mass = = 1.0");
+    const syntax = await wrong(page, scene);
+    assert.notEqual(syntax, text);
+    edit(scene, "mass = = 1.0", "mass = 1.0");
+    await mended(page);
+    assert.ok(await page.locator("#problem").isHidden());
+    assert.equal((await state(page)).frame, 400);
+    process.stdout.write(`${text}\n${syntax}`);
+  },
+
+  async files_that_a_scene_takes_in_count_as_well({ open, scene }) {
+    const page = await open();
+    let { run } = await state(page);
+    await seek(page, 20);
+    edit(join(dirname(scene), "parts/ball.toml"), "velocity = [1", "velocity = [2");
+    run = await another(page, run);
+    assert.equal((await state(page)).frame, 20);
+    assert.ok(Math.abs((await x(page)) - 2 * 0.8) < 1e-9);
+    // The ring, half as large.
+    const mesh = join(dirname(scene), "meshes/twisted_ring.obj");
+    const halved = readFileSync(mesh, "utf8").replace(/^v (\S+) (\S+) (\S+)/gm, (_, ...v) => `v ${v.slice(0, 3).map((c) => c / 2).join(" ")}`);
+    writeFileSync(mesh, halved);
+    run = await another(page, run);
+    writeFileSync(mesh, "v 1 2\n");
+    await wrong(page, scene);
+    writeFileSync(mesh, halved.replace(/^v (\S+)/m, "v 0.001"));
+    await another(page, run);
+    await mended(page);
+  },
+
+  async a_file_that_is_not_there_yet_is_waited_for({ browser, address, scene, keep }) {
+    const page = keep(await newPage(browser));
+    await page.goto(address);
+    const later = join(dirname(scene), "later.toml");
+    assert.ok(!existsSync(later));
+    const text = await wrong(page, scene);
+    assert.match(text, /later\.toml/);
+    assert.ok(await page.locator("#nothing").isVisible());
+    writeFileSync(later, "[body.ball]\nshape.sphere.radius = 1\n");
+    await until(page, (jabuka) => jabuka.drawn.count > 0);
+    await mended(page);
+    assert.deepEqual((await state(page)).bodies, ["ball"]);
+    assert.ok(await page.locator("#nothing").isHidden());
+  },
+
+  async a_scene_with_errors_is_shown_once_they_are_mended({ browser, address, scene, keep }) {
+    const page = keep(await newPage(browser));
+    await page.goto(address);
+    await wrong(page, scene);
+    edit(scene, "radius = -1", "radius = 1");
+    await until(page, (jabuka) => jabuka.drawn.count > 0 && jabuka.problem === null);
+  },
+
+  async a_scene_may_change_while_the_page_is_being_opened({ browser, address, scene, open, keep }) {
+    const other = await open();
+    const { run } = await state(other);
+    const page = keep(await newPage(browser, { may: [/404/] }));
+    let held;
+    // What the page asks for of the old run comes too late.
+    await page.route(`**/api/runs/${run}/forms?*`, async (route) => {
+      held ??= (edit(scene, "velocity = [2.0, 10.0", "velocity = [3.0, 10.0"), another(other, run));
+      await held;
+      await route.continue();
+    });
+    await page.goto(address);
+    await until(page, (jabuka) => jabuka.drawn.count > 0);
+    assert.ok(held);
+    assert.equal((await state(page)).run, await held);
+    assert.equal((await state(page)).problem, null);
+  },
+
+  async two_pages_have_their_own_times_and_see_the_same_scene({ open, scene }) {
+    const [one, two] = [await open(), await open()];
+    const { run } = await state(one);
+    await seek(one, 10);
+    await seek(two, 300);
+    edit(scene, "velocity = [2.0, 10.0", "velocity = [3.0, 10.0");
+    assert.equal(await another(one, run), await another(two, run));
+    assert.equal(await drawn(one), 10);
+    assert.equal(await drawn(two), 300);
+    assert.ok(Math.abs((await x(two)) - (20 + 3 * 12)) < 1e-9);
+  },
+
+  async a_run_that_diverges_says_so({ open, scene }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.problem);
+    const { stderr } = spawnSync(process.env.JABUKA, ["compile", scene, "-o", join(dirname(scene), "compiled")], { encoding: "utf8" });
+    const text = await page.evaluate(() => window.jabuka.problem);
+    assert.match(text, /diverge/);
+    assert.ok(stderr.includes(text.trim()), `${text} is not ${stderr}`);
+    // What there is of it can be looked at.
+    await seek(page, 1);
+    edit(scene, "explicit-euler", "rk4");
+    await mended(page);
+  },
+
+  async the_end_of_the_server_is_said({ browser, address, scene, open }) {
+    // The server is ended by a file that stands for its number.
+    const page = await open({ may: [/ERR_/] });
+    process.kill(Number(readFileSync(join(dirname(scene), "process"), "utf8")), "SIGINT");
+    await until(page, (jabuka) => /server does not answer/.test(jabuka.problem));
+  },
+});

@@ -1,0 +1,46 @@
+//! What is drawn, how the film is played, and that all of it is in reach.
+
+use crate::in_the_browser;
+use crate::server::Scene;
+use crate::support;
+
+fn parabola() -> Scene {
+    Scene::gallery("parabola")
+}
+
+in_the_browser! { parabola(), "drawing.mjs":
+    the_first_frame_is_drawn_by_itself,
+    the_ball_is_red_the_sky_above_is_blue_and_the_ground_below_is_not,
+    a_ball_that_has_moved_is_drawn_where_it_is_now,
+    a_camera_of_ones_own_shows_another_picture_and_the_scenes_the_same_as_before,
+}
+
+in_the_browser! { parabola(), "player.mjs":
+    the_space_key_goes_back_to_the_initial_state,
+    the_reset_button_does_the_same,
+    played_again_every_pose_is_what_it_was,
+    keys_and_buttons_step_from_frame_to_frame,
+    the_slider_scrubs_by_keyboard_and_by_mouse,
+    a_click_in_the_plot_goes_to_that_time,
+}
+
+in_the_browser! { parabola(), "reach.mjs":
+    all_controls_are_in_reach_on_a_phone,
+    the_tab_key_reaches_all_controls_and_shows_where_it_is,
+    keys_do_what_a_mouse_does,
+}
+
+#[test]
+fn every_scene_of_the_gallery_is_drawn_without_a_complaint() {
+    let scenes = std::fs::read_dir(support::root().join("scenes")).unwrap().filter_map(|entry| {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        name.strip_suffix(".toml").map(str::to_owned)
+    });
+    let scenes: Vec<String> = scenes.collect();
+    assert!(scenes.len() > 15, "{scenes:?}");
+    for name in scenes {
+        let server = Scene::gallery(&name).served();
+        println!("{name}");
+        server.shows("drawing.mjs", "it_draws_and_nothing_is_wrong");
+    }
+}

@@ -1,0 +1,47 @@
+// A frame by POV-Ray.
+
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { LONG, seek, tests, until } from "./browser.mjs";
+
+await tests({
+  /** Writes the image to `rendered.png`; the test compares. */
+  async a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await seek(page, 6);
+    await page.evaluate(() => {
+      window.said = [];
+      const status = document.getElementById("render-status");
+      const note = () => window.said.push([status.textContent, document.getElementById("rendered").naturalWidth]);
+      new MutationObserver(note).observe(status, { childList: true });
+    });
+    const images = [];
+    page.on("response", (response) => response.url().includes("/api/render") && images.push(response.body()));
+    await page.locator("#render").click();
+    await page.waitForFunction(() => /^frame 6, final$/.test(document.getElementById("render-status").textContent));
+    const said = await page.evaluate(() => window.said);
+    assert.match(said[0][0], /a draft is being made/);
+    assert.match(said[1][0], /the final image is being made/);
+    assert.equal(said[1][1], 96, "the draft is there by then");
+    const size = await page.locator("#rendered").evaluate((image) => [image.naturalWidth, image.naturalHeight]);
+    assert.deepEqual(size, [96, 72]);
+    const [draft, final] = await Promise.all(images);
+    assert.equal(images.length, 2);
+    assert.ok(!draft.equals(final));
+    writeFileSync("rendered.png", final);
+    assert.ok(await page.locator("#render").isEnabled());
+  },
+
+  async without_povray_the_error_is_shown({ open }) {
+    const page = await open({ may: [/422/] });
+    await until(page, (jabuka) => jabuka.settled);
+    await page.keyboard.press("r");
+    const problem = page.locator("#render-problem");
+    await problem.waitFor({ timeout: LONG });
+    process.stdout.write(await problem.innerText());
+    assert.ok(await page.locator("#render").isEnabled());
+    await page.keyboard.press("Space");
+    assert.equal(await page.evaluate(() => window.jabuka.frame), 0);
+  },
+});

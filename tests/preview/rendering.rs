@@ -1,0 +1,41 @@
+//! A frame by POV-Ray is the one that `jabuka still` makes.
+
+use std::fs;
+
+use crate::server::Scene;
+use crate::support::stderr;
+
+const SMALL: &str = "
+    simulation.duration = 1
+    [output]
+    size = [96, 72]
+    [body.ball]
+    shape.sphere.radius = 1
+    velocity = [1, 0, 0]
+    angular_velocity = [0, 1, 0]
+    material = 'marble'
+    ";
+
+#[test]
+fn a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image() {
+    let server = Scene::of(SMALL).served();
+    server.shows("rendering.mjs", "a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image");
+    // Frame 6 of 25 a second.
+    let still = ["still", "scene.toml", "--time", "0.24", "--quality", "final", "-o", "still.png"];
+    let output = server.scene.jabuka(&still).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let image = |name: &str| fs::read(server.scene.folder().join(name)).unwrap();
+    assert!(image("rendered.png") == image("still.png"), "it is not the image that `jabuka still` makes");
+}
+
+#[test]
+fn without_povray_the_error_is_shown() {
+    let povray = ["--povray", "/nonexistent/povray"];
+    let server = Scene::of(SMALL).previewed_with(&povray).served();
+    let shown = server.shows("rendering.mjs", "without_povray_the_error_is_shown");
+    let still = ["still", "scene.toml", "-o", "still.png"];
+    let output = server.scene.jabuka(&still).args(povray).output().unwrap();
+    assert!(!output.status.success());
+    assert!(shown.contains("/nonexistent/povray"), "{shown}");
+    assert_eq!(shown.trim(), stderr(&output).trim());
+}

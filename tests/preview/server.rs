@@ -1,0 +1,147 @@
+//! A preview that serves a scene from a folder of its own.
+
+use std::fs::{self, File};
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+
+use crate::support::{jabuka, root, scene};
+
+/// A folder with a scene, and what it needs; `jabuka` works there, so that nothing is written elsewhere.
+pub(crate) struct Scene {
+    folder: tempfile::TempDir,
+    name: String,
+    arguments: Vec<String>,
+}
+
+/// A preview that runs, and ends with this.
+pub(crate) struct Server {
+    pub(crate) scene: Scene,
+    child: Child,
+    /// The address that it has printed, with the token.
+    pub(crate) address: String,
+}
+
+impl Scene {
+    /// A scene as it is written here, in `scene.toml`.
+    pub(crate) fn of(text: &str) -> Scene {
+        Scene { name: "scene".to_owned(), ..Scene::in_folder() }.with("scene.toml", text)
+    }
+
+    /// A copy of a scene of the gallery.
+    pub(crate) fn gallery(name: &str) -> Scene {
+        let text = fs::read_to_string(scene(name)).unwrap();
+        let mesh = "meshes/twisted_ring.obj";
+        let ring = fs::read_to_string(root().join("scenes").join(mesh)).unwrap();
+        Scene { name: name.to_owned(), ..Scene::in_folder() }
+            .with(&format!("{name}.toml"), &text)
+            .with(mesh, &ring)
+    }
+
+    fn in_folder() -> Scene {
+        Scene { folder: tempfile::tempdir().unwrap(), name: String::new(), arguments: Vec::new() }
+    }
+
+    /// With another file beside it.
+    pub(crate) fn with(self, name: &str, text: &str) -> Scene {
+        let path = self.folder().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+        self
+    }
+
+    /// Previewed with further arguments.
+    pub(crate) fn previewed_with(mut self, arguments: &[&str]) -> Scene {
+        self.arguments.extend(arguments.iter().map(|&argument| argument.to_owned()));
+        self
+    }
+
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// The file of the scene.
+    pub(crate) fn path(&self) -> PathBuf {
+        self.folder().join(&self.name).with_extension("toml")
+    }
+
+    /// `jabuka` in the folder.
+    pub(crate) fn jabuka(&self, arguments: &[&str]) -> Command {
+        let mut command = jabuka();
+        command.current_dir(self.folder()).args(arguments);
+        command
+    }
+
+    /// Begins the preview.
+    pub(crate) fn served(self) -> Server {
+        let said = File::create(self.folder().join("stderr")).unwrap();
+        // What runs the tests in the background may have them ignore Ctrl-C, and children inherit that.
+        let mut command = Command::new("env");
+        command.arg("--default-signal=INT").arg(env!("CARGO_BIN_EXE_jabuka"));
+        command.arg("preview").arg(self.path()).arg("--no-open").args(&self.arguments);
+        command.current_dir(self.folder()).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(said);
+        let mut child = command.spawn().unwrap();
+        let mut address = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
+        let server = Server { scene: self, child, address: address.trim().to_owned() };
+        assert!(server.address.starts_with("http://127.0.0.1:"), "{:?}: {}", address, server.said());
+        server
+    }
+
+    /// Whether a test of a script holds while the scene is previewed.
+    pub(crate) fn shows(self, script: &str, test: &str) {
+        self.served().shows(script, test);
+    }
+}
+
+impl Server {
+    /// Runs a test of a script in a browser, which must succeed, and returns what it prints.
+    pub(crate) fn shows(&self, script: &str, test: &str) -> String {
+        let output = Command::new(root().join("tests/preview/browser"))
+            .args([script, test, &self.address])
+            .arg(self.scene.path())
+            .env("JABUKA", env!("CARGO_BIN_EXE_jabuka"))
+            .current_dir(self.scene.folder())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{test}: {said}\nthe server said: {}", self.said());
+        String::from_utf8(output.stdout).unwrap()
+    }
+
+    /// The port.
+    pub(crate) fn port(&self) -> u16 {
+        let host = self.address.strip_prefix("http://127.0.0.1:").unwrap();
+        host.split('/').next().unwrap().parse().unwrap()
+    }
+
+    /// The token, without which nobody is told anything of the scene.
+    pub(crate) fn token(&self) -> &str {
+        self.address.split_once("token=").unwrap().1
+    }
+
+    /// What it has said to standard error.
+    pub(crate) fn said(&self) -> String {
+        fs::read_to_string(self.scene.folder().join("stderr")).unwrap()
+    }
+
+    /// The number of its process.
+    pub(crate) fn process(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Sends it a signal, by its name, and waits for its end.
+    pub(crate) fn ended_by(mut self, signal: &str) -> ExitStatus {
+        let process = self.process().to_string();
+        assert!(Command::new("kill").args([&format!("-{signal}"), &process]).status().unwrap().success());
+        self.child.wait().unwrap()
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
