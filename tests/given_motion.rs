@@ -120,6 +120,23 @@ fn what_is_wrong_with_a_formula_is_said_with_its_place_and_time() {
     assert!(said.contains("scene.toml:3:42") && said.contains(", at t = 3.04 s"), "{said}");
 }
 
+/// By whatever name it goes.
+#[test]
+fn a_file_that_a_scene_is_made_from_is_not_overwritten() {
+    let csv = "t [s],x [m],y [m],z [m]\n0,0,0,0\n1,5,0,0\n";
+    let scene = "[body.a]\nshape.sphere.radius = 1\nmotion.trajectory.file = 'run.csv'\n";
+    let place = Place::new(&[("scene.toml", scene), ("run.csv", csv)]);
+    std::os::unix::fs::symlink(place.path("run.csv"), place.path("other.csv")).unwrap();
+    for name in ["run.csv", "other.csv"] {
+        let mut command = jabuka();
+        command.current_dir(place.0.path()).args(["export", "scene.toml", "-o", name]);
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains(&format!("`{name}` would be overwritten")), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(place.path("run.csv")).unwrap(), csv);
+}
+
 #[test]
 fn an_exported_run_drives_the_same_bodies() {
     let scene = "

@@ -1,24 +1,27 @@
-//! `jabuka export`: scene → a table of where everything is.
+//! `jabuka export`: scene → where everything is, for other programs.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use jabuka::diagnostic::Report;
-use jabuka::export::{ExportError, write_csv};
+use jabuka::diagnostic::{Diagnostic, Report};
+use jabuka::export::{ExportError, Exported, write_csv, write_glb};
 use jabuka::output::OutputError;
+use jabuka::scene::Scene;
 use jabuka::simulate::Selection;
 
-use super::scene_arguments::SceneArguments;
+use super::scene_arguments::{SceneArguments, spare};
+use super::summary::{bytes as size, two_digits};
 use super::{Failure, say};
 
-/// Write where all bodies are at every frame, as a CSV file
+/// Write where all bodies are at every frame: as a table (CSV), or as an animated model for Blender, three.js and others
+/// (binary glTF)
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file
     scene: PathBuf,
-    /// The file to write: FILE.csv
-    #[arg(short, long, value_name = "FILE.csv")]
+    /// The file to write: FILE.csv or FILE.glb
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Take only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
@@ -27,43 +30,104 @@ pub(super) struct Arguments {
     of_scene: SceneArguments,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let shown = arguments.output.display();
-    if arguments.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("csv")) {
-        return Err(Failure::Usage(format!("a table is a CSV file, and `{shown}` does not end in `.csv`")));
+/// What a run can be written as.
+enum Format {
+    Csv,
+    Glb,
+}
+
+impl Format {
+    /// The format that the ending of a file's name says.
+    fn of(path: &Path) -> Result<Format, Failure> {
+        let extension = path.extension().unwrap_or_default();
+        if extension.eq_ignore_ascii_case("csv") {
+            Ok(Format::Csv)
+        } else if extension.eq_ignore_ascii_case("glb") {
+            Ok(Format::Glb)
+        } else {
+            Err(Failure::Usage(format!(
+                "what is exported is a table, `.csv`, or a model, `.glb`, and `{}` ends in neither",
+                path.display()
+            )))
+        }
     }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let format = Format::of(&arguments.output)?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
+    spare(&scene, &arguments.output)?;
     let frames = scene.simulation.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
     if let Some(last) = selection.last().filter(|last| *last >= frames) {
         let message = format!("there is no frame {last}: the frames of this scene are 0 to {}", frames - 1);
         return Err(Failure::Usage(message));
     }
-    let rows = whole(&arguments.output, |file| write_csv(&scene, &selection, file)).map_err(|error| {
-        let error = match error {
-            ExportError::Io(error) => OutputError::Io(arguments.output.clone(), error),
-            ExportError::Diverged(error) => OutputError::from(error),
-        };
-        say::report(&Report { ..error.report() });
+    let done = match format {
+        Format::Csv => table(arguments, &scene, &selection),
+        Format::Glb => model(arguments, &scene, &selection),
+    };
+    let text = done.map_err(|error| {
+        say::report(&report(error, &arguments.output));
         Failure::Errors
     })?;
-    let times = selection.count_within(frames);
-    say::result(&format!("{shown}: {rows} rows, {times} times of {} bodies\n", scene.bodies.len()));
+    say::result(&format!("{}: {text}\n", arguments.output.display()));
     Ok(())
 }
 
+fn table(arguments: &Arguments, scene: &Scene, selection: &Selection) -> Result<String, ExportError> {
+    let rows = whole(&arguments.output, |file| write_csv(scene, selection, file))?;
+    let times = selection.count_within(scene.simulation.frames());
+    Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))
+}
+
+fn model(arguments: &Arguments, scene: &Scene, selection: &Selection) -> Result<String, ExportError> {
+    let Exported { frames, bytes, faster } =
+        whole(&arguments.output, |file| write_glb(scene, selection, file))?;
+    let bodies = match scene.bodies.len() {
+        1 => "1 body".to_owned(),
+        bodies => format!("{bodies} bodies"),
+    };
+    let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
+    // What is too slow or too fast to be seen is shown at the rate of a film.
+    let shown = match faster {
+        1.0 => String::new(),
+        _ => format!(" ({} times as fast as in life)", two_digits(faster)),
+    };
+    Ok(format!("{bodies}, {frames}{shown}, {}", size(bytes)))
+}
+
+fn report(error: ExportError, path: &Path) -> Report {
+    match error {
+        ExportError::Io(error) => OutputError::Io(path.to_owned(), error).report(),
+        ExportError::Diverged(error) => OutputError::from(error).report(),
+        ExportError::TooLarge(_) | ExportError::OutOfRange { .. } => {
+            let message = format!("`{}`: {error}", path.display());
+            let diagnostic = Diagnostic::error("cannot-export", message);
+            let help = error.help();
+            Report {
+                diagnostics: vec![match help {
+                    Some(help) => diagnostic.help(help),
+                    None => diagnostic,
+                }],
+                ..Report::default()
+            }
+        }
+    }
+}
+
 /// Writes a file that appears whole or not at all.
-fn whole(
+fn whole<T>(
     path: &Path,
-    write: impl FnOnce(BufWriter<fs::File>) -> Result<usize, ExportError>,
-) -> Result<usize, ExportError> {
+    write: impl FnOnce(BufWriter<fs::File>) -> Result<T, ExportError>,
+) -> Result<T, ExportError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
     // What a killed run has left.
     let _ = fs::remove_file(&temporary);
     let done = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(ExportError::from);
     let done = done.and_then(|file| write(BufWriter::new(file)));
-    let done = done.and_then(|rows| fs::rename(&temporary, path).map(|()| rows).map_err(ExportError::from));
+    let done = done.and_then(|what| fs::rename(&temporary, path).map(|()| what).map_err(ExportError::from));
     done.inspect_err(|_| {
         // What could not be written may not be there.
         let _: io::Result<()> = fs::remove_file(&temporary);

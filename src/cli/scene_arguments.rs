@@ -53,6 +53,16 @@ impl SceneArguments {
     }
 }
 
+/// Refuses to write what a scene was read from.
+pub(super) fn spare(scene: &Scene, output: &Path) -> Result<(), Failure> {
+    if scene.is_made_from(output) {
+        let message = format!("`{}` would be overwritten, and the scene is made from it", output.display());
+        say::report(&Report::of_error("cannot-overwrite", message));
+        return Err(Failure::Errors);
+    }
+    Ok(())
+}
+
 /// Says the errors of a scene.
 fn errors(report: &Report) -> Failure {
     say::report(report);

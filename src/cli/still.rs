@@ -14,7 +14,7 @@ use super::povray_arguments::PovRayArguments;
 use super::progress::Progress;
 use super::render::{failed, render};
 use super::run_arguments;
-use super::scene_arguments::SceneArguments;
+use super::scene_arguments::{SceneArguments, spare};
 use super::{Failure, interrupt, say};
 
 /// Render one moment of a scene
@@ -49,6 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     arguments.povray.look().map_err(|error| failed(&error))?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
+    spare(&scene, &arguments.output)?;
     let view = arguments.view.as_deref().map(|name| run_arguments::view(&scene, name)).transpose()?;
     check_time(&scene, arguments.time)?;
 

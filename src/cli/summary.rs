@@ -68,13 +68,13 @@ fn percent(part: f64) -> String {
 }
 
 /// A number to two digits.
-fn two_digits(number: f64) -> String {
+pub(super) fn two_digits(number: f64) -> String {
     let rounded: f64 = format!("{number:.1e}").parse().unwrap_or(number);
     if (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 #[allow(clippy::cast_precision_loss, reason = "three digits of it are shown")]
-fn bytes(bytes: u64) -> String {
+pub(super) fn bytes(bytes: u64) -> String {
     let (mut amount, mut unit) = (bytes as f64, "B");
     for larger in ["kB", "MB", "GB", "TB"] {
         if amount < 1000.0 {

@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use csv::WriterBuilder;
 
+use super::ExportError;
 use crate::scene::Scene;
-use crate::simulate::{Diverged, Frames, Selection};
+use crate::simulate::{Frames, Selection};
 
 /// The columns, with their units.
 pub const HEADER: [&str; 15] = [
@@ -58,25 +59,4 @@ pub fn write_csv(scene: &Scene, selection: &Selection, out: impl Write) -> Resul
     }
     csv.flush()?;
     Ok(rows)
-}
-
-/// Why a run cannot be exported.
-#[derive(Debug)]
-pub enum ExportError {
-    /// It cannot be written.
-    Io(io::Error),
-    /// The run leaves the numbers.
-    Diverged(Diverged),
-}
-
-impl From<io::Error> for ExportError {
-    fn from(error: io::Error) -> ExportError {
-        ExportError::Io(error)
-    }
-}
-
-impl From<Diverged> for ExportError {
-    fn from(error: Diverged) -> ExportError {
-        ExportError::Diverged(error)
-    }
 }

@@ -1,5 +1,9 @@
 //! Frames → data for other programs.
 
 mod csv;
+mod error;
+mod glb;
 
-pub use self::csv::{ExportError, HEADER, write_csv};
+pub use self::csv::{HEADER, write_csv};
+pub use self::error::ExportError;
+pub use self::glb::{Exported, write_glb};

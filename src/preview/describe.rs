@@ -80,6 +80,8 @@ struct PieceText {
     color: Option<Color3>,
     /// Whether it has no end.
     plane: bool,
+    /// Whether it is round from all sides.
+    ball: bool,
     /// The radius of a ball of the body's volume, by which patterns are measured.
     radius: f64,
 }
@@ -228,6 +230,7 @@ fn placed(scene: &Scene) -> Vec<PieceText> {
                 turn: DQuat::to_array(&orientation),
                 color: color.map(|Color(color)| color),
                 plane: matches!(form, Form::Plane),
+                ball: matches!(form, Form::Ball),
                 radius,
             }
         }));

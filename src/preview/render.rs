@@ -12,7 +12,7 @@ use super::run::{RunId, Simulation};
 use crate::Run;
 use crate::diagnostic::Report;
 use crate::output::{self, Folder, OutputError};
-use crate::render::{Images, Job, PovRay, Quality, RenderError, Sequence, options};
+use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 
 /// Renders one frame after another.
 pub(super) struct Renderer {
@@ -64,11 +64,6 @@ impl Renderer {
         Renderer { povray, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
-    /// Whether there is a POV-Ray.
-    pub(super) fn is_there(&self) -> bool {
-        PovRay::locate(self.povray.as_deref()).is_ok()
-    }
-
     /// Ends what is being rendered: the server ends.
     pub(super) fn end(&self) {
         let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -100,23 +95,22 @@ impl Renderer {
             return Err(Failed::Gone);
         }
         let scene = &run.scene;
-        let whole = Run::surveyed(scene, outcome.survey.clone()).map_err(|error| of_output(error.into()))?;
+        let whole = Run::surveyed(scene, outcome.survey.clone()).map_err(OutputError::from)?;
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
-        let seen = seen.map_err(|error| of_output(error.into()))?.unwrap_or(whole);
+        let seen = seen.map_err(OutputError::from)?.unwrap_or(whole);
         // No scene has this name.
-        let folder =
-            Folder::open(&Path::new("out").join(format!("{}.preview", scene.name))).map_err(of_output)?;
+        let folder = Folder::open(&Path::new("out").join(format!("{}.preview", scene.name)))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
-        output::write_moment(&seen, &folder, time).map_err(of_output)?;
+        output::write_moment(&seen, &folder, time)?;
         self.image(&folder, time, wanted.fine, stop)
     }
 
     fn image(&self, folder: &Folder, time: f64, fine: bool, stop: &AtomicBool) -> Result<Vec<u8>, Failed> {
-        let mut sequence = Sequence::open(folder.path(), None).map_err(of_render)?;
+        let mut sequence = Sequence::open(folder.path(), None)?;
         sequence.moment = Some(time);
-        let images = Images::open(&folder.path().join("images")).map_err(of_render)?;
-        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory()).map_err(of_render)?;
+        let images = Images::open(&folder.path().join("images"))?;
+        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory())?;
         let quality = if fine { Quality::Final } else { Quality::Draft };
         let job = Job {
             sequence: &sequence,
@@ -129,7 +123,7 @@ impl Renderer {
             keep_going: false,
             time_limit: None,
         };
-        let outcome = job.run(&mut |_| {}, stop).map_err(of_render)?;
+        let outcome = job.run(&mut |_| {}, stop)?;
         if let Some(fault) = outcome.failed.first() {
             return Err(Failed::Report(fault.report()));
         }
@@ -138,12 +132,4 @@ impl Renderer {
         };
         Ok(fs::read(images.image(&script.name))?)
     }
-}
-
-fn of_output(error: OutputError) -> Failed {
-    Failed::Report(error.report())
-}
-
-fn of_render(error: RenderError) -> Failed {
-    Failed::Report(error.report())
 }

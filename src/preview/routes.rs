@@ -37,6 +37,8 @@ use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
 use super::{describe, samples, shown};
 use crate::diagnostic::Report;
+use crate::output::OutputError;
+use crate::render::RenderError;
 
 /// What all answers are made from.
 #[derive(Clone)]
@@ -117,6 +119,18 @@ pub(super) enum Failed {
 impl From<std::io::Error> for Failed {
     fn from(error: std::io::Error) -> Failed {
         Failed::Io(error)
+    }
+}
+
+impl From<OutputError> for Failed {
+    fn from(error: OutputError) -> Failed {
+        Failed::Report(error.report())
+    }
+}
+
+impl From<RenderError> for Failed {
+    fn from(error: RenderError) -> Failed {
+        Failed::Report(error.report())
     }
 }
 

@@ -72,11 +72,10 @@ mod tests {
             [body.hammer]
             velocity = [1, 2, 3]
             angular_velocity = [3, 1, 0.2]
-            [[body.hammer.shape.compound.parts]]
-            cylinder = { radius = 0.1, height = 1 }
-            [[body.hammer.shape.compound.parts]]
-            box.size = [0.4, 0.2, 0.1]
-            location = [0.1, 0.5, 0]
+            shape.compound.parts = [
+              { cylinder = { radius = 0.1, height = 1 } },
+              { box.size = [0.4, 0.2, 0.1], location = [0.1, 0.5, 0] },
+            ]
             ",
         )
         .unwrap();

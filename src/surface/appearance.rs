@@ -34,7 +34,7 @@ pub enum Motif {
     /// Six sectors around y, in the colors [`BEACH_BALL`]; the poles, from |y| = 0.911 on, have the second color. The
     /// color of the whole is the mean.
     BeachBall,
-    /// Tiles of both colors by turns, on a plane.
+    /// Tiles of edge 1 of both colors by turns, on a plane along x and z; the one from 0 to 1 has the second color.
     Ground,
 }
 
@@ -63,6 +63,17 @@ impl Appearance {
 
     fn patterned(self, pattern: Motif, second: Color) -> Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
+    }
+
+    /// The colors of its pattern, in the order of [`Motif::split`]; without one, its color.
+    #[must_use]
+    pub fn colors(&self) -> Vec<[f64; 3]> {
+        let [red, green, blue, _] = self.color;
+        let first = match self.pattern {
+            Motif::BeachBall => BEACH_BALL.map(Color::linear).to_vec(),
+            _ => vec![[red, green, blue]],
+        };
+        first.into_iter().chain(self.second).collect()
     }
 
     /// The color for one that draws no patterns: the mean of both.
@@ -104,7 +115,7 @@ fn plain(color: Color, finish: Finish) -> Appearance {
 }
 
 /// A material of the library whose color is given, if it takes one. Where its pattern has shades of that color, the
-/// color is their mean.
+/// color is their mean, as measured over a ball that POV-Ray draws in even light.
 fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     let tint = tint.linear();
     let opaque = |shade: f64, metallic: f64, roughness: f64| {
@@ -120,7 +131,7 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
         "gold" | "silver" => opaque(1.0, 1.0, 0.2),
         "chrome" => opaque(1.0, 1.0, 0.05),
         "steel" => opaque(1.0, 1.0, 0.4),
-        "iron" => opaque(0.95, 1.0, 0.65),
+        "iron" => opaque(0.96, 1.0, 0.65),
         "glass" => clear(0.35, 0.02),
         "tinted_glass" => clear(0.5, 0.02),
         "water" => clear(0.45, 0.05),
@@ -129,31 +140,31 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
         "plastic" => opaque(1.0, 0.0, 0.35),
         "rubber" => opaque(1.0, 0.0, 0.8),
         "porcelain" => opaque(1.0, 0.0, 0.1),
-        "car_paint" => opaque(0.9, 0.3, 0.2),
+        "car_paint" => opaque(0.8, 0.3, 0.2),
         "neon" => opaque(1.0, 0.0, 1.0),
-        // Bright at the rim, and dark where it is seen from above, which is more of it.
-        "velvet" => opaque(0.6, 0.0, 1.0),
+        "velvet" => opaque(0.66, 0.0, 1.0),
         "felt" => opaque(0.88, 0.0, 1.0),
-        "paper" => opaque(0.97, 0.0, 0.95),
-        "chalk" => opaque(0.95, 0.0, 1.0),
-        "cork" => opaque(0.8, 0.0, 0.95),
-        "clay" | "terracotta" => opaque(0.96, 0.0, 0.95),
-        "concrete" | "sandstone" => opaque(0.92, 0.0, 0.95),
-        "marble" => opaque(0.88, 0.0, 0.2),
-        "granite" => opaque(0.9, 0.0, 0.15),
+        "paper" => opaque(0.96, 0.0, 0.95),
+        "chalk" => opaque(0.97, 0.0, 1.0),
+        "cork" => opaque(1.0, 0.0, 0.95),
+        "clay" => opaque(0.97, 0.0, 0.95),
+        "terracotta" => opaque(1.0, 0.0, 0.95),
+        "concrete" => opaque(0.93, 0.0, 0.95),
+        "sandstone" => opaque(0.96, 0.0, 0.95),
+        "marble" => opaque(0.87, 0.0, 0.2),
+        "granite" => opaque(0.85, 0.0, 0.15),
         "jade" => opaque(0.95, 0.0, 0.2),
-        "wood" => opaque(0.85, 0.0, 0.5),
-        "dark_wood" => opaque(0.82, 0.0, 0.25),
+        "wood" => opaque(0.87, 0.0, 0.5),
+        "dark_wood" => opaque(0.85, 0.0, 0.25),
         "checkered" => opaque(1.0, 0.0, 0.3).patterned(Motif::Checkered, WHITE),
         "striped" => opaque(1.0, 0.0, 0.3).patterned(Motif::Striped, WHITE),
         "beach_ball" => Appearance::new(mean(&BEACH_BALL), 0.0, 0.3).patterned(Motif::BeachBall, WHITE),
-        "moon" => opaque(0.8, 0.0, 1.0),
-        // Two thirds ocean, some land, and clouds.
-        "earth" => Appearance::new(Color([0.38, 0.48, 0.6]).linear(), 0.0, 0.7),
-        "gas_giant" => opaque(0.85, 0.0, 1.0),
+        "moon" => opaque(0.85, 0.0, 1.0),
+        "earth" => Appearance::new(Color([0.59, 0.62, 0.66]).linear(), 0.0, 0.7),
+        "gas_giant" => opaque(0.9, 0.0, 1.0),
         "sun" => {
             let [red, green, blue] = tint;
-            Appearance::new([red * 1.1, green * 0.9, blue * 0.7], 0.0, 1.0)
+            Appearance::new([red * 0.98, green * 0.83, blue * 0.67], 0.0, 1.0)
         }
         _ => opaque(1.0, 0.0, 0.5),
     };

@@ -8,6 +8,7 @@ mod appearance;
 mod form;
 mod lathe;
 mod mesh;
+mod motif;
 pub(crate) mod normals;
 mod piece;
 mod straight;

@@ -86,6 +86,11 @@ impl Page {
         let run = |command: &str| {
             // The binary is built already; building it in the folder of the test would need the whole project.
             let short = command.replace("cargo run --release --", "jabuka");
+            // What serves until somebody ends it is ended, and leaves the browser alone.
+            let short = match short.starts_with("jabuka preview") {
+                true => format!("timeout --signal=INT 1 {short} --no-open"),
+                false => short,
+            };
             let output = Command::new("bash")
                 .args(["-c", &format!("exec 2>&1; {short}")])
                 .current_dir(self.folder.path())
@@ -126,14 +131,15 @@ fn pixels(path: &Path) -> Vec<u8> {
     output.unwrap().stdout
 }
 
-/// The lines of a page, without the seconds that a run took, and what depends on them.
+/// The lines of a page, without the seconds that a run took and what depends on them, and without addresses.
 fn untimed(page: &str) -> Vec<&str> {
     page.lines().map(untimed_line).collect()
 }
 
 fn untimed_line(line: &str) -> &str {
-    const SLOWEST: &str = "slowest   ";
-    if line.starts_with(SLOWEST) { SLOWEST } else { unclocked(line) }
+    const DIFFERENT: [&str; 2] = ["slowest   ", "http://127.0.0.1:"];
+    let is_different = |begin: &&str| line.starts_with(begin);
+    DIFFERENT.into_iter().find(is_different).unwrap_or_else(|| unclocked(line))
 }
 
 /// A line without the seconds at its end.

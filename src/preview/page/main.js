@@ -38,7 +38,8 @@ async function changed(state) {
   sayProblem();
   for (const run of [open.run, open.other]) {
     const progress = run && state.runs[run.id];
-    if (progress) await run.progressed(progress);
+    // When a run is finished, it is known where its camera stands.
+    if (progress && (await run.progressed(progress)) && run === open.run) paint(run);
   }
   await refresh();
   redraw();
@@ -107,7 +108,10 @@ async function opened(id) {
 async function show(id, serial) {
   let run;
   try {
-    run = await opened(id);
+    const opening = opened(id);
+    // To start the graphics processor takes as long as to fetch a run, so both are done at once.
+    if (!startPainter()) return;
+    run = await opening;
   } catch (error) {
     // It has been replaced meanwhile; the next state tells by what.
     if (error.status === 404) return;
@@ -124,11 +128,17 @@ async function show(id, serial) {
   if (id === open.state.current) open.integrator = run.description.integrator;
   if (open.view > run.description.views.length) open.view = 0;
   player.take(run);
-  painter.take(run);
-  open.strobes = null;
+  paint(run);
   panel.take(run);
   describe(run);
   if (open.other) await compare(open.other.id, serial);
+}
+
+/** Makes the picture that of a run. */
+function paint(run) {
+  painter.take(run);
+  open.strobes = null;
+  if (open.other) painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
 }
 
 async function compare(id, serial) {
@@ -144,7 +154,20 @@ async function compare(id, serial) {
   if (open.other !== run) open.other?.close();
   open.other = run;
   run.changed = () => redraw();
-  painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
+  paint(open.run);
+}
+
+/** Makes what draws, at the first time; tells whether it is there. */
+function startPainter() {
+  if (painter !== undefined) return painter !== null;
+  try {
+    painter = new Painter(element("picture"));
+  } catch (error) {
+    painter = null;
+    element("nothing").textContent = error.message;
+    element("nothing").hidden = false;
+  }
+  return painter !== null;
 }
 
 /** What stays the same while a run is shown. */
@@ -154,7 +177,7 @@ function describe(run) {
   document.title = `${title} – jabuka`;
   element("title").textContent = title;
   element("time").max = run.frames - 1;
-  for (const [id, none] of [["integrator", `${open.integrator} (the scene's)`], ["other-integrator", "nothing"]]) {
+  for (const [id, none] of [["integrator", `scene: ${open.integrator}`], ["other-integrator", "nothing"]]) {
     const select = element(id);
     const value = select.value;
     const options = description.methods.map(({ name, summary }) => Object.assign(new Option(name), { title: summary }));
@@ -223,7 +246,7 @@ function posesAt(run, position) {
 
 function draw() {
   const { run } = open;
-  if (!run || !painter.batches.run) return;
+  if (!run || !painter?.batches.run) return;
   const { position, frame } = player;
   run.want(frame, open.view);
   const at = posesAt(run, position);
@@ -527,6 +550,7 @@ function listen() {
   element("camera").onclick = act(toggleCamera);
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;
+  element("image-close").onclick = act(() => (element("image").hidden = true));
   element("help").onclick = () => element("keys").showModal();
   for (const id of ["integrator", "step", "other-integrator", "other-step"]) {
     element(id).onchange = async () => {
@@ -604,12 +628,6 @@ function begin() {
     return;
   }
   nothing.textContent = "…";
-  try {
-    painter = new Painter(element("picture"));
-  } catch (error) {
-    nothing.textContent = error.message;
-    return;
-  }
   listen();
   let queue = Promise.resolve();
   const lost = () => {

@@ -10,6 +10,13 @@ const MOTIFS = { none: 0, ground: 0, checkered: 1, striped: 2, "beach-ball": 3 }
 const SHADOW = 1024;
 /** With more vertices than this, shadows would take too long. */
 const MOST_SHADOWED = 4e6;
+/** More balls than this are drawn as squares that face the eye. */
+const MOST_ROUND = 200;
+const FACING = {
+  positions: new Float32Array([-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0]),
+  normals: new Float32Array(12),
+  indices: new Uint32Array([0, 1, 2, 2, 1, 3]),
+};
 
 export class Painter {
   constructor(canvas) {
@@ -17,8 +24,8 @@ export class Painter {
     if (!gl) throw new Error("This browser has no WebGL2, by which the picture is drawn.");
     this.gl = gl;
     this.canvas = canvas;
-    this.body = program(gl, shaders.BODY_VERTEX, shaders.BODY_FRAGMENT);
-    this.depth = program(gl, shaders.BODY_VERTEX, shaders.DEPTH_FRAGMENT);
+    /** The programs for bodies, each made when it is first needed. */
+    this.programs = new Map();
     this.ground = program(gl, shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT);
     this.sky = program(gl, shaders.SKY_VERTEX, shaders.SKY_FRAGMENT);
     this.line = program(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
@@ -54,13 +61,16 @@ export class Painter {
         const material = description.materials[description.bodies[body].material] ?? PLAIN;
         const clear = !piece.color && material.color[3] < 1;
         const key = `${piece.form} ${clear}`;
-        if (!groups.has(key)) groups.set(key, { form: piece.form, clear, numbers: [] });
+        if (!groups.has(key)) groups.set(key, { form: piece.form, ball: piece.ball, clear, numbers: [] });
         groups.get(key).numbers.push(...instance(piece, material, pose, space.size, pale));
       }
     }
-    const made = [...groups.values()].map(({ form, clear, numbers }) => {
-      const { vertices, buffer } = instances(gl, this.forms[form], new Float32Array(numbers));
-      return { form: this.forms[form], clear, vertices, buffer, count: numbers.length / INSTANCE };
+    const made = [...groups.values()].map(({ form, ball, clear, numbers }) => {
+      const count = numbers.length / INSTANCE;
+      const kind = ball && count > MOST_ROUND ? "BALLS" : "BODY";
+      const shape = kind === "BALLS" ? (this.facing ??= upload(gl, FACING)) : this.forms[form];
+      const { vertices, buffer } = instances(gl, shape, new Float32Array(numbers));
+      return { form: shape, kind, clear, vertices, buffer, count };
     });
     made.sort((a, b) => Number(a.clear) - Number(b.clear));
     const count = bodies.reduce((most, { pose }) => Math.max(most, pose + 1), 1);
@@ -114,7 +124,7 @@ export class Painter {
     const around = surroundings(description);
     const light = this.lamps(lamps, around);
     const shaded = this.batches.run.total < MOST_SHADOWED && light.shade;
-    if (shaded) this.drawShadows(light.shade);
+    if (shaded) this.drawShadows({ shade: light.shade, light: unit(light.sorted[0].location) });
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -145,14 +155,16 @@ export class Painter {
     return product(orthographic(0.62, 0.62, 0.5, 4), lookAt(eye, axesOf(eye, [0, 0, 0])));
   }
 
-  drawShadows(shade) {
+  drawShadows({ shade, light }) {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadow.framebuffer);
     gl.viewport(0, 0, SHADOW, SHADOW);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    gl.useProgram(this.depth.program);
-    gl.uniformMatrix4fv(this.depth.at("u_clip"), false, new Float32Array(shade));
-    this.groups("run", this.depth, () => true);
+    this.groups("run", "depth", (shader) => {
+      gl.useProgram(shader.program);
+      gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(shade));
+      gl.uniform3fv(shader.at("u_toward"), light);
+    });
   }
 
   set(shader, view, light, around, shaded) {
@@ -240,14 +252,13 @@ export class Painter {
 
   drawBodies(name, ghost) {
     if (!this.batches[name]) return;
-    const { gl, body } = this;
-    this.common(body);
-    gl.uniform4fv(body.at("u_ghost"), ghost);
-    if (ghost[3] > 0) this.blended(() => this.groups(name, body, () => true));
-    else {
-      this.groups(name, body, (group) => !group.clear);
-      this.blended(() => this.groups(name, body, (group) => group.clear));
-    }
+    const ready = (shader) => {
+      this.common(shader);
+      this.gl.uniform4fv(shader.at("u_ghost"), ghost);
+    };
+    if (ghost[3] > 0) return this.blended(() => this.groups(name, "body", ready));
+    this.groups(name, "body", ready, (group) => !group.clear);
+    this.blended(() => this.groups(name, "body", ready, (group) => group.clear));
   }
 
   blended(draw) {
@@ -260,16 +271,29 @@ export class Painter {
     gl.disable(gl.BLEND);
   }
 
-  groups(name, shader, which) {
+  /** Draws groups of a batch for a purpose, by the programs for their kinds, each of which is made `ready` first. */
+  groups(name, purpose, ready, which = () => true) {
     const { gl } = this;
     const batch = this.batches[name];
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, batch.poses.texture);
-    gl.uniform1i(shader.at("u_poses"), 0);
+    let last;
     for (const group of batch.groups.filter(which)) {
+      const shader = this.programOf(group.kind, purpose);
+      if (shader !== last) {
+        ready(shader);
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, batch.poses.texture);
+        gl.uniform1i(shader.at("u_poses"), 0);
+        last = shader;
+      }
       gl.bindVertexArray(group.vertices);
       gl.drawElementsInstanced(gl.TRIANGLES, group.form.count, gl.UNSIGNED_INT, 0, group.count);
     }
+  }
+
+  programOf(kind, purpose) {
+    const key = `${kind} ${purpose}`;
+    if (!this.programs.has(key)) this.programs.set(key, program(this.gl, ...shaders[kind][purpose]));
+    return this.programs.get(key);
   }
 
   drawLines(lines, view) {
@@ -288,8 +312,8 @@ export class Painter {
   /** The number of the body at a pixel; undefined where there is none. */
   pick(view, x, y) {
     const { gl } = this;
-    this.picking ??= { ...pickTarget(gl), shader: program(gl, shaders.BODY_VERTEX, shaders.PICK_FRAGMENT) };
-    const { framebuffer, shader } = this.picking;
+    this.picking ??= pickTarget(gl);
+    const { framebuffer } = this.picking;
     const [w, h] = [this.canvas.width, this.canvas.height];
     // Only the one pixel is drawn: the picture is moved so that it is there.
     const place = new Float64Array([w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1]);
@@ -297,9 +321,12 @@ export class Painter {
     gl.viewport(0, 0, 1, 1);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.useProgram(shader.program);
-    gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(product(place, view.clip)));
-    this.groups("run", shader, () => true);
+    this.groups("run", "pick", (shader) => {
+      gl.useProgram(shader.program);
+      gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(product(place, view.clip)));
+      gl.uniform3fv(shader.at("u_eye"), view.eye);
+      gl.uniform3fv(shader.at("u_toward"), view.toward);
+    });
     const pixel = new Uint8Array(4);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);

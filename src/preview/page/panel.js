@@ -55,7 +55,8 @@ export class Panel {
     const n = known.subarray(at, at + 14);
     const description = run.description.bodies[body];
     const three = (i) => Array.from(n.subarray(i, i + 3));
-    const written = (v, unit) => `${v.map((c) => short(c)).join(", ")} ${unit}`;
+    // What is left of a component by rounding is nothing.
+    const written = (v, unit) => `${v.map((c) => short(Math.abs(c) < 1e-12 * length(v) ? 0 : c)).join(", ")} ${unit}`;
     this.fill([
       ["kind", { free: "moves freely", fixed: "fixed", driven: "its motion is given" }[description.kind]],
       ["mass", `${short(description.mass)} kg`],

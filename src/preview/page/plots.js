@@ -46,6 +46,11 @@ export class Plots {
     return PLOTS[this.choice.selectedIndex];
   }
 
+  /** What is plotted, as far as other numbers are needed for it. */
+  get key() {
+    return `${this.plot.of} ${this.plot.of === "body" ? this.body : ""}`;
+  }
+
   get end() {
     const run = this.runs[0]?.run;
     return run ? (run.frames - 1) / run.rate || 1 : 1;
@@ -59,8 +64,10 @@ export class Plots {
     this.load();
   }
 
-  /** Fetches what has come since. */
+  /** Fetches what has come since; of a run that goes on, not more often than can be followed. */
   async load() {
+    const goesOn = this.runs.some(({ run, numbers }) => numbers && !run.progress?.settled);
+    if (goesOn && performance.now() - this.loaded < 400 && this.runs.every(({ of }) => of === this.key)) return;
     if (this.loading) {
       this.again = true;
       return;
@@ -68,9 +75,9 @@ export class Plots {
     this.loading = true;
     do {
       this.again = false;
-      const { plot, body } = this;
+      const { plot, body, key } = this;
+      this.loaded = performance.now();
       for (const each of this.runs) {
-        const key = `${plot.of} ${plot.of === "body" ? body : ""}`;
         const recorded = each.run.progress?.recorded ?? 0;
         if (each.of === key && each.recorded === recorded) continue;
         try {
@@ -129,7 +136,6 @@ export class Plots {
     context.lineWidth = 1;
     for (const level of levels(low, high, 3)) {
       line(context, [[0, y(level)], [w, y(level)]]);
-      context.fillText(short(level), 2, Math.max(10, y(level) - 3));
     }
     shown.forEach(({ numbers }, which) => {
       context.setLineDash(which ? [5, 4] : []);
@@ -142,6 +148,14 @@ export class Plots {
       }
     });
     context.setLineDash([]);
+    // The numbers stand on all curves, with an edge of the color of the paper.
+    context.strokeStyle = ink("--paper");
+    context.lineWidth = 3;
+    for (const level of levels(low, high, 3)) {
+      const place = [short(level), 2, Math.max(10, y(level) - 3)];
+      context.strokeText(...place);
+      context.fillText(...place);
+    }
     if (this.time !== undefined) {
       context.strokeStyle = ink("--accent");
       context.lineWidth = 1.5;

@@ -8,6 +8,7 @@ const BUDGET = 256 << 20;
 const PIECE = 2 << 20;
 /** The numbers of a body that say where it is: location and orientation. */
 const POSE = 7;
+const NOTHING = new Float64Array();
 
 export class Run {
   constructor(id, description, forms) {
@@ -29,9 +30,8 @@ export class Run {
 
   /** Fetches what stays the same in a run. */
   static async open(id) {
-    const description = await json(`/api/runs/${id}`);
-    const forms = readForms(await binary(`/api/runs/${id}/forms`));
-    return new Run(id, description, forms);
+    const [description, forms] = await Promise.all([json(`/api/runs/${id}`), binary(`/api/runs/${id}/forms`)]);
+    return new Run(id, description, readForms(forms));
   }
 
   get frames() {
@@ -47,21 +47,24 @@ export class Run {
     return Math.max(0, Math.min(this.frames - 1, Math.round(time * this.rate)));
   }
 
-  /** Takes note of how far the run is. */
+  /** Takes note of how far the run is; tells whether it is another description that holds now. */
   async progressed(progress) {
     const settled = progress.settled && !this.progress?.settled;
+    const isNew = settled && !this.description.stage && !progress.problem;
     this.progress = progress;
-    if (settled && !this.description.stage && !progress.problem) {
+    if (isNew) {
       this.description = await json(`/api/runs/${this.id}`);
       this.shown.clear();
     }
     if (settled && this.description.bodies.some((body) => body.ghosts)) {
       this.ghosts = await json(`/api/runs/${this.id}/ghosts`);
     }
+    return isNew;
   }
 
   /** Where the bodies are in a frame: locations of all, then orientations of all; undefined until it is fetched. */
   poses(frame) {
+    if (!this.bodies) return frame < (this.progress?.recorded ?? 0) ? NOTHING : undefined;
     const piece = this.pieces.get(Math.floor(frame / this.together));
     const at = frame % this.together;
     if (!piece || at >= piece.frames) return undefined;
@@ -119,23 +122,30 @@ export class Run {
 
   /** The number of the next piece to be fetched ahead of need, from the present frame on. */
   next(frame, recorded) {
+    if (!this.bodies) return undefined;
     const count = Math.ceil(recorded / this.together);
     const room = Math.max(2, Math.floor(BUDGET / (this.frameBytes * this.together)));
     const first = Math.floor(frame / this.together);
     for (let ahead = 0; ahead < Math.min(count, room - 1); ahead++) {
       const number = (first + ahead) % count;
-      const whole = Math.min(this.together, recorded - number * this.together);
-      if ((this.pieces.get(number)?.frames ?? 0) < whole) return number;
+      const there = Math.min(this.together, recorded - number * this.together);
+      // What is still growing is fetched when it is needed, or whole.
+      const grows = there < this.together && !this.progress.settled;
+      if (!grows && (this.pieces.get(number)?.frames ?? 0) < there) return number;
     }
     return undefined;
   }
 
   async fetchPoses(number, recorded) {
-    const from = number * this.together;
-    const to = Math.min(from + this.together, recorded);
-    const bytes = await binary(`/api/runs/${this.id}/poses`, { from, to });
-    const numbers = new Float64Array(bytes);
-    this.pieces.set(number, { numbers, frames: Math.floor(bytes.byteLength / this.frameBytes), used: performance.now() });
+    const before = this.pieces.get(number);
+    const first = number * this.together;
+    const from = first + (before?.frames ?? 0);
+    const to = Math.min(first + this.together, recorded);
+    const more = new Float64Array(await binary(`/api/runs/${this.id}/poses`, { from, to }));
+    const numbers = new Float64Array((before?.numbers.length ?? 0) + more.length);
+    if (before) numbers.set(before.numbers);
+    numbers.set(more, before?.numbers.length ?? 0);
+    this.pieces.set(number, { numbers, frames: Math.floor((8 * numbers.length) / this.frameBytes), used: performance.now() });
     const room = Math.max(2, Math.floor(BUDGET / (this.frameBytes * this.together)));
     while (this.pieces.size > room) {
       const oldest = [...this.pieces].reduce((a, b) => (a[1].used < b[1].used ? a : b));

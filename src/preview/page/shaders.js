@@ -12,7 +12,7 @@ vec3 turned(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t
 `;
 
 /** Bodies: forms that are scaled and placed in a body, whose pose stands in a texture. */
-export const BODY_VERTEX = `${HEAD}${TURN}
+const BODY_VERTEX = `${HEAD}${TURN}
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec3 a_offset;
@@ -45,9 +45,12 @@ void main() {
   gl_Position = u_clip * vec4(v_place, 1.0);
 }`;
 
-const LIGHT = `
+const EYE = `
 uniform vec3 u_eye;
 uniform vec3 u_toward;        // without perspective: where all eyes look from
+`;
+
+const LIGHT = `${EYE}
 uniform int u_lamps;
 uniform vec4 u_lamp[4];       // w is 0 for parallel light
 uniform vec4 u_lampColor[4];  // w is 1 for a lamp that casts shadows
@@ -85,18 +88,86 @@ float lit(vec3 place, vec3 normal) {
 }
 `;
 
-export const BODY_FRAGMENT = `${HEAD}${LIGHT}
-uniform vec4 u_ghost;   // a veil of this color, and how much is seen through
+/** Balls, where there are many: each is a square that faces the eye, on which every pixel finds its place on the ball. */
+const BALL_VERTEX = `${HEAD}${TURN}${EYE}
+layout(location = 0) in vec3 a_position;
+layout(location = 2) in vec3 a_offset;
+layout(location = 4) in vec3 a_scale;
+layout(location = 5) in vec4 a_color;
+layout(location = 6) in vec4 a_second;
+layout(location = 7) in vec4 a_look;
+layout(location = 8) in float a_radius;
+uniform sampler2D u_poses;
+uniform mat4 u_clip;
+out vec3 v_place;
+flat out vec4 v_ball;    // its centre and radius
+flat out vec4 v_pose;    // how it is turned
+flat out vec4 v_offset;  // its place in the body, and the size of its pattern
+flat out vec4 v_color;
+flat out vec4 v_second;
+flat out vec4 v_look;
+void main() {
+  int pose = int(a_look.w + 0.5);
+  ivec2 texel = ivec2((pose % 1024) * 2, pose / 1024);
+  v_pose = texelFetch(u_poses, texel + ivec2(1, 0), 0);
+  vec3 center = texelFetch(u_poses, texel, 0).xyz + turned(v_pose, a_offset);
+  float radius = a_scale.x;
+  v_ball = vec4(center, radius);
+  v_offset = vec4(a_offset, a_radius);
+  vec3 away = u_toward == vec3(0.0) ? u_eye - center : u_toward;
+  float far = length(away);
+  vec3 back = away / far;
+  vec3 right = normalize(cross(abs(back.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), back));
+  // As large as the ball is seen, from near.
+  float size = u_toward == vec3(0.0) ? radius * far / sqrt(max(far * far - radius * radius, 1e-12)) : radius;
+  v_place = center + (right * a_position.x + cross(back, right) * a_position.y) * min(size, 4.0 * radius) * 1.02;
+  v_color = a_color;
+  v_second = a_second;
+  v_look = a_look;
+  gl_Position = u_clip * vec4(v_place, 1.0);
+}`;
+
+const BALL = `${TURN}
+uniform mat4 u_clip;
+in vec3 v_place;
+flat in vec4 v_ball;
+flat in vec4 v_pose;
+flat in vec4 v_offset;
+vec3 place, normalThere, inside;
+void find() {
+  vec3 along = u_toward == vec3(0.0) ? normalize(v_place - u_eye) : -u_toward;
+  vec3 from = v_place - v_ball.xyz;
+  float middle = dot(from, along);
+  vec3 beside = from - middle * along;
+  float half2 = v_ball.w * v_ball.w - dot(beside, beside);
+  if (half2 < 0.0) discard;
+  vec3 there = beside - along * sqrt(half2);
+  place = v_ball.xyz + there;
+  normalThere = there / v_ball.w;
+  inside = (turned(vec4(-v_pose.xyz, v_pose.w), there) + v_offset.xyz) / v_offset.w;
+  vec4 clip = u_clip * vec4(place, 1.0);
+  gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
+}
+`;
+
+const FORM = `
 in vec3 v_place;
 in vec3 v_normal;
 in vec3 v_inside;
+vec3 place, normalThere, inside;
+void find() { place = v_place; normalThere = normalize(v_normal); inside = v_inside; }
+`;
+
+const bodyFragment = (surface) => `${HEAD}${LIGHT}
+uniform vec4 u_ghost;   // a veil of this color, and how much is seen through
+${surface}
 flat in vec4 v_color;
 flat in vec4 v_second;
 flat in vec4 v_look;
 out vec4 color;
 const vec3 SECTORS[6] = vec3[6](vec3(0.655, 0.015, 0.02), vec3(0.913, 0.89, 0.83), vec3(0.955, 0.54, 0.018), vec3(0.01, 0.233, 0.107), vec3(0.847, 0.178, 0.01), vec3(0.01, 0.107, 0.52));
 vec3 painted() {
-  vec3 p = v_inside;
+  vec3 p = inside;
   if (v_second.w > 2.5) {
     if (abs(p.y) > 0.911) return v_second.rgb;
     int sector = int(mod(floor(atan(-p.z, p.x) / 1.0471976), 6.0));
@@ -110,9 +181,10 @@ vec3 painted() {
   return v_color.rgb;
 }
 void main() {
+  find();
   vec3 base = painted();
-  vec3 eye = u_toward == vec3(0.0) ? normalize(u_eye - v_place) : u_toward;
-  vec3 normal = normalize(v_normal);
+  vec3 eye = u_toward == vec3(0.0) ? normalize(u_eye - place) : u_toward;
+  vec3 normal = normalThere;
   if (dot(normal, eye) < 0.0) normal = -normal;
   float metallic = v_look.x, roughness = v_look.y;
   vec3 sum;
@@ -123,9 +195,9 @@ void main() {
     float shine = 2.0 / max(1e-3, roughness * roughness * roughness * roughness) + 2.0;
     for (int i = 0; i < 4; i++) {
       if (i >= u_lamps) break;
-      vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - v_place) : u_lamp[i].xyz;
+      vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - place) : u_lamp[i].xyz;
       float facing = max(dot(normal, to), 0.0);
-      float seen = i == 0 && u_lampColor[0].w > 0.5 ? lit(v_place, normal) : 1.0;
+      float seen = i == 0 && u_lampColor[0].w > 0.5 ? lit(place, normal) : 1.0;
       float glint = u_lampColor[i].w > 0.5 ? pow(max(dot(normal, normalize(to + eye)), 0.0), min(shine, 400.0)) : 0.0;
       vec3 tint = mix(vec3(1.0), base, metallic);
       sum += seen * u_lampColor[i].rgb * (base * facing * mix(0.74, 0.35, metallic) + tint * glint * 0.5 * (1.0 - roughness));
@@ -141,17 +213,25 @@ void main() {
   color = vec4(toScreen(sum), u_ghost.a > 0.0 ? u_ghost.a : alpha);
 }`;
 
-export const DEPTH_FRAGMENT = `${HEAD}
+const depthFragment = (surface) => `${HEAD}${EYE}${surface}
 flat in vec4 v_color;
-void main() { if (v_color.a < 0.5) discard; }`;
+void main() {
+  find();
+  if (v_color.a < 0.5) discard;
+}`;
 
-export const PICK_FRAGMENT = `${HEAD}
+const pickFragment = (surface) => `${HEAD}${EYE}${surface}
 flat in vec4 v_look;
 out vec4 color;
 void main() {
+  find();
   int number = int(v_look.w + 0.5) + 1;
   color = vec4(float(number & 255), float((number >> 8) & 255), float((number >> 16) & 255), 255.0) / 255.0;
 }`;
+
+/** The programs for bodies: by triangles, and as balls. */
+export const BODY = { body: [BODY_VERTEX, bodyFragment(FORM)], depth: [BODY_VERTEX, depthFragment(FORM)], pick: [BODY_VERTEX, pickFragment(FORM)] };
+export const BALLS = { body: [BALL_VERTEX, bodyFragment(BALL)], depth: [BALL_VERTEX, depthFragment(BALL)], pick: [BALL_VERTEX, pickFragment(BALL)] };
 
 /** Ground and planes: a large square that fades into the horizon. */
 export const GROUND_VERTEX = `${HEAD}

@@ -1,0 +1,57 @@
+//! The file as bytes: a header, a chunk of JSON, a chunk of numbers.
+
+use std::io::{self, Write};
+
+use super::document::Document;
+use super::geometry::Geometry;
+use super::motion::Motion;
+use crate::export::ExportError;
+
+/// The largest file, bytes: its length is a number of 32 bits.
+pub(super) const LARGEST: u64 = u32::MAX as u64;
+
+/// Writes a file, and gives its length in bytes. One that is too large is refused before.
+pub(super) fn write(
+    document: &Document,
+    geometry: &Geometry,
+    motion: &Motion,
+    out: &mut impl Write,
+) -> Result<u64, ExportError> {
+    let mut json = serde_json::to_vec(document).map_err(io::Error::from)?;
+    // Chunks are as long as multiples of four.
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let binary = document.buffers.first().map_or(0, |buffer| buffer.byte_length);
+    let chunk_of_numbers = if binary > 0 { 8 + binary } else { 0 };
+    let total = 12 + 8 + json.len() as u64 + chunk_of_numbers;
+    let length = u32::try_from(total).map_err(|_| ExportError::TooLarge(total))?;
+    out.write_all(b"glTF")?;
+    out.write_all(&2u32.to_le_bytes())?;
+    out.write_all(&length.to_le_bytes())?;
+    // The whole fits, and so do its parts.
+    out.write_all(&(json.len() as u32).to_le_bytes())?;
+    out.write_all(b"JSON")?;
+    out.write_all(&json)?;
+    if binary > 0 {
+        out.write_all(&(binary as u32).to_le_bytes())?;
+        out.write_all(b"BIN\0")?;
+        numbers(geometry, motion, document.animations.is_empty(), out)?;
+    }
+    Ok(total)
+}
+
+/// Writes what the views of the buffer promise.
+fn numbers(geometry: &Geometry, motion: &Motion, still: bool, out: &mut impl Write) -> io::Result<()> {
+    for number in geometry.vertices.iter().flatten() {
+        out.write_all(&number.to_le_bytes())?;
+    }
+    for index in &geometry.indices {
+        out.write_all(&index.to_le_bytes())?;
+    }
+    if still {
+        return Ok(());
+    }
+    for number in motion.numbers().flatten() {
+        out.write_all(&number.to_le_bytes())?;
+    }
+    Ok(())
+}

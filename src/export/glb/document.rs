@@ -1,0 +1,177 @@
+//! The words of glTF 2.0, as far as they are said here.
+
+use serde::Serialize;
+
+/// All but the numbers. What is empty may not stand in a file.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Document {
+    pub(super) asset: Asset,
+    pub(super) scene: u32,
+    pub(super) scenes: Vec<SceneOfNodes>,
+    pub(super) nodes: Vec<Node>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) meshes: Vec<Mesh>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) materials: Vec<Material>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) animations: Vec<Animation>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) accessors: Vec<Accessor>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) buffer_views: Vec<BufferView>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) buffers: Vec<Buffer>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Asset {
+    pub(super) version: &'static str,
+    pub(super) generator: String,
+    pub(super) extras: Extras,
+}
+
+/// What readers may show, and need not understand.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Extras {
+    pub(super) title: String,
+    /// Frames of the scene for each of its seconds.
+    pub(super) frame_rate: f64,
+    /// How many times faster than in life it is shown.
+    pub(super) faster: f64,
+}
+
+#[derive(Serialize)]
+pub(super) struct SceneOfNodes {
+    pub(super) name: String,
+    pub(super) nodes: Vec<u32>,
+}
+
+/// Something at a place: scaled, then turned, then moved, all within what it is a child of.
+#[derive(Default, Serialize)]
+pub(super) struct Node {
+    pub(super) name: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) children: Vec<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mesh: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) translation: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) rotation: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) scale: Option<[f64; 3]>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Mesh {
+    pub(super) name: String,
+    pub(super) primitives: Vec<Primitive>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Primitive {
+    pub(super) attributes: Attributes,
+    pub(super) indices: u32,
+    pub(super) material: u32,
+}
+
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub(super) struct Attributes {
+    pub(super) position: u32,
+    pub(super) normal: u32,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Material {
+    pub(super) name: String,
+    pub(super) pbr_metallic_roughness: Shading,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) emissive_factor: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) alpha_mode: Option<&'static str>,
+    #[serde(skip_serializing_if = "is_false")]
+    pub(super) double_sided: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Shading {
+    pub(super) base_color_factor: [f64; 4],
+    pub(super) metallic_factor: f64,
+    pub(super) roughness_factor: f64,
+}
+
+#[derive(Serialize)]
+pub(super) struct Animation {
+    pub(super) name: String,
+    pub(super) channels: Vec<Channel>,
+    pub(super) samplers: Vec<Sampler>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Channel {
+    pub(super) sampler: u32,
+    pub(super) target: Target,
+}
+
+#[derive(Serialize)]
+pub(super) struct Target {
+    pub(super) node: u32,
+    pub(super) path: &'static str,
+}
+
+/// Values at times; between them it is LINEAR, as glTF has it where nothing is said.
+#[derive(Serialize)]
+pub(super) struct Sampler {
+    pub(super) input: u32,
+    pub(super) output: u32,
+}
+
+/// Numbers of a view, from a byte on.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: u32,
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u32,
+    pub(super) count: usize,
+    #[serde(rename = "type")]
+    pub(super) kind: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) min: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) max: Vec<f64>,
+}
+
+/// `f32`.
+pub(super) const FLOAT: u32 = 5126;
+/// `u32`.
+pub(super) const UNSIGNED_INT: u32 = 5125;
+
+/// Bytes of the buffer that belong together.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct BufferView {
+    pub(super) buffer: u32,
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) byte_stride: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) target: Option<u32>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Buffer {
+    pub(super) byte_length: u64,
+}

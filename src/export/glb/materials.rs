@@ -1,0 +1,99 @@
+//! The looks of bodies in the words of glTF.
+
+use std::collections::HashMap;
+
+use super::document::{Material, Shading};
+use crate::scene::{Color, Finish, Look, Scene};
+use crate::surface::{Appearance, Motif, appearance, ground};
+
+/// What something is painted with.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Paint {
+    pub(super) what: What,
+    /// Whether its back is seen as well.
+    pub(super) both_sides: bool,
+    /// Which of the colors of its pattern; none: their mean.
+    pub(super) color: Option<usize>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum What {
+    /// The material of a scene that has this number.
+    Material(usize),
+    /// A color in sRGB, by the bits of its parts.
+    Color([u64; 3]),
+    /// The ground of the scene's surroundings.
+    Ground,
+    /// Something that only POV-Ray knows.
+    Unknown,
+}
+
+impl From<Color> for What {
+    fn from(color: Color) -> What {
+        What::Color(color.0.map(f64::to_bits))
+    }
+}
+
+/// The paints that are used so far.
+#[derive(Default)]
+pub(super) struct Paints {
+    pub(super) materials: Vec<Material>,
+    /// The map is only asked, never walked through.
+    known: HashMap<Paint, u32>,
+}
+
+impl Paints {
+    /// The number of a paint, which is added where it is new.
+    pub(super) fn number(&mut self, paint: Paint, scene: &Scene) -> u32 {
+        *self.known.entry(paint).or_insert_with(|| {
+            self.materials.push(material(paint, scene));
+            self.materials.len() as u32 - 1
+        })
+    }
+}
+
+fn material(paint: Paint, scene: &Scene) -> Material {
+    let (mut name, mut look) = look(paint.what, scene);
+    if let Some((number, [red, green, blue])) = paint.color.and_then(|i| Some((i, *look.colors().get(i)?))) {
+        name = format!("{name}, color {}", number + 1);
+        look = Appearance { color: [red, green, blue, look.color[3]], pattern: Motif::None, ..look };
+    }
+    shaded(name, &look, paint.both_sides)
+}
+
+/// What something is painted with, and a name for it.
+pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
+    match what {
+        What::Material(number) => {
+            let material = &scene.materials[number];
+            let look = match material.look {
+                Look::Checkered => ground(scene.environment.preset),
+                ref look => appearance(look),
+            };
+            (material.name.clone(), look)
+        }
+        What::Color(bits) => {
+            let color = Color(bits.map(f64::from_bits));
+            ("axes".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
+        }
+        What::Ground => ("ground".to_owned(), ground(scene.environment.preset)),
+        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl(String::new()))),
+    }
+}
+
+fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {
+    let color @ [red, green, blue, cover] = appearance.mean();
+    // What shines by itself throws nothing back, or it would be brighter than its color.
+    let base = if appearance.emissive { [0.0, 0.0, 0.0, cover] } else { color };
+    Material {
+        name,
+        pbr_metallic_roughness: Shading {
+            base_color_factor: base,
+            metallic_factor: appearance.metallic,
+            roughness_factor: appearance.roughness,
+        },
+        emissive_factor: appearance.emissive.then_some([red, green, blue]),
+        alpha_mode: (cover < 1.0).then_some("BLEND"),
+        double_sided,
+    }
+}

@@ -1,0 +1,94 @@
+//! Forms in their paints: the meshes of glTF, which bodies share.
+
+use std::collections::HashMap;
+
+use glam::{DAffine3, DVec3};
+
+use super::document::{Accessor, Mesh, Primitive};
+use super::geometry::{Geometry, Known};
+use super::materials::{self, Paint, Paints, What};
+use crate::scene::Scene;
+use crate::surface::{Detail, Form, Motif, Piece};
+
+/// The meshes so far.
+pub(super) struct Meshes {
+    pub(super) meshes: Vec<Mesh>,
+    /// The number of each; the map is only asked, never walked through.
+    known: HashMap<(Form, Paint, Option<Cut>), u32>,
+    pub(super) paints: Paints,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) geometry: Geometry,
+}
+
+/// Where a form is in a pattern, by the bits of the map from one to the other.
+type Cut = [u32; 12];
+
+impl Meshes {
+    pub(super) fn new(detail: Detail) -> Meshes {
+        Meshes {
+            meshes: Vec::new(),
+            known: HashMap::new(),
+            paints: Paints::default(),
+            accessors: Vec::new(),
+            geometry: Geometry::new(detail),
+        }
+    }
+
+    /// The number of the mesh that a piece is drawn of, unless it has no triangles. A pattern has the given size, m; where it
+    /// has none, or nothing would be seen of it, the mesh has the mean of its colors.
+    pub(super) fn number(
+        &mut self,
+        scene: &Scene,
+        piece: &Piece,
+        material: What,
+        size: Option<f64>,
+    ) -> Option<u32> {
+        let what = piece.color.map_or(material, What::from);
+        let paint = Paint { what, both_sides: !piece.form.is_closed(), color: None };
+        let (name, look) = materials::look(what, scene);
+        let cut = size.filter(|_| look.pattern != Motif::None).map(|size| cut(piece, size));
+        let key = (piece.form.clone(), paint, cut);
+        if let Some(&number) = self.known.get(&key) {
+            return Some(number);
+        }
+        let form = &piece.form;
+        let parts = cut.and_then(|cut| {
+            let place = DAffine3::from_cols_array(&cut.map(|bits| f64::from(f32::from_bits(bits))));
+            self.geometry.split(form, look.pattern, place, &mut self.accessors)
+        });
+        let primitives = match parts {
+            Some(parts) => {
+                let parts = parts.into_iter().enumerate();
+                let parts =
+                    parts.filter_map(|(color, part)| Some((Paint { color: Some(color), ..paint }, part?)));
+                parts.map(|(paint, part)| self.primitive(scene, paint, part)).collect()
+            }
+            None => {
+                let whole = self.geometry.form(form, &mut self.accessors)?;
+                vec![self.primitive(scene, paint, whole)]
+            }
+        };
+        self.meshes.push(Mesh { name: format!("{}, {name}", form.name()), primitives });
+        let number = self.meshes.len() as u32 - 1;
+        self.known.insert(key, number);
+        Some(number)
+    }
+
+    fn primitive(&mut self, scene: &Scene, paint: Paint, part: Known) -> Primitive {
+        let material = self.paints.number(paint, scene);
+        Primitive { attributes: part.attributes, indices: part.indices, material }
+    }
+}
+
+/// Where a piece is in a pattern of a size, m: in that of the body, or, if it is a plane, in its own.
+#[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
+fn cut(piece: &Piece, size: f64) -> Cut {
+    let scale = piece.scale / size;
+    let place = if piece.form == Form::Plane {
+        let middle = piece.orientation.conjugate() * piece.location / size;
+        DAffine3::from_translation(DVec3::new(middle.x, 0.0, middle.z)) * DAffine3::from_scale(scale)
+    } else {
+        DAffine3::from_scale_rotation_translation(scale, piece.orientation, piece.location / size)
+    };
+    place.to_cols_array().map(|number| (number as f32 + 0.0).to_bits())
+}

@@ -1,0 +1,57 @@
+//! Frames → a binary glTF 2.0 file: all bodies with their animation, for Blender, three.js and their kin.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | where the bodies are in all frames | `motion` |
+//! | triangles, those of a form once | `geometry` |
+//! | looks | `materials` |
+//! | forms in their looks | `meshes` |
+//! | the nodes of the bodies, and the document of all | `model` |
+//! | what moves nodes | `channels` |
+//! | the words of glTF | `document` |
+//! | both chunks as bytes | `container` |
+//!
+//! The file is of metres and seconds, y is up, and all is below one node, so that whoever needs other units scales that.
+//! Numbers of vertices and poses are `f32`, as glTF has it.
+
+mod channels;
+mod container;
+mod document;
+mod geometry;
+mod materials;
+mod meshes;
+mod model;
+mod motion;
+#[cfg(test)]
+mod tests;
+
+use std::io::Write;
+
+use self::motion::Motion;
+use super::ExportError;
+use crate::scene::Scene;
+use crate::simulate::Selection;
+
+/// What has been written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exported {
+    /// The number of frames.
+    pub frames: usize,
+    /// The size of the file, bytes.
+    pub bytes: u64,
+    /// How many times faster than in life the animation is shown; it is 1 where films can have the scene's frame rate.
+    pub faster: f64,
+}
+
+/// Simulates a scene, and writes its bodies with their motion in some frames. Poses are kept for bodies that move, 28
+/// bytes for each frame at most.
+///
+/// # Errors
+/// Where it cannot be written, the run leaves the numbers, or the format cannot hold it; then nothing is written.
+pub fn write_glb(scene: &Scene, selection: &Selection, mut out: impl Write) -> Result<Exported, ExportError> {
+    let (motion, survey) = Motion::of(scene, selection)?;
+    let (document, geometry) = model::model(scene, &survey, &motion);
+    let bytes = container::write(&document, &geometry, &motion, &mut out)?;
+    out.flush()?;
+    Ok(Exported { frames: motion.times().len(), bytes, faster: motion.faster() })
+}

@@ -1,0 +1,252 @@
+//! Patterns whose borders are planes: triangles are cut along them, so that each part has one color.
+
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_3;
+
+use glam::{DAffine3, DVec3, Vec3};
+
+use super::{Motif, Triangles};
+
+/// The edge of a cube of the checkered pattern.
+const CUBE: f64 = 0.5;
+/// The height of a band of the striped pattern.
+const BAND: f64 = 0.22;
+/// From here on, the poles of a beach ball are white.
+const POLE: f64 = 0.455 * 2.002;
+/// The largest number of planes; with more, nothing would be seen of the pattern but its mean.
+const MOST_PLANES: f64 = 200.0;
+
+/// A corner of a piece of a triangle.
+#[derive(Clone, Copy)]
+struct Corner {
+    place: DVec3,
+    normal: DVec3,
+    /// Where it is in the pattern.
+    at: DVec3,
+}
+
+/// A plane of points p with `normal` · p = `distance`, in the pattern.
+struct Border {
+    normal: DVec3,
+    distance: f64,
+}
+
+impl Motif {
+    /// Cuts triangles along the borders of the pattern: for each of [`colors`](super::Appearance::colors), the parts that
+    /// have it. The map takes their places to those in the pattern. Without a pattern, or where it is too fine to be
+    /// seen, nothing is given.
+    #[must_use]
+    pub fn split(self, triangles: &Triangles, to_pattern: DAffine3) -> Option<Vec<Triangles>> {
+        let corners: Vec<Corner> = triangles
+            .positions
+            .iter()
+            .zip(&triangles.normals)
+            .map(|(place, normal)| {
+                let place = Vec3::from_array(*place).as_dvec3();
+                let normal = Vec3::from_array(*normal).as_dvec3();
+                Corner { place, normal, at: to_pattern.transform_point3(place) }
+            })
+            .collect();
+        let least = corners.iter().map(|corner| corner.at).reduce(DVec3::min)?;
+        let largest = corners.iter().map(|corner| corner.at).reduce(DVec3::max)?;
+        let (borders, colors) = self.borders(least, largest)?;
+        let mut parts: Vec<Part> = (0..colors).map(|_| Part::default()).collect();
+        for indices in triangles.indices.chunks_exact(3) {
+            let mut pieces = vec![indices.iter().map(|&index| corners[index as usize]).collect::<Vec<_>>()];
+            for border in &borders {
+                pieces = pieces.into_iter().flat_map(|piece| border.cut(piece)).collect();
+            }
+            for piece in pieces {
+                let middle = piece.iter().map(|corner| corner.at).sum::<DVec3>() / piece.len() as f64;
+                parts[self.color_at(middle)].add(&piece);
+            }
+        }
+        Some(parts.into_iter().map(|part| part.triangles).collect())
+    }
+
+    /// The borders within a box, and the number of colors.
+    fn borders(self, least: DVec3, largest: DVec3) -> Option<(Vec<Border>, usize)> {
+        let counts = |axis: DVec3, first: f64, step: f64| {
+            let from = ((least.dot(axis) - first) / step).ceil();
+            let count = ((largest.dot(axis) - first) / step).floor() - from + 1.0;
+            (axis, first + from * step, step, count.max(0.0))
+        };
+        let families = match self {
+            Motif::None => return None,
+            Motif::Checkered => [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CUBE)).to_vec(),
+            Motif::Striped => vec![counts(DVec3::Y, BAND / 2.0, BAND)],
+            Motif::Ground => [DVec3::X, DVec3::Z].map(|axis| counts(axis, 0.0, 1.0)).to_vec(),
+            Motif::BeachBall => {
+                let side = |i: u8| {
+                    let (sine, cosine) = libm::sincos(FRAC_PI_3 * f64::from(i));
+                    Border { normal: DVec3::new(sine, 0.0, cosine), distance: 0.0 }
+                };
+                let pole = |sign: f64| Border { normal: DVec3::Y, distance: sign * POLE };
+                return Some((vec![side(0), side(1), side(2), pole(-1.0), pole(1.0)], 7));
+            }
+        };
+        let count: f64 = families.iter().map(|(.., count)| count).sum();
+        if !count.is_finite() || count > MOST_PLANES {
+            return None;
+        }
+        let all = families.iter().flat_map(|&(normal, first, step, count)| {
+            (0..count as u32).map(move |i| Border { normal, distance: first + step * f64::from(i) })
+        });
+        Some((all.collect(), 2))
+    }
+
+    /// The number of the color at a place of the pattern.
+    fn color_at(self, at: DVec3) -> usize {
+        let second_where = |even: f64| usize::from(even.rem_euclid(2.0) < 0.5);
+        match self {
+            Motif::None => 0,
+            Motif::Checkered => second_where((at / CUBE).floor().element_sum()),
+            Motif::Striped => second_where((at.y / BAND + 0.5).floor()),
+            Motif::Ground => second_where(at.x.floor() + at.z.floor()),
+            Motif::BeachBall if at.y.abs() > POLE => 6,
+            Motif::BeachBall => {
+                let sector = (libm::atan2(-at.z, at.x) / FRAC_PI_3).floor();
+                sector.rem_euclid(6.0) as usize % 6
+            }
+        }
+    }
+}
+
+impl Border {
+    /// Cuts a convex piece in two, if the border goes through it.
+    fn cut(&self, piece: Vec<Corner>) -> Vec<Vec<Corner>> {
+        // What is as near is on the border.
+        const NEAR: f64 = 1e-7;
+        let side = |corner: &Corner| {
+            let side = self.normal.dot(corner.at) - self.distance;
+            if side.abs() < NEAR { 0.0 } else { side }
+        };
+        let on = |sign: f64| piece.iter().any(|corner| side(corner) * sign > 0.0);
+        if !on(1.0) || !on(-1.0) {
+            return vec![piece];
+        }
+        let mut halves = [Vec::new(), Vec::new()];
+        for (i, corner) in piece.iter().enumerate() {
+            let next = &piece[(i + 1) % piece.len()];
+            let (here, there) = (side(corner), side(next));
+            if here >= 0.0 {
+                halves[0].push(*corner);
+            }
+            if here <= 0.0 {
+                halves[1].push(*corner);
+            }
+            if here * there < 0.0 {
+                let between = corner.towards(next, here / (here - there));
+                halves.iter_mut().for_each(|half| half.push(between));
+            }
+        }
+        halves.into_iter().filter(|half| half.len() > 2).collect()
+    }
+}
+
+impl Corner {
+    /// The corner that is a part of the way to another.
+    fn towards(&self, other: &Corner, part: f64) -> Corner {
+        let normal = self.normal.lerp(other.normal, part);
+        Corner {
+            place: self.place.lerp(other.place, part),
+            normal: normal.try_normalize().unwrap_or(self.normal),
+            at: self.at.lerp(other.at, part),
+        }
+    }
+}
+
+/// The triangles of a color.
+#[derive(Default)]
+struct Part {
+    triangles: Triangles,
+    /// The number of each vertex, by its place and its normal; the map is only asked, never walked through.
+    known: HashMap<[u32; 6], u32>,
+}
+
+impl Part {
+    fn add(&mut self, piece: &[Corner]) {
+        let numbers: Vec<u32> = piece.iter().map(|corner| self.vertex(corner)).collect();
+        for pair in numbers[1..].windows(2) {
+            self.triangles.triangle([numbers[0], pair[0], pair[1]]);
+        }
+    }
+
+    fn vertex(&mut self, corner: &Corner) -> u32 {
+        let [x, y, z] = corner.place.as_vec3().to_array().map(f32::to_bits);
+        let [nx, ny, nz] = corner.normal.as_vec3().to_array().map(f32::to_bits);
+        let triangles = &mut self.triangles;
+        *self
+            .known
+            .entry([x, y, z, nx, ny, nz])
+            .or_insert_with(|| triangles.vertex(corner.place, corner.normal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::{Detail, Form};
+
+    fn area(triangles: &Triangles) -> f64 {
+        let at = |i: u32| Vec3::from_array(triangles.positions[i as usize]).as_dvec3();
+        let corners = triangles.indices.chunks_exact(3);
+        corners.map(|c| (at(c[1]) - at(c[0])).cross(at(c[2]) - at(c[0])).length() / 2.0).sum()
+    }
+
+    fn parts(form: &Form, motif: Motif) -> (f64, Vec<f64>) {
+        let triangles = form.triangles(Detail::Fine);
+        let parts = motif.split(&triangles, DAffine3::IDENTITY).unwrap();
+        (area(&triangles), parts.iter().map(area).collect())
+    }
+
+    #[test]
+    fn parts_make_up_the_whole() {
+        for form in [Form::Ball, Form::Cube, Form::Cylinder, Form::Torus { tube: 0.3 }] {
+            for motif in [Motif::Checkered, Motif::Striped, Motif::BeachBall, Motif::Ground] {
+                let (whole, parts) = parts(&form, motif);
+                assert!(
+                    (parts.iter().sum::<f64>() / whole - 1.0).abs() < 1e-6,
+                    "{form:?} {motif:?}: {parts:?}"
+                );
+                // A flat ring does not reach to where the poles of a beach ball would be.
+                let seen = parts.iter().filter(|part| **part > 0.0).count();
+                assert!(seen >= parts.len() - 1 && seen >= 2, "{form:?} {motif:?}: {parts:?}");
+            }
+        }
+    }
+
+    /// The band around the middle, two on either side of each pole, and so on: Archimedes' zones are as large as they are high.
+    #[test]
+    fn bands_have_the_heights_that_the_scripts_give_them() {
+        let (whole, parts) = parts(&Form::Ball, Motif::Striped);
+        // The second color from -0.11 to 0.11, from 0.33 to 0.55 and from 0.77 to 0.99, on both sides.
+        assert!((parts[1] / whole - 5.0 * 0.22 / 2.0).abs() < 2e-3, "{}", parts[1] / whole);
+    }
+
+    #[test]
+    fn a_beach_ball_has_six_equal_sectors_and_two_poles() {
+        let (whole, parts) = parts(&Form::Ball, Motif::BeachBall);
+        assert!((parts[6] / whole - (1.0 - POLE)).abs() < 2e-3, "{parts:?}");
+        assert!(parts[..6].iter().all(|part| (part / parts[0] - 1.0).abs() < 1e-3), "{parts:?}");
+        let first = Motif::BeachBall.color_at(DVec3::new(0.9, 0.0, -0.1));
+        let last = Motif::BeachBall.color_at(DVec3::new(0.9, 0.0, 0.1));
+        assert_eq!((first, last), (0, 5));
+    }
+
+    #[test]
+    fn a_cube_of_the_checkered_pattern_is_where_the_scripts_have_it() {
+        assert_eq!(Motif::Checkered.color_at(DVec3::splat(0.25)), 1);
+        assert_eq!(Motif::Checkered.color_at(DVec3::new(-0.25, 0.25, 0.25)), 0);
+        let (whole, parts) = parts(&Form::Cube, Motif::Checkered);
+        assert!((parts[0] / whole - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_too_fine_to_be_seen_is_left_whole() {
+        let triangles = Form::Plane.triangles(Detail::Fine);
+        let fine = DAffine3::from_scale(DVec3::splat(1e9));
+        assert!(Motif::Ground.split(&triangles, fine).is_none());
+        assert!(Motif::None.split(&triangles, DAffine3::IDENTITY).is_none());
+    }
+}

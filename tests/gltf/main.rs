@@ -1,0 +1,255 @@
+//! `jabuka export SCENE -o FILE.glb`, as the validator of Khronos and three.js see it.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use glam::{DQuat, DVec3};
+use jabuka::Scene;
+use jabuka::dynamics::Shape;
+use jabuka::simulate::Frames;
+use serde::Deserialize;
+use support::{jabuka, root, stderr, stdout};
+
+/// What `look.mjs` says of a file.
+#[derive(Deserialize)]
+struct Seen {
+    errors: u32,
+    warnings: u32,
+    messages: serde_json::Value,
+    triangles: u32,
+    times: Vec<f64>,
+    bodies: Vec<SeenBody>,
+}
+
+#[derive(Deserialize)]
+struct SeenBody {
+    name: String,
+    /// Around the triangles at the first time.
+    #[serde(rename = "box")]
+    bounds: [[f64; 3]; 2],
+    poses: Vec<[f64; 7]>,
+}
+
+/// Looks at files, which must be good.
+fn look(files: &[PathBuf]) -> Vec<Seen> {
+    let output = Command::new(root().join("tests/gltf/look")).args(files).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let seen: Vec<Seen> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(seen.len(), files.len());
+    for (file, seen) in files.iter().zip(&seen) {
+        assert_eq!((seen.errors, seen.warnings), (0, 0), "{}: {}", file.display(), seen.messages);
+    }
+    seen
+}
+
+fn export(scene: &Path, file: &Path, arguments: &[&str]) -> String {
+    let output = jabuka().arg("export").arg(scene).arg("-o").arg(file).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    stdout(&output)
+}
+
+/// The rows of one frame of a table: its time, and the name, location and orientation of each body.
+type Rows = (f64, Vec<(String, DVec3, DQuat)>);
+
+fn table(file: &Path, bodies: usize) -> Vec<Rows> {
+    let rows = csv::Reader::from_path(file).unwrap().into_records();
+    let rows: Vec<csv::StringRecord> = rows.map(Result::unwrap).collect();
+    let body = |row: &csv::StringRecord| {
+        let number = |i: usize| row[i].parse::<f64>().unwrap();
+        let location = DVec3::new(number(2), number(3), number(4));
+        (row[1].to_owned(), location, DQuat::from_xyzw(number(5), number(6), number(7), number(8)))
+    };
+    let frames = rows.chunks(bodies);
+    frames.map(|rows| (rows[0][0].parse().unwrap(), rows.iter().map(body).collect())).collect()
+}
+
+/// Asserts that bodies are where a table says, to the accuracy of `f32`.
+fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
+    // Where nothing moves, there are no keys.
+    assert!(seen.times.len() == table.len() || seen.times == [0.0], "{name}");
+    let end = seen.times.len() - 1;
+    let faster = if end == 0 { 1.0 } else { table[end].0 / seen.times[end] };
+    for (i, &shown) in seen.times.iter().enumerate() {
+        let (time, bodies) = &table[i];
+        assert!(seen.bodies.len() >= bodies.len() && !bodies.is_empty(), "{name}");
+        assert!((shown * faster - time).abs() <= 3e-7 * time, "{name}: {shown} for {time}");
+        for (body, (known, location, orientation)) in seen.bodies.iter().zip(bodies) {
+            assert_eq!(body.name, *known);
+            let [x, y, z, ref turn @ ..] = body.poses[i];
+            let off = (DVec3::new(x, y, z) - location).length();
+            assert!(off <= 1.2e-7 * location.length(), "{name}, {known} at {time} s: {off} m");
+            let turn = orientation.conjugate() * DQuat::from_array(*turn);
+            let off = 2.0 * DVec3::new(turn.x, turn.y, turn.z).length();
+            assert!(off < 1e-6, "{name}, {known} at {time} s: {off} rad");
+        }
+    }
+}
+
+/// Asserts that the triangles of bodies reach as far as their shapes.
+fn assert_same_extent(name: &str, seen: &Seen, scene: &Scene) {
+    let first = Frames::new(scene).next().unwrap().unwrap();
+    for (body, (drawn, place)) in seen.bodies.iter().zip(scene.bodies.iter().zip(&first.bodies)) {
+        let shape = drawn.drawn();
+        let Some(size) = shape.bounding_radius() else { continue };
+        // Chords of 7.5° and 15°; mechanics takes axes for as thick as their tips everywhere.
+        let tolerance = if matches!(shape, Shape::Axes { .. }) { 0.1 } else { 0.02 };
+        for (axis, direction) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
+            for (end, sign) in [(1, 1.0), (0, -1.0)] {
+                let reach = shape.support(place.orientation, sign * direction).unwrap();
+                let found = sign * (body.bounds[end][axis] - place.location[axis]);
+                let most = tolerance * size + 1e-6 * place.location.length();
+                assert!((found - reach).abs() <= most, "{name}, {}: {found} for {reach}", body.name);
+            }
+        }
+    }
+}
+
+/// Exports scenes as models and as tables, and holds one against the other.
+fn check(scenes: &[PathBuf], folder: &Path) {
+    let both = |scene: &PathBuf| {
+        let file = folder.join(scene.file_name().unwrap()).with_extension("glb");
+        export(scene, &file, &[]);
+        export(scene, &file.with_extension("csv"), &[]);
+        file
+    };
+    let files: Vec<PathBuf> = scenes.iter().map(both).collect();
+    for ((path, file), seen) in scenes.iter().zip(&files).zip(look(&files)) {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let scene = Scene::from_path(path).unwrap();
+        assert_same_motion(name, &seen, &table(&file.with_extension("csv"), scene.bodies.len()));
+        // With many bodies, each is drawn more coarsely.
+        if scene.bodies.len() < 50 {
+            assert_same_extent(name, &seen, &scene);
+        }
+    }
+}
+
+#[test]
+fn every_scene_is_valid_and_moves_as_its_table_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = fs::read_dir(root().join("scenes")).unwrap().map(|entry| entry.unwrap().path());
+    let mut scenes: Vec<PathBuf> =
+        scenes.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    scenes.sort();
+    assert!(scenes.len() >= 15);
+    check(&scenes, folder.path());
+}
+
+/// What the gallery does not have: a plane that is turned, compounds, patterns, looks of all kinds, a body that is drawn larger.
+const ODD: &str = r##"
+    simulation.duration = 1
+    [material.words]
+    sdl = 'pigment { color rgb 1 }'
+    [body.slope]
+    shape.plane.normal = [1, 2, -0.5]
+    location = [0, -3, 0]
+    [body."a, b"]
+    shape.sphere.radius = 1
+    material = 'glass'
+    look.scale = 2
+    velocity = [1, 0, 0]
+    [body.same]
+    shape.sphere.radius = 0.5
+    location = [4, 0, 0]
+    material = 'words'
+    angular_velocity = [0, 1, 0]
+    [body.lamp]
+    shape.capsule = { radius = 0.2, height = 1 }
+    location = [0, 4, 0]
+    material = 'neon'
+    [body.crate]
+    shape.box.size = [1, 2, 1.5]
+    location = [-4, 4, 5]
+    material = 'checkered'
+    [body.beach]
+    shape.sphere.radius = 1
+    location = [-4, 0, 5]
+    material = 'beach_ball'
+    angular_velocity = [1, 2, 3]
+    [body.triad]
+    shape.axes.length = 2
+    location = [0, 4, 5]
+    angular_velocity = [0, 5, 1]
+    [body.top]
+    location = [0, 0, 5]
+    orientation = { axis = [1, 0, 0], angle = 30 }
+    angular_velocity = [0, 9, 1]
+    [[body.top.shape.compound.parts]]
+    cone = { radius = 0.5, height = 1 }
+    [[body.top.shape.compound.parts]]
+    torus = { radius = 0.4, tube_radius = 0.1 }
+    location = [0, 0.4, 0]
+    orientation = [0, 0, 20]
+    "##;
+
+const EMPTY: &str = "environment.ground = false";
+
+const FAR: &str = "
+    [body.ball]
+    shape.sphere.radius = 1e3
+    location = [1e12, 0, 0]
+    velocity = [0, 1e9, 0]
+    ";
+
+#[test]
+fn odd_scenes_are_valid_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let [odd, empty, far] = [("odd", ODD), ("empty", EMPTY), ("far", FAR)].map(|(name, text)| {
+        let path = folder.path().join(name).with_extension("toml");
+        fs::write(&path, text).unwrap();
+        path
+    });
+    check(&[odd], folder.path());
+    let files = [&empty, &far].map(|scene| scene.with_extension("glb"));
+    export(&empty, &files[0], &[]);
+    export(&far, &files[1], &[]);
+    let seen = look(&files);
+    assert_eq!((seen[0].triangles, seen[0].bodies.len()), (0, 0));
+}
+
+#[test]
+fn some_frames_are_those_at_their_times() {
+    let folder = tempfile::tempdir().unwrap();
+    let [model, again, rows] = ["run.glb", "again.glb", "run.csv"].map(|name| folder.path().join(name));
+    let scene = support::scene("projectile");
+    let frames = ["--frames", "10,20-22"];
+    let said = export(&scene, &model, &frames);
+    assert!(said.contains(": 1 body, 4 frames, "), "{said}");
+    export(&scene, &again, &frames);
+    assert_eq!(fs::read(&model).unwrap(), fs::read(&again).unwrap());
+    export(&scene, &rows, &frames);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "nothing is left over");
+    let seen = look(&[model]);
+    assert_eq!(seen[0].times, [0.2f32, 0.4, 0.42, 0.44].map(f64::from));
+    assert_same_motion("projectile", &seen[0], &table(&rows, 1));
+}
+
+#[test]
+fn what_is_neither_table_nor_model_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["run.gltf", "run", "run.toml"] {
+        let path = folder.path().join(name);
+        let scene = support::scene("parabola");
+        let output = jabuka().arg("export").arg(scene).arg("-o").arg(&path).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+        assert!(stderr(&output).contains("is a table, `.csv`, or a model, `.glb`"), "{}", stderr(&output));
+        assert!(!path.exists());
+    }
+}
+
+#[test]
+fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, file] = ["far.toml", "far.glb"].map(|name| folder.path().join(name));
+    fs::write(&scene, "[body.probe]\nshape.sphere.radius = 1\nlocation = [1e39, 0, 0]\n").unwrap();
+    let output = jabuka().arg("export").arg(&scene).arg("-o").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = stderr(&output);
+    assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
+}
