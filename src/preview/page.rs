@@ -15,6 +15,7 @@ pub(super) const FILES: &[(&str, &str, &str)] = &[
     ("/player.js", SCRIPT, include_str!("page/player.js")),
     ("/math.js", SCRIPT, include_str!("page/math.js")),
     ("/shaders.js", SCRIPT, include_str!("page/shaders.js")),
+    ("/gl.js", SCRIPT, include_str!("page/gl.js")),
     ("/painter.js", SCRIPT, include_str!("page/painter.js")),
     ("/lines.js", SCRIPT, include_str!("page/lines.js")),
     ("/viewpoint.js", SCRIPT, include_str!("page/viewpoint.js")),

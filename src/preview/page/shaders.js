@@ -11,10 +11,8 @@ const TURN = `
 vec3 turned(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
 `;
 
-/** Bodies: forms that are scaled and placed in a body, whose pose stands in a texture. */
-const BODY_VERTEX = `${HEAD}${TURN}
-layout(location = 0) in vec3 a_position;
-layout(location = 1) in vec3 a_normal;
+/** What each instance of a form has: its place in the body, its look, and where the pose of the body stands. */
+const INSTANCE = `
 layout(location = 2) in vec3 a_offset;
 layout(location = 3) in vec4 a_turn;
 layout(location = 4) in vec3 a_scale;
@@ -24,15 +22,24 @@ layout(location = 7) in vec4 a_look;   // metallic, roughness, emissive, number 
 layout(location = 8) in float a_radius;
 uniform sampler2D u_poses;
 uniform mat4 u_clip;
-out vec3 v_place;
+ivec2 texelOfPose() {
+  int pose = int(a_look.w + 0.5);
+  return ivec2((pose % 1024) * 2, pose / 1024);
+}
+`;
+
+/** Bodies: forms that are scaled and placed in a body, whose pose stands in a texture. */
+const BODY_VERTEX = `${HEAD}${TURN}
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+${INSTANCE}out vec3 v_place;
 out vec3 v_normal;
 out vec3 v_inside;
 flat out vec4 v_color;
 flat out vec4 v_second;
 flat out vec4 v_look;
 void main() {
-  int pose = int(a_look.w + 0.5);
-  ivec2 texel = ivec2((pose % 1024) * 2, pose / 1024);
+  ivec2 texel = texelOfPose();
   vec3 location = texelFetch(u_poses, texel, 0).xyz;
   vec4 turn = texelFetch(u_poses, texel + ivec2(1, 0), 0);
   vec3 inside = turned(a_turn, a_position * a_scale) + a_offset;
@@ -91,15 +98,7 @@ float lit(vec3 place, vec3 normal) {
 /** Balls, where there are many: each is a square that faces the eye, on which every pixel finds its place on the ball. */
 const BALL_VERTEX = `${HEAD}${TURN}${EYE}
 layout(location = 0) in vec3 a_position;
-layout(location = 2) in vec3 a_offset;
-layout(location = 4) in vec3 a_scale;
-layout(location = 5) in vec4 a_color;
-layout(location = 6) in vec4 a_second;
-layout(location = 7) in vec4 a_look;
-layout(location = 8) in float a_radius;
-uniform sampler2D u_poses;
-uniform mat4 u_clip;
-out vec3 v_place;
+${INSTANCE}out vec3 v_place;
 flat out vec4 v_ball;    // its centre and radius
 flat out vec4 v_pose;    // how it is turned
 flat out vec4 v_offset;  // its place in the body, and the size of its pattern
@@ -107,8 +106,7 @@ flat out vec4 v_color;
 flat out vec4 v_second;
 flat out vec4 v_look;
 void main() {
-  int pose = int(a_look.w + 0.5);
-  ivec2 texel = ivec2((pose % 1024) * 2, pose / 1024);
+  ivec2 texel = texelOfPose();
   v_pose = texelFetch(u_poses, texel + ivec2(1, 0), 0);
   vec3 center = texelFetch(u_poses, texel, 0).xyz + turned(v_pose, a_offset);
   float radius = a_scale.x;
