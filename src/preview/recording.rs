@@ -39,10 +39,21 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// That of a run which has not begun. The file has no name, and goes when the process does, however it ends.
-    pub(super) fn new(bodies: usize) -> io::Result<Recording> {
-        let file = tempfile::tempfile_in(folder())?;
-        Ok(Recording { file, bodies, recorded: AtomicUsize::new(0) })
+    /// That of a run of so many frames which has not begun. The file has no name, and goes when the process does, however
+    /// it ends.
+    pub(super) fn new(bodies: usize, frames: usize) -> io::Result<Recording> {
+        let folder = folder();
+        let recording =
+            Recording { file: tempfile::tempfile_in(&folder)?, bodies, recorded: AtomicUsize::new(0) };
+        // To find out by filling the disk would hurt others.
+        let space = rustix::fs::fstatvfs(&recording.file)?;
+        let (needed, free) = (recording.offset(frames, 0), space.f_bavail.saturating_mul(space.f_frsize));
+        if needed > free {
+            let [needed, free] = [needed, free].map(|bytes| bytes.div_ceil(1_000_000));
+            let message = format!("they take {needed} MB, and `{}` has room for {free} MB", folder.display());
+            return Err(io::Error::new(io::ErrorKind::StorageFull, message));
+        }
+        Ok(recording)
     }
 
     /// How many frames there are.
@@ -184,7 +195,7 @@ mod tests {
             ",
         )
         .unwrap();
-        let recording = Recording::new(2).unwrap();
+        let recording = Recording::new(2, 6).unwrap();
         let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
         frames.iter().for_each(|frame| recording.push(frame).unwrap());
         assert_eq!(recording.recorded(), 6);
@@ -199,5 +210,12 @@ mod tests {
             assert_eq!(numbers(&recording.head(frame.index).unwrap())[0], frame.time);
         }
         assert!(recording.frame(6).is_err());
+    }
+
+    #[test]
+    fn what_no_disk_holds_is_refused_before_it_is_begun() {
+        let error = Recording::new(1_000_000, 1_000_000).err().unwrap();
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert!(error.to_string().starts_with("they take 128000096 MB"), "{error}");
     }
 }

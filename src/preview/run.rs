@@ -74,7 +74,7 @@ impl Simulation {
     ) -> io::Result<Arc<Simulation>> {
         let run = Arc::new(Simulation {
             id,
-            recording: Recording::new(scene.bodies.len())?,
+            recording: Recording::new(scene.bodies.len(), scene.simulation.frames())?,
             scene,
             cancelled: AtomicBool::new(false),
             past: Mutex::default(),
@@ -180,8 +180,8 @@ fn failed(error: RunError) -> Report {
     OutputError::from(error).report()
 }
 
-fn no_room(error: &io::Error) -> Report {
+pub(super) fn no_room(error: &io::Error) -> Report {
     let message = format!("the frames cannot be kept: {error}");
-    let help = "they go to a file below /var/tmp, or where TMPDIR says; 128 bytes a body and frame";
+    let help = "they go to a file below /var/tmp, or where TMPDIR says; take fewer frames, or another folder";
     Report { diagnostics: vec![Diagnostic::error("cannot-write", message).help(help)], ..Report::default() }
 }

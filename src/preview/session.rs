@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use tokio::sync::watch;
 
-use super::run::{Progress, RunId, Simulation};
+use super::run::{Progress, RunId, Simulation, no_room};
 use super::watch::{INTERVAL, Watched};
 use crate::Scene;
 use crate::diagnostic::Report;
@@ -133,7 +133,7 @@ impl Session {
             options.overrides.push(set("step", &variant.step));
         }
         let scene = Scene::from_path_with(&self.path, &options)?;
-        let run = self.begin(scene).map_err(|error| cannot_begin(&error))?;
+        let run = self.begin(scene).map_err(|error| no_room(&error))?;
         let mut inner = self.lock();
         inner.variants.push_back((variant, Arc::clone(&run)));
         if inner.variants.len() > VARIANTS {
@@ -169,7 +169,7 @@ impl Session {
         let warnings = Some(scene.warnings.to_text(false)).filter(|text| !text.is_empty());
         let run = match self.begin(scene) {
             Ok(run) => run,
-            Err(error) => return self.complain(&cannot_begin(&error)),
+            Err(error) => return self.complain(&no_room(&error)),
         };
         // What is there in the twinkling of an eye need not be seen half done.
         let begun = Instant::now();
@@ -209,8 +209,4 @@ impl Session {
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-fn cannot_begin(error: &io::Error) -> Report {
-    Report::of_error("cannot-write", format!("the run cannot be begun: {error}"))
 }
