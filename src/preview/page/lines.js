@@ -1,6 +1,6 @@
 // What is drawn in lines: trails, arrows, coils, grids, axes, and where the scene's camera stands.
 
-import { add, cross, dot, length, linear, sub, times, turned, unit } from "./math.js";
+import { add, cross, dot, length, sub, times, turned, unit } from "./math.js";
 
 /** Lines of a picture: for each its ends, its radius there, and its color in sRGB. Lengths are metres. */
 export class Lines {
@@ -85,25 +85,13 @@ export function trail(lines, run, { body, radius, color, tapers }, position) {
     if (poses) points.push(Array.from(poses.subarray(3 * body, 3 * body + 3)));
     else points.length = 0;
   }
-  const here = between(run, body, position);
-  if (here) points.push(here);
+  const here = run.posesAt(position)?.(body);
+  if (here) points.push(here.slice(0, 3));
   const smooth = rounded(points);
   for (let i = 1; i < smooth.length; i++) {
     const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
     lines.add(smooth[i - 1], smooth[i], width(i - 1), color, width(i));
   }
-}
-
-/** Where a body is at a position in the film, between two frames on a straight line. */
-export function between(run, body, position) {
-  const frame = Math.floor(position + 1e-9);
-  const from = run.poses(frame);
-  if (!from) return undefined;
-  const here = Array.from(from.subarray(3 * body, 3 * body + 3));
-  const part = position - frame;
-  const to = part > 1e-6 ? run.poses(frame + 1) : undefined;
-  if (!to) return here;
-  return here.map((a, k) => a + part * (to[3 * body + k] - a));
 }
 
 /** More points where a line bends, on a curve through all of them (Catmull–Rom). */
@@ -138,5 +126,3 @@ export function camera(lines, { location, right, up, back, tangentX, tangentY, d
     lines.add(point, corners[(i + 1) % 4], radius, color);
   });
 }
-
-export { linear };

@@ -72,6 +72,26 @@ export class Run {
     return piece.numbers.subarray(at * POSE * this.bodies, (at + 1) * POSE * this.bodies);
   }
 
+  /** Where each body is at a position of the film: that of a frame, or between two. */
+  posesAt(position) {
+    const frame = Math.min(Math.floor(position + 1e-9), this.frames - 1);
+    const from = this.poses(frame);
+    if (!from) return undefined;
+    const part = position - frame;
+    const to = part > 1e-6 ? this.poses(frame + 1) : undefined;
+    const turns = 3 * this.bodies;
+    return (i) => {
+      const [p, q] = [3 * i, turns + 4 * i];
+      const here = [from[p], from[p + 1], from[p + 2], from[q], from[q + 1], from[q + 2], from[q + 3]];
+      if (!to) return here;
+      const then = [to[p], to[p + 1], to[p + 2], to[q], to[q + 1], to[q + 2], to[q + 3]];
+      const sign = here[3] * then[3] + here[4] * then[4] + here[5] * then[5] + here[6] * then[6] < 0 ? -1 : 1;
+      const mixed = here.map((a, k) => a + part * ((k < 3 ? 1 : sign) * then[k] - a));
+      const norm = Math.hypot(mixed[3], mixed[4], mixed[5], mixed[6]) || 1;
+      return mixed.map((a, k) => (k < 3 ? a : a / norm));
+    };
+  }
+
   /** Where one body is in a frame. */
   pose(body, frame) {
     const poses = this.poses(frame);

@@ -1,6 +1,6 @@
 // From where the scene is seen: by its own camera, or by one that the viewer turns.
 
-import { add, axes, cross, length, lookAt, orthographic, perspective, product, sub, times, turned, unit } from "./math.js";
+import { add, axes, length, lookAt, orthographic, perspective, product, sub, times, unit } from "./math.js";
 
 export class Viewpoint {
   constructor() {
@@ -86,5 +86,3 @@ export class Viewpoint {
     };
   }
 }
-
-export { cross, turned };

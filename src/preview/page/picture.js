@@ -1,0 +1,150 @@
+// What is seen of a frame.
+
+import { arrow, axes, camera as cameraLines, coil, Lines, trail } from "./lines.js";
+import { length, short, sub, unit } from "./math.js";
+import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
+
+let before;
+
+/** The camera of the scene at the position of the film. */
+export function sceneCamera(run, frame) {
+  const stage = run.description.stage;
+  const shown = run.shownIn(frame, open.view)?.camera;
+  if (shown) return shown;
+  if (stage) return stage.cameras[Math.min(open.view, stage.cameras.length - 1)];
+  const { center, size } = open.painter.space;
+  return { location: [center[0] + 0.16 * 1.6 * size, center[1] + 0.11 * 1.6 * size, center[2] + 1.6 * size], look_at: center, angle: 40 };
+}
+
+function draw() {
+  const { run } = open;
+  if (!run || !open.painter?.batches.run) return;
+  const { position, frame } = player;
+  run.want(frame, open.view);
+  const at = run.posesAt(position);
+  if (!at) return;
+  // A frame that stands still is drawn when all of it is there.
+  const shown = run.shownIn(frame, open.view);
+  if (!player.playing && run.description.shows && run.description.stage && !shown) return;
+  drawn.dirty = false;
+  const canvas = element("picture");
+  const scale = Math.min(2, window.devicePixelRatio || 1);
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
+    canvas.width = Math.round(width * scale);
+    canvas.height = Math.round(height * scale);
+  }
+  const stage = run.description.stage;
+  const camera = sceneCamera(run, frame);
+  const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size);
+  open.painter.place("run", at);
+  const lines = new Lines();
+  drawLines(lines, run, shown, at);
+  if (viewpoint.own && stage && !camera.width) outlineCamera(lines, camera, run.description.size);
+  strobes(run, position, at);
+  if (open.other) placeOther(run);
+  open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, at);
+  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3));
+  const film = element("film");
+  film.hidden = viewpoint.own;
+  const [left, top, w, h] = view.rectangle;
+  Object.assign(film.style, { left: `${left}px`, top: `${top}px`, width: `${w}px`, height: `${h}px` });
+  element("time").value = frame;
+  element("clock").value = `${short(player.time, 6)} s, frame ${frame} of ${run.frames - 1}`;
+  element("play").classList.toggle("playing", player.playing);
+  element("play").setAttribute("aria-label", player.playing ? "Pause" : "Play");
+  status(run);
+  plots.mark(player.time);
+  panel.show(frame);
+  Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view });
+  for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
+}
+
+function drawLines(lines, run, shown, at) {
+  const stage = run.description.stage;
+  stage?.grid.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
+  stage?.trails.forEach((each) => trail(lines, run, each, player.position));
+  shown?.coils.forEach((each) => coil(lines, each));
+  shown?.arrows.forEach((each) => arrow(lines, each));
+  shown?.axes.forEach((each) => axes(lines, each));
+  if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
+    mark(lines, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
+  }
+}
+
+/** A cross of lines around the chosen body. */
+function mark(lines, [x, y, z], pieces) {
+  if (!pieces.length) return;
+  const reach = 1.25 * Math.max(...pieces.map((piece) => length(piece.location) + Math.max(...piece.scale)));
+  for (const axis of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) {
+    for (const side of [-1, 1]) {
+      const point = (far) => [x + axis[0] * far * side, y + axis[1] * far * side, z + axis[2] * far * side];
+      lines.add(point(reach), point(1.35 * reach), open.painter.space.size * 0.0012, [0.1, 0.55, 1]);
+    }
+  }
+}
+
+function outlineCamera(lines, camera, [w, h]) {
+  const away = sub(camera.location, camera.look_at);
+  const back = unit(away, [0, 0, 1]);
+  const right = unit([back[2], 0, -back[0]], [1, 0, 0]);
+  const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]];
+  const tangentX = Math.tan((Math.min(camera.angle, 170) * Math.PI) / 360);
+  const depth = 0.25 * length(away);
+  cameraLines(lines, { location: camera.location, right, up, back, tangentX, tangentY: (tangentX * h) / w, depth }, 0.002 * depth);
+}
+
+/** The ghosts that the scene asks for, as a stroboscope shows them. */
+function strobes(run, position, at) {
+  if (!run.ghosts.length) return;
+  const now = position / run.rate;
+  const past = run.ghosts.filter((ghost) => ghost.time < now - 1e-6 / run.rate);
+  const apart = past.filter(({ body, location, orientation: o }) => {
+    const here = at(body);
+    const turned = Math.abs(o[0] * here[3] + o[1] * here[4] + o[2] * here[5] + o[3] * here[6]) < 1 - 1e-4;
+    return turned || length(sub(location, here)) > 1e-4 * open.painter.space.size;
+  });
+  const key = `${run.id} ${past.length} ${apart.length}`;
+  if (open.strobes !== key) {
+    open.strobes = key;
+    open.painter.put("ghosts", apart.map(({ body }, pose) => ({ body, pose })), true);
+  }
+  if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation]);
+}
+
+/** Places the run that is compared with, and says how far apart the two are. */
+function placeOther(run) {
+  const { other } = open;
+  const position = Math.min(player.time * other.rate, other.frames - 1);
+  other.want(Math.floor(position + 1e-9), 0);
+  const at = other.posesAt(position);
+  const here = run.posesAt(player.position);
+  if (!at || other.bodies !== run.bodies) return;
+  open.painter.place("other", at);
+  let [most, which] = [0, 0];
+  for (let i = 0; i < run.bodies; i++) {
+    const apart = length(sub(at(i).slice(0, 3), here(i).slice(0, 3)));
+    if (apart > most) [most, which] = [apart, i];
+  }
+  const name = run.description.bodies[which]?.name;
+  element("comparison").textContent = `${other.description.integrator} as a ghost: ${most > 0 ? `${short(most, 3)} m apart (${name})` : "at the same places"}`;
+}
+
+function status(run) {
+  const { recorded, frames } = run.progress ?? { recorded: 0, frames: 0 };
+  const stage = run.description.stage;
+  const step = stage ? `, timestep ${short(stage.timestep)} s, drift ${short(100 * stage.drift, 2)} %` : "";
+  const so = recorded < frames ? `simulated ${recorded} of ${frames} frames` : `${run.bodies} ${run.bodies === 1 ? "body" : "bodies"}, ${run.description.integrator}${step}`;
+  element("status").textContent = so;
+}
+
+export function tick(now) {
+  const seconds = before === undefined ? 0 : (now - before) / 1000;
+  before = now;
+  if (player.playing) {
+    player.advance(seconds);
+    drawn.dirty = true;
+  }
+  if (drawn.dirty) draw();
+  requestAnimationFrame(tick);
+}
