@@ -139,3 +139,79 @@ pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
     };
     plan.lights(time).into_iter().map(text).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::emit::Emitter;
+    use crate::picture::Lamp;
+    use crate::scene::{Color, Preset, Scene};
+    use crate::simulate::{Frames, survey};
+
+    /// The numbers of the next `<…>`, or the next number, three times.
+    fn vector(text: &str) -> [f64; 3] {
+        let text = text.trim_start();
+        let number = |text: &str| text.trim().parse::<f64>().unwrap();
+        match text.strip_prefix('<') {
+            Some(rest) => {
+                let parts: Vec<f64> = rest.split('>').next().unwrap().split(',').map(number).collect();
+                parts.try_into().unwrap()
+            }
+            None => [number(text.split_whitespace().next().unwrap()); 3],
+        }
+    }
+
+    /// What a script says of a light: location, linear color, diameter, and whether it casts shadows.
+    fn said(light: &str) -> (DVec3, [f64; 3], Option<f64>, bool) {
+        let (_, color) = light.split_once("color ").unwrap();
+        let color = match color.strip_prefix("srgb ") {
+            Some(color) => {
+                // POV-Ray multiplies first.
+                let factor = color.split_once(">*").map(|(_, rest)| rest.split_whitespace().next().unwrap());
+                let factor: f64 = factor.map_or(1.0, |factor| factor.parse().unwrap());
+                Color(vector(color).map(|c| c * factor)).linear()
+            }
+            None => vector(color.strip_prefix("rgb ").unwrap()),
+        };
+        let size = light.split_once("area_light x*").map(|(_, rest)| rest.split(',').next().unwrap());
+        let size = size.map(|size| size.parse().unwrap());
+        (DVec3::from_array(vector(light)), color, size, !light.contains("shadowless"))
+    }
+
+    /// The templates and the plan have the usual lights each for itself.
+    #[test]
+    fn the_usual_lights_are_those_of_the_templates() {
+        for preset in Preset::ALL {
+            let text = format!(
+                "simulation.duration = 1\nenvironment.preset = '{}'
+                [body.ball]\nshape.sphere.radius = 1e-4\nlocation = [3e-4, 2e-4, 1e-4]",
+                preset.name()
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let survey = survey(&scene, |_| {}).unwrap();
+            let emitter = Emitter::new(&scene, &scene.camera, &survey).unwrap();
+            let script = emitter.script(&Frames::new(&scene).next().unwrap().unwrap()).unwrap();
+            let unit = emitter.unit();
+            assert_ne!(unit, 1.0);
+            let written: Vec<_> = script.split("light_source {").skip(1).map(said).collect();
+            let planned = emitter.plan().usual_lights();
+            assert_eq!(written.len(), planned.len(), "{preset:?}");
+            for ((location, color, size, shadows), light) in written.into_iter().zip(planned) {
+                let far = emitter.plan().stage().size * 40.0;
+                assert!((location * unit).abs_diff_eq(light.location, 1e-8 * far), "{preset:?}: {light:?}");
+                assert!(
+                    DVec3::from_array(color).abs_diff_eq(light.color.into(), 1e-8),
+                    "{preset:?}: {light:?}"
+                );
+                assert_eq!(
+                    (size.is_some(), shadows),
+                    (light.kind == Lamp::Area, light.shadows),
+                    "{preset:?}"
+                );
+                let off = size.unwrap_or(0.0) * unit - light.size.unwrap_or(0.0);
+                assert!(off.abs() < 1e-8 * far, "{preset:?}: {light:?}");
+            }
+        }
+    }
+}

@@ -13,10 +13,10 @@ pub enum ExportError {
     Diverged(Diverged),
     /// The file would be larger than its format allows: so many bytes, or more.
     TooLarge(u64),
-    /// A body is farther away than the numbers of the format reach.
+    /// A body, a camera or a light is farther away than the numbers of the format reach.
     OutOfRange {
-        /// The name of the body.
-        body: String,
+        /// Its name.
+        what: String,
         /// The time of the frame, s.
         time: f64,
     },
@@ -47,10 +47,10 @@ impl fmt::Display for ExportError {
                     *bytes as f64 / 1e9
                 )
             }
-            ExportError::OutOfRange { body, time } => {
+            ExportError::OutOfRange { what, time } => {
                 write!(
                     f,
-                    "at t = {time} s `{body}` is farther away than the numbers of a `.glb` reach: 3.4e38 m"
+                    "at t = {time} s `{what}` is farther away than the numbers of a `.glb` reach: 3.4e38 m"
                 )
             }
         }

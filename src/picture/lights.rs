@@ -1,8 +1,9 @@
-//! The lights that a scene gives, at a moment.
+//! The lights: those that a scene gives, at a moment, and those that shine where it gives none.
 
 use glam::DVec3;
 
-use crate::scene::{Light, LightKind, Scene};
+use super::stage::Stage;
+use crate::scene::{Color, Light, LightKind, Preset, Scene};
 
 /// A light at a moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,96 @@ impl Lamp {
             Lamp::Sun => "sun",
         }
     }
+}
+
+/// A light that shines where a scene gives none. Lengths are in sizes of the stage.
+struct Usual {
+    name: &'static str,
+    /// From the middle of the stage.
+    location: [f64; 3],
+    /// Of an area light: its diameter.
+    size: Option<f64>,
+    color: UsualColor,
+    shadows: bool,
+}
+
+/// A color, which may be brighter than white.
+enum UsualColor {
+    Linear([f64; 3]),
+    Srgb([f64; 3]),
+}
+
+/// The lights of an environment, as `templates/lights.inc` has them as well; a test of `emit` holds the two together.
+fn usual(preset: Preset) -> &'static [Usual] {
+    use UsualColor::{Linear, Srgb};
+    const SUN: Usual = Usual {
+        name: "sun",
+        location: [-30.0, 16.0, 26.0],
+        size: None,
+        color: Linear([1.25, 1.22, 1.15]),
+        shadows: true,
+    };
+    const MOON: Usual = Usual {
+        name: "moon",
+        location: [-20.0, 20.0, 10.0],
+        size: Some(0.6),
+        color: Linear([0.4, 0.47, 0.62]),
+        shadows: true,
+    };
+    const SOFT: [Usual; 2] = [
+        Usual {
+            name: "lamp",
+            location: [-13.0, 24.0, 12.0],
+            size: Some(6.0),
+            color: Linear([0.95; 3]),
+            shadows: true,
+        },
+        Usual {
+            name: "fill",
+            location: [18.0, 3.0, 18.0],
+            size: None,
+            color: Linear([0.16; 3]),
+            shadows: false,
+        },
+    ];
+    const WARM: [Usual; 2] = [
+        Usual {
+            name: "lamp",
+            location: [-13.0, 22.0, 16.0],
+            size: Some(1.2),
+            color: Srgb([1.1, 1.067, 1.012]),
+            shadows: true,
+        },
+        Usual {
+            name: "fill",
+            location: [14.0, -5.0, 22.0],
+            size: None,
+            color: Srgb([0.34, 0.37, 0.42]),
+            shadows: false,
+        },
+    ];
+    match preset {
+        Preset::Space => &[SUN],
+        Preset::Night => &[MOON],
+        Preset::Studio | Preset::Paper => &SOFT,
+        Preset::Daylight | Preset::Blackboard => &WARM,
+    }
+}
+
+/// The lights that shine around a stage where a scene gives none.
+pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
+    let place = |light: &Usual| PlacedLight {
+        name: light.name.to_owned(),
+        kind: if light.size.is_some() { Lamp::Area } else { Lamp::Point },
+        location: stage.center + DVec3::from_array(light.location) * stage.size,
+        size: light.size.map(|size| size * stage.size),
+        color: match light.color {
+            UsualColor::Linear(color) => color,
+            UsualColor::Srgb(color) => Color(color).linear(),
+        },
+        shadows: light.shadows,
+    };
+    usual(stage.preset).iter().map(place).collect()
 }
 
 /// The lights of a scene.

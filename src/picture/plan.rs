@@ -9,7 +9,7 @@ use super::coils::{Coil, Coils};
 use super::ghosts::Ghosts;
 use super::grid::{Grid, Ruled};
 use super::labels::Labels;
-use super::lights::{Lights, PlacedLight};
+use super::lights::{self, Lights, PlacedLight};
 use super::screen::Screen;
 use super::stage::{self, Stage};
 use super::text::Text;
@@ -95,6 +95,11 @@ impl Plan {
     /// The lights that are given, at a time (s). None of them means that the usual ones shine.
     pub fn lights(&self, time: f64) -> Vec<PlacedLight> {
         self.lights.at(time)
+    }
+
+    /// The lights of the surroundings, which shine where none is given. They never move.
+    pub fn usual_lights(&self) -> Vec<PlacedLight> {
+        lights::usual_lights(&self.stage)
     }
 
     /// Whether the lights are not the same in all frames.

@@ -6,7 +6,12 @@
 //   bodies: [{ name,
 //     box: [[x, y, z], [x, y, z]],       around the triangles at the first time
 //     poses: [[x, y, z, qx, qy, qz, qw]] at each time
-//   }] }
+//   }],
+//   cameras: [{ name, near, far,
+//     spots: [[[x, y]]]                  where the first five bodies are seen at each time: edges are at -1 and 1
+//   }],
+//   lights: [{ name, type, color: [r, g, b], intensity,
+//     places: [[x, y, z]], toward: [x, y, z] }] }  at each time, where it is; where it shines to at the first, if in parallel
 import { readFile } from 'node:fs/promises';
 import validator from 'gltf-validator';
 import { AnimationMixer, Box3, LoopOnce, Quaternion, Vector3 } from 'three';
@@ -31,9 +36,21 @@ async function poses(bytes) {
     const known = gltf.parser.associations.get(object);
     if (known?.nodes !== undefined && !objects.has(known.nodes)) objects.set(known.nodes, object);
   });
-  const bodies = (nodes[0].children ?? []).map((node) => {
-    return { name: nodes[node].name, object: objects.get(node), box: null, poses: [] };
-  });
+  const bodies = [];
+  const cameras = [];
+  const lights = [];
+  for (const node of nodes[0].children ?? []) {
+    const { name } = nodes[node];
+    const object = objects.get(node);
+    if (object.isCamera) {
+      cameras.push({ name, object, near: object.near, far: object.far, spots: [] });
+    } else if (object.isLight) {
+      const { type, intensity } = object;
+      lights.push({ name, type, object, color: object.color.toArray(), intensity, places: [], toward: null });
+    } else {
+      bodies.push({ name, object, box: null, poses: [] });
+    }
+  }
   const [clip] = gltf.animations;
   const times = clip ? Array.from(clip.tracks[0].times) : [0];
   const mixer = new AnimationMixer(gltf.scene);
@@ -55,6 +72,18 @@ async function poses(bytes) {
         body.box = [min.toArray(), max.toArray()];
       }
     }
+    for (const camera of cameras) {
+      const seen = bodies.slice(0, 5).map((body) => new Vector3(...body.poses.at(-1).slice(0, 3)));
+      camera.spots.push(seen.map((place) => place.project(camera.object).toArray().slice(0, 2)));
+    }
+    for (const light of lights) {
+      const place = light.object.getWorldPosition(new Vector3());
+      light.places.push(place.toArray());
+      if (light.object.isDirectionalLight) {
+        light.toward ??= light.object.target.getWorldPosition(new Vector3()).sub(place).toArray();
+      }
+    }
   }
-  return { times, bodies: bodies.map(({ name, box, poses }) => ({ name, box, poses })) };
+  const plain = ({ object, ...rest }) => rest;
+  return { times, bodies: bodies.map(plain), cameras: cameras.map(plain), lights: lights.map(plain) };
 }

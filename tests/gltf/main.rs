@@ -11,7 +11,8 @@ use std::process::Command;
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::dynamics::Shape;
-use jabuka::simulate::Frames;
+use jabuka::picture::{Lamp, Plan};
+use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
 use support::{jabuka, root, stderr, stdout};
 
@@ -24,6 +25,28 @@ struct Seen {
     triangles: u32,
     times: Vec<f64>,
     bodies: Vec<SeenBody>,
+    cameras: Vec<SeenCamera>,
+    lights: Vec<SeenLight>,
+}
+
+#[derive(Deserialize)]
+struct SeenCamera {
+    name: String,
+    near: f64,
+    far: f64,
+    /// Where bodies are seen at each time.
+    spots: Vec<Vec<[f64; 2]>>,
+}
+
+#[derive(Deserialize)]
+struct SeenLight {
+    name: String,
+    #[serde(rename = "type")]
+    kind: String,
+    color: [f64; 3],
+    intensity: f64,
+    places: Vec<[f64; 3]>,
+    toward: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -109,6 +132,73 @@ fn assert_same_extent(name: &str, seen: &Seen, scene: &Scene) {
     }
 }
 
+/// What a camera sees: how many spots were where they must be.
+fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) -> usize {
+    let survey = survey(scene, |_| {}).unwrap();
+    let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
+    let cameras: Vec<_> = std::iter::once(("camera".to_owned(), &scene.camera)).chain(views).collect();
+    assert_eq!(seen.cameras.len(), cameras.len(), "{name}");
+    let aspect = f64::from(scene.output.width) / f64::from(scene.output.height);
+    let mut compared = 0;
+    for (found, (known, camera)) in seen.cameras.iter().zip(cameras) {
+        assert_eq!(found.name, known, "{name}");
+        let plan = Plan::new(scene, camera, &survey);
+        let lens = plan.camera(&frames[0]).lens();
+        for (frame, spots) in frames.iter().zip(&found.spots) {
+            let placed = plan.camera(frame);
+            // An angle that changes is as it is at the start.
+            if placed.lens() != lens {
+                continue;
+            }
+            for (body, [x, y]) in frame.bodies.iter().zip(spots) {
+                let Some(spot) = placed.screen().spot(body.location) else { continue };
+                let (of_x, of_y) = (spot.x, spot.y * aspect);
+                if of_x.abs().max(of_y.abs()) > 1.5 {
+                    continue;
+                }
+                // Places are of `f32`.
+                let far = body.location.length().max(placed.location().length());
+                let most = 1e-5 + 2e-7 * far * spot.metre * aspect;
+                let off = (of_x - x).abs().max((of_y - y).abs());
+                assert!(off < most, "{name}, {known} at {} s: {spot:?}, seen at {x} {y}", frame.time);
+                let depth =
+                    (placed.look_at() - placed.location()).normalize().dot(body.location - placed.location());
+                let within = (found.near..found.far).contains(&depth);
+                assert!(within, "{name}, {known}: {depth} not in {}..{}", found.near, found.far);
+                compared += 1;
+            }
+        }
+    }
+    compared
+}
+
+/// Asserts that the lights are those of the picture, as bright in the middle of everything.
+fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) {
+    let plan = Plan::new(scene, &scene.camera, &survey(scene, |_| {}).unwrap());
+    let stage = plan.stage();
+    let at = |time: f64| Some(plan.lights(time)).filter(|lights| !lights.is_empty());
+    let at = |time: f64| at(time).unwrap_or_else(|| plan.usual_lights());
+    assert_eq!(seen.lights.len(), at(0.0).len(), "{name}");
+    for (frame, i) in frames.iter().zip(0..seen.times.len()) {
+        for (found, light) in seen.lights.iter().zip(at(frame.time)) {
+            let off = DVec3::from_array(found.places[i]).distance(light.location);
+            assert!(off <= 1.2e-7 * light.location.length(), "{name}, {}: {off} m off", light.name);
+        }
+    }
+    for (found, light) in seen.lights.iter().zip(at(frames[0].time)) {
+        assert_eq!(found.name, format!("light {}", light.name), "{name}");
+        let distance = light.location.distance(stage.center).max(stage.size / 2.0);
+        let sun = light.kind == Lamp::Sun;
+        let (kind, fades) = if sun { ("DirectionalLight", 1.0) } else { ("PointLight", distance * distance) };
+        assert_eq!(found.kind, kind, "{name}");
+        let here = DVec3::from_array(found.color) * found.intensity / (std::f64::consts::PI * fades);
+        assert!(here.abs_diff_eq(light.color.into(), 1e-9), "{name}, {}: {here}", light.name);
+        let toward = (stage.center - light.location).normalize();
+        let same = |found: [f64; 3]| DVec3::from_array(found).abs_diff_eq(toward, 1e-6);
+        assert!(found.toward.map_or(!sun, same), "{name}, {}: {:?}", light.name, found.toward);
+    }
+}
+
 /// Exports scenes as models and as tables, and holds one against the other.
 fn check(scenes: &[PathBuf], folder: &Path) {
     let both = |scene: &PathBuf| {
@@ -122,6 +212,10 @@ fn check(scenes: &[PathBuf], folder: &Path) {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let scene = Scene::from_path(path).unwrap();
         assert_same_motion(name, &seen, &table(&file.with_extension("csv"), scene.bodies.len()));
+        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+        let spots = assert_same_picture(name, &seen, &scene, &frames);
+        assert!(spots > 0, "{name}: something is seen");
+        assert_same_lights(name, &seen, &scene, &frames);
         // With many bodies, each is drawn more coarsely.
         if scene.bodies.len() < 50 {
             assert_same_extent(name, &seen, &scene);
@@ -186,6 +280,71 @@ const ODD: &str = r##"
     location = [0, 0.4, 0]
     orientation = [0, 0, 20]
     "##;
+
+/// Cameras that stand, look straight down and up, move in all ways, and lights of all kinds.
+const VIEWS: &str = "
+    simulation = { duration = 2, gravity = [0, -9.81, 0] }
+    output.size = [300, 400]
+    [body.ball]
+    shape.sphere.radius = 0.3
+    velocity = [3, 9, 0]
+    [body.post]
+    shape.box.size = [1, 1, 1]
+    location = [2, 1, -1]
+    fixed = true
+    [camera]
+    follow = { body = 'ball', distance = 6, lag = 0.3 }
+    [view.down]
+    location = [2, 12, 0]
+    look_at = [2, 0, 0]
+    [view.up]
+    location = [2, -9, 0]
+    look_at = [2, 1, 0]
+    [view.flat]
+    projection = 'orthographic'
+    location = [9, 4, 8]
+    look_at = [2, 1, 0]
+    [view.wide]
+    angle = 150
+    location = [3, 3, 7]
+    look_at = [2, 1, 0]
+    [view.round]
+    location = [3, 3, 14]
+    look_at = [2, 1, 0]
+    orbit.period = 1
+    [view.zoom]
+    angle = '60 - 20*t'
+    location = ['3 + t', 3, 14]
+    look_at = [2, 1, 0]
+    [light.lamp]
+    point.location = ['5*cos(3*t)', 6, '5*sin(3*t)']
+    color = 'orange'
+    intensity = 1.4
+    [light.soft]
+    area = { location = [-9, 8, 9], size = 2 }
+    [light.day]
+    sun.direction = [1, -2, -0.5]
+    [light.noon]
+    sun.direction = [0, -1, 0]
+    intensity = 0
+    ";
+
+#[test]
+fn cameras_see_and_lights_shine_as_in_the_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("views.toml");
+    fs::write(&path, VIEWS).unwrap();
+    check(std::slice::from_ref(&path), folder.path());
+
+    // Some frames are as they are among all, with what has been before.
+    let file = folder.path().join("some.glb");
+    export(&path, &file, &["--frames", "30-40"]);
+    let scene = Scene::from_path(&path).unwrap();
+    let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).skip(30).take(11).collect();
+    let seen = look(&[file]).remove(0);
+    assert!(assert_same_picture("some", &seen, &scene, &frames) > 11 * 5);
+    assert_eq!(seen.times.len(), 11);
+}
 
 const EMPTY: &str = "environment.ground = false";
 

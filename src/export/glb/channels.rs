@@ -1,9 +1,9 @@
-//! What moves the nodes of the bodies.
+//! What moves nodes.
 
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
 use super::motion::Motion;
 
-/// What moves the nodes of the bodies, and how many bytes of keys that takes, which are those of a view; nothing where
+/// What moves nodes, and how many bytes of keys that takes, which are those of a view; nothing where
 /// nothing moves.
 pub(super) fn animation(
     motion: &Motion,

@@ -12,6 +12,7 @@ pub(super) struct Document {
     pub(super) nodes: Vec<Node>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) meshes: Vec<Mesh>,
+    pub(super) cameras: Vec<Camera>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) materials: Vec<Material>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -22,6 +23,8 @@ pub(super) struct Document {
     pub(super) buffer_views: Vec<BufferView>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) buffers: Vec<Buffer>,
+    pub(super) extensions_used: [&'static str; 1],
+    pub(super) extensions: OfLights<Lights>,
 }
 
 #[derive(Serialize)]
@@ -56,6 +59,10 @@ pub(super) struct Node {
     pub(super) children: Vec<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) mesh: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) camera: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<OfLights<LightOfNode>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) translation: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -108,6 +115,73 @@ pub(super) struct Shading {
     pub(super) base_color_factor: [f64; 4],
     pub(super) metallic_factor: f64,
     pub(super) roughness_factor: f64,
+}
+
+/// What looks along -z of its node, with y up.
+#[derive(Serialize)]
+pub(super) struct Camera {
+    pub(super) name: String,
+    #[serde(flatten)]
+    pub(super) lens: CameraLens,
+}
+
+/// How a camera sees.
+#[derive(Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub(super) enum CameraLens {
+    Perspective { perspective: Perspective },
+    Orthographic { orthographic: Orthographic },
+}
+
+/// Angles are in radians.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Perspective {
+    pub(super) aspect_ratio: f64,
+    pub(super) yfov: f64,
+    pub(super) znear: f64,
+    pub(super) zfar: f64,
+}
+
+/// Of width and height, the halves.
+#[derive(Serialize)]
+pub(super) struct Orthographic {
+    pub(super) xmag: f64,
+    pub(super) ymag: f64,
+    pub(super) znear: f64,
+    pub(super) zfar: f64,
+}
+
+/// The extension of lights.
+pub(super) const LIGHTS: &str = "KHR_lights_punctual";
+
+/// What the extension of lights says of something.
+#[derive(Serialize)]
+pub(super) struct OfLights<T> {
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) lights: T,
+}
+
+#[derive(Serialize)]
+pub(super) struct Lights {
+    pub(super) lights: Vec<Light>,
+}
+
+/// The number of the light of a node.
+#[derive(Serialize)]
+pub(super) struct LightOfNode {
+    pub(super) light: u32,
+}
+
+#[derive(Serialize)]
+pub(super) struct Light {
+    pub(super) name: String,
+    #[serde(rename = "type")]
+    pub(super) kind: &'static str,
+    /// Linear; 1 at most.
+    pub(super) color: [f64; 3],
+    /// Candela of a point, lux of what is parallel.
+    pub(super) intensity: f64,
 }
 
 #[derive(Serialize)]

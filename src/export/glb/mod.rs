@@ -1,12 +1,13 @@
-//! Frames → a binary glTF 2.0 file: all bodies with their animation, for Blender, three.js and their kin.
+//! Frames → a binary glTF 2.0 file: all bodies with their animation, cameras and lights, for Blender, three.js and their kin.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | where the bodies are in all frames | `motion` |
+//! | where cameras and lights are, how they see and shine | `sight` |
 //! | triangles, those of a form once | `geometry` |
 //! | looks | `materials` |
 //! | forms in their looks | `meshes` |
-//! | the nodes of the bodies, and the document of all | `model` |
+//! | the nodes, and the document of all | `model` |
 //! | what moves nodes | `channels` |
 //! | the words of glTF | `document` |
 //! | both chunks as bytes | `container` |
@@ -22,12 +23,14 @@ mod materials;
 mod meshes;
 mod model;
 mod motion;
+mod sight;
 #[cfg(test)]
 mod tests;
 
 use std::io::Write;
 
 use self::motion::Motion;
+use self::sight::Sight;
 use super::ExportError;
 use crate::scene::Scene;
 use crate::simulate::Selection;
@@ -43,14 +46,16 @@ pub struct Exported {
     pub faster: f64,
 }
 
-/// Simulates a scene, and writes its bodies with their motion in some frames. Poses are kept for bodies that move, 28
-/// bytes for each frame at most.
+/// Simulates a scene, and writes its bodies, cameras and lights with their motion in some frames. Poses are kept for what
+/// moves, 28 bytes for each frame at most. An angle of view that changes stays as it is in the first of the frames, since
+/// glTF has no word for that.
 ///
 /// # Errors
 /// Where it cannot be written, the run leaves the numbers, or the format cannot hold it; then nothing is written.
 pub fn write_glb(scene: &Scene, selection: &Selection, mut out: impl Write) -> Result<Exported, ExportError> {
-    let (motion, survey) = Motion::of(scene, selection)?;
-    let (document, geometry) = model::model(scene, &survey, &motion);
+    let (mut motion, survey) = Motion::of(scene, selection)?;
+    let sight = Sight::of(scene, &survey, selection, &mut motion)?;
+    let (document, geometry) = model::model(scene, sight, &motion);
     let bytes = container::write(&document, &geometry, &motion, &mut out)?;
     out.flush()?;
     Ok(Exported { frames: motion.times().len(), bytes, faster: motion.faster() })

@@ -1,15 +1,17 @@
-//! The bodies of a scene as nodes, with what moves them.
+//! The bodies, cameras and lights of a scene as nodes, with what moves them.
 
 use glam::{DQuat, DVec3};
 
 use super::channels::animation;
-use super::document::{Animation, Asset, Buffer, Document, Extras, Node, SceneOfNodes};
+use super::document::{
+    Animation, Asset, Buffer, Document, Extras, LIGHTS, LightOfNode, Lights, Node, OfLights, SceneOfNodes,
+};
 use super::geometry::Geometry;
 use super::materials::What;
 use super::meshes::Meshes;
-use super::motion::{Motion, Way};
+use super::motion::{Motion, Pose, Way};
+use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
-use crate::simulate::{Bounds, Survey};
 use crate::surface::{Detail, Form, Piece, pieces};
 
 /// With more pieces than this, each is drawn of fewer triangles.
@@ -21,20 +23,19 @@ const ROOT: &str = "jabuka";
 /// A scene on its way to a document.
 struct Model<'a> {
     scene: &'a Scene,
-    /// Where everything takes place.
-    bounds: Bounds,
+    /// What surrounds the bodies, and from where it is seen.
+    sight: Sight,
     nodes: Vec<Node>,
     meshes: Meshes,
 }
 
 /// A scene whose motion is known, as a document, and the triangles that belong to it.
-pub(super) fn model(scene: &Scene, survey: &Survey, motion: &Motion) -> (Document, Geometry) {
+pub(super) fn model(scene: &Scene, sight: Sight, motion: &Motion) -> (Document, Geometry) {
     let drawn: Vec<Vec<Piece>> = scene.bodies.iter().map(|body| pieces(&body.drawn())).collect();
     let many = drawn.iter().map(Vec::len).sum::<usize>() > MANY;
-    let nothing = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
     let mut model = Model {
         scene,
-        bounds: survey.bounds.unwrap_or(nothing),
+        sight,
         nodes: vec![Node { name: ROOT.to_owned(), ..Node::default() }],
         meshes: Meshes::new(if many { Detail::Coarse } else { Detail::Fine }),
     };
@@ -42,9 +43,12 @@ pub(super) fn model(scene: &Scene, survey: &Survey, motion: &Motion) -> (Documen
     let bodies: Vec<u32> = bodies.map(|((body, way), pieces)| model.body(body, way, pieces)).collect();
     let mut top = bodies.clone();
     top.extend(model.ground());
+    let beside = model.beside(&motion.ways()[bodies.len()..]);
+    top.extend(&beside);
     model.nodes[0].children = top;
+    let moving: Vec<u32> = bodies.into_iter().chain(beside).collect();
     let meshes = &mut model.meshes;
-    let (animation, keys) = animation(motion, &bodies, meshes.geometry.keys(), &mut meshes.accessors);
+    let (animation, keys) = animation(motion, &moving, meshes.geometry.keys(), &mut meshes.accessors);
     model.finish(motion, animation, keys)
 }
 
@@ -56,7 +60,7 @@ impl Model<'_> {
 
     /// Adds the node of a body, with its pieces below it; a single piece that is where the body is, is the node itself.
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
-        let number = self.node(Node { name: body.name.clone(), ..at(way.location, way.orientation) });
+        let number = self.node(Node { name: body.name.clone(), ..at(way.start) });
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
         // A pattern is made for a ball of radius 1, and on a body as large as on a ball of its volume.
@@ -67,7 +71,7 @@ impl Model<'_> {
                 self.spread(&mut piece, way);
                 let checkered =
                     body.material.is_some_and(|m| self.scene.materials[m].look == Look::Checkered);
-                pattern = checkered.then(|| self.tile());
+                pattern = checkered.then_some(self.sight.stage.tile);
             }
             let mesh = self.meshes.number(self.scene, &piece, material, pattern);
             let centred = piece.location == DVec3::ZERO && piece.orientation == DQuat::IDENTITY;
@@ -77,7 +81,8 @@ impl Model<'_> {
                 (node.mesh, node.scale) = (mesh, scale);
             } else {
                 let name = format!("{}: {}", body.name, piece.form.name());
-                let child = self.node(Node { name, mesh, scale, ..at(piece.location, piece.orientation) });
+                let place = Pose { location: piece.location, orientation: piece.orientation };
+                let child = self.node(Node { name, mesh, scale, ..at(place) });
                 self.nodes[number as usize].children.push(child);
             }
         }
@@ -87,41 +92,50 @@ impl Model<'_> {
     /// Makes the square of a plane as large as has to be, in the middle of everything.
     fn spread(&self, piece: &mut Piece, way: &Way) {
         let normal = piece.orientation * DVec3::Y;
-        let middle = way.orientation.conjugate() * (self.middle() - way.location);
+        let Pose { location, orientation } = way.start;
+        let middle = orientation.conjugate() * (self.sight.stage.center - location);
         piece.location = middle - normal * middle.dot(normal);
         piece.scale = DVec3::splat(self.half_of_ground());
     }
 
-    fn middle(&self) -> DVec3 {
-        (self.bounds.min + self.bounds.max) / 2.0
-    }
-
-    fn size(&self) -> f64 {
-        (self.bounds.max - self.bounds.min).length()
-    }
-
     /// Half the edge of what has no end.
     fn half_of_ground(&self) -> f64 {
-        1.5 * self.size()
-    }
-
-    /// The edge of a tile of the ground, m.
-    fn tile(&self) -> f64 {
-        let given = self.scene.environment.ground.as_ref().and_then(|ground| ground.tile);
-        given.unwrap_or(self.size() / 12.0)
+        1.5 * self.sight.stage.size
     }
 
     /// Adds the ground of the surroundings.
     fn ground(&mut self) -> Option<u32> {
-        let ground = self.scene.environment.ground.as_ref().filter(|_| !self.scene.output.transparent)?;
-        // Just under what is lowest, so that the two do not fight for what is seen.
-        let height = ground.height.unwrap_or(self.bounds.min.y - self.size() / 1000.0);
+        let ground = self.sight.stage.ground?;
         let scale = DVec3::splat(self.half_of_ground());
-        let (location, orientation) = (self.middle().with_y(height), DQuat::IDENTITY);
+        let (location, orientation) = (self.sight.stage.center.with_y(ground.height), DQuat::IDENTITY);
         let piece = Piece { form: Form::Plane, scale, location, orientation, color: None };
-        let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(self.tile()));
+        let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(ground.tile));
         let name = "ground".to_owned();
-        Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(location, orientation) }))
+        let place = Pose { location, orientation };
+        Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(place) }))
+    }
+
+    /// Adds the cameras and the lights, which go these ways.
+    fn beside(&mut self, ways: &[Way]) -> Vec<u32> {
+        let cameras = self.sight.cameras.iter().enumerate();
+        let cameras = cameras.map(|(number, camera)| Node {
+            name: camera.name.clone(),
+            camera: Some(number as u32),
+            ..Node::default()
+        });
+        let lights = self.sight.lights.iter().enumerate();
+        let lights = lights.map(|(number, light)| Node {
+            name: light.name.clone(),
+            extensions: Some(OfLights { lights: LightOfNode { light: number as u32 } }),
+            ..Node::default()
+        });
+        let nodes = cameras.chain(lights).zip(ways).map(|(node, way)| {
+            let Node { translation, rotation, .. } = at(way.start);
+            Node { translation, rotation, ..node }
+        });
+        let first = self.nodes.len() as u32;
+        self.nodes.extend(nodes.collect::<Vec<_>>());
+        (first..self.nodes.len() as u32).collect()
     }
 
     /// What the scene is called.
@@ -147,18 +161,22 @@ impl Model<'_> {
             scenes: vec![SceneOfNodes { name: title, nodes: vec![0] }],
             nodes: self.nodes,
             meshes: self.meshes.meshes,
+            cameras: self.sight.cameras,
             materials: self.meshes.paints.materials,
             animations: animation.into_iter().collect(),
             accessors: self.meshes.accessors,
             buffers: if views.is_empty() { vec![] } else { vec![Buffer { byte_length: bytes }] },
             buffer_views: views,
+            extensions_used: [LIGHTS],
+            extensions: OfLights { lights: Lights { lights: self.sight.lights } },
         };
         (document, self.meshes.geometry)
     }
 }
 
 /// A node at a place.
-fn at(location: DVec3, orientation: DQuat) -> Node {
+fn at(pose: Pose) -> Node {
+    let Pose { location, orientation } = pose;
     Node {
         translation: (location != DVec3::ZERO).then_some(location.to_array()),
         rotation: (orientation != DQuat::IDENTITY).then_some(orientation.to_array()),

@@ -1,4 +1,4 @@
-//! Where the bodies are in all frames, as far as they move.
+//! Where the bodies are in all frames, as far as they move, and what stands beside them.
 
 use glam::{DQuat, DVec3};
 
@@ -6,26 +6,33 @@ use super::container::LARGEST;
 use crate::export::ExportError;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::simulate::{BodyFrame, Frame, Selection, Survey, survey};
+use crate::simulate::{Selection, Survey, survey};
 
 /// The frames per second of what is too fast or too slow for a film.
 const USUAL_RATE: f64 = 25.0;
 
-/// The motion of all bodies in the frames that are asked for.
+/// The motion of all bodies in the frames that are asked for, and of what stands beside them.
 pub(super) struct Motion {
     /// The times of the frames, as they are shown, s.
     times: Vec<f32>,
     /// Shown seconds for each second of the scene.
     slower: f64,
-    bodies: Vec<Way>,
+    ways: Vec<Way>,
+    /// What is left in a file.
+    pub(super) room: Room,
 }
 
-/// The way of a body.
-pub(super) struct Way {
-    /// Where it is in the first of the frames, m.
+/// Where something is, m, and how it is turned.
+#[derive(Clone, Copy)]
+pub(super) struct Pose {
     pub(super) location: DVec3,
-    /// How it is turned then.
     pub(super) orientation: DQuat,
+}
+
+/// The way of something.
+pub(super) struct Way {
+    /// Where it is in the first of the frames.
+    pub(super) start: Pose,
     /// Its locations in all frames, m; empty if they are all the same.
     pub(super) translations: Vec<f32>,
     /// Its orientations in all frames, each x, y, z, w; empty if they are all the same.
@@ -43,42 +50,31 @@ impl Motion {
             rate = USUAL_RATE;
         }
         let slower = scene.simulation.frame_rate / rate;
-        let mut motion = Motion { times: Vec::with_capacity(count), slower, bodies: Vec::new() };
-        let mut failed = None;
+        let mut times = Vec::with_capacity(count);
         let mut room = Room::default();
         room.take(count)?;
+        let mut bodies = Recorder::new(count);
+        let mut failed = None;
         let survey = survey(scene, |frame| {
             if failed.is_none() && selection.contains(frame.index) {
-                failed = motion.add(scene, frame, count, &mut room).err();
+                times.push((frame.time * slower) as f32);
+                let poses = frame
+                    .bodies
+                    .iter()
+                    .map(|body| Pose { location: body.location, orientation: body.orientation.normalize() });
+                let name = |body: usize| scene.bodies[body].name.clone();
+                failed = bodies.add(poses, frame.time, name, &mut room).err();
             }
         })?;
         match failed {
             Some(error) => Err(error),
-            None => Ok((motion, survey)),
+            None => Ok((Motion { times, slower, ways: bodies.ways, room }, survey)),
         }
     }
 
-    /// Adds a frame of so many that there will be. The room is what is left in a file.
-    fn add(
-        &mut self,
-        scene: &Scene,
-        frame: &Frame,
-        count: usize,
-        room: &mut Room,
-    ) -> Result<(), ExportError> {
-        let known = self.times.len();
-        self.times.push((frame.time * self.slower) as f32);
-        if known == 0 {
-            self.bodies = frame.bodies.iter().map(Way::new).collect();
-        }
-        for (way, body) in self.bodies.iter_mut().zip(&frame.bodies) {
-            if !body.location.as_vec3().is_finite() {
-                let body = scene.bodies[body.id].name.clone();
-                return Err(ExportError::OutOfRange { body, time: frame.time });
-            }
-            way.add(body, known, count, room)?;
-        }
-        Ok(())
+    /// Adds the ways of what stands beside what is there.
+    pub(super) fn append(&mut self, recorder: Recorder) {
+        self.ways.extend(recorder.ways);
     }
 
     /// The times of the frames, as they are shown, s.
@@ -91,43 +87,67 @@ impl Motion {
         1.0 / self.slower
     }
 
-    /// The ways of the bodies, in the order of the scene.
+    /// The ways of the bodies, in the order of the scene, and of what has been added.
     pub(super) fn ways(&self) -> &[Way] {
-        &self.bodies
+        &self.ways
     }
 
-    /// All numbers in the order of the file: the times, and for each body its locations and its orientations.
+    /// All numbers in the order of the file: the times, and for each way its locations and its orientations.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
-        let ways = self.bodies.iter().flat_map(|way| [&way.translations[..], &way.rotations[..]]);
+        let ways = self.ways.iter().flat_map(|way| [&way.translations[..], &way.rotations[..]]);
         std::iter::once(&self.times[..]).chain(ways)
     }
 }
 
-impl Way {
-    fn new(body: &BodyFrame) -> Way {
-        Way {
-            location: body.location,
-            orientation: body.orientation.normalize(),
-            translations: Vec::new(),
-            rotations: Vec::new(),
-            last: body.orientation.normalize(),
-        }
+/// What keeps where several things are, frame after frame.
+pub(super) struct Recorder {
+    ways: Vec<Way>,
+    /// The number of frames so far, and of those that there will be.
+    known: usize,
+    count: usize,
+}
+
+impl Recorder {
+    /// For so many frames.
+    pub(super) fn new(count: usize) -> Recorder {
+        Recorder { ways: Vec::new(), known: 0, count }
     }
 
-    /// Adds where a body is after so many known frames of all.
-    fn add(
+    /// Adds where everything is in a frame, if a file has room for it; the names are for the error.
+    pub(super) fn add(
         &mut self,
-        body: &BodyFrame,
-        known: usize,
-        count: usize,
+        poses: impl Iterator<Item = Pose>,
+        time: f64,
+        name: impl Fn(usize) -> String,
         room: &mut Room,
     ) -> Result<(), ExportError> {
-        let orientation = body.orientation.normalize();
+        for (i, pose) in poses.enumerate() {
+            if !pose.location.as_vec3().is_finite() {
+                return Err(ExportError::OutOfRange { what: name(i), time });
+            }
+            match self.ways.get_mut(i) {
+                Some(way) => way.add(pose, self.known, self.count, room)?,
+                None => self.ways.push(Way::new(pose)),
+            }
+        }
+        self.known += 1;
+        Ok(())
+    }
+}
+
+impl Way {
+    fn new(start: Pose) -> Way {
+        Way { start, translations: Vec::new(), rotations: Vec::new(), last: start.orientation }
+    }
+
+    /// Adds where it is after so many known frames of all.
+    fn add(&mut self, pose: Pose, known: usize, count: usize, room: &mut Room) -> Result<(), ExportError> {
+        let Pose { location, orientation } = pose;
         // Of q and -q, which are the same rotation, the nearer one: between the two others, it would turn all around.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };
-        let start = self.location.as_vec3().to_array();
-        follow(&mut self.translations, start, body.location.as_vec3().to_array(), known, count, room)?;
-        let start = self.orientation.as_quat().to_array();
+        let start = self.start.location.as_vec3().to_array();
+        follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, room)?;
+        let start = self.start.orientation.as_quat().to_array();
         follow(&mut self.rotations, start, self.last.as_quat().to_array(), known, count, room)
     }
 }

@@ -106,8 +106,10 @@ fn a_scene_without_bodies_is_a_file() {
 #[test]
 fn what_is_too_large_is_refused_before_anything_is_written() {
     let scene = scene(SCENE);
-    let (motion, survey) = Motion::of(&scene, &Selection::first(2)).unwrap();
-    let (mut document, geometry) = model(&scene, &survey, &motion);
+    let frames = Selection::first(2);
+    let (mut motion, survey) = Motion::of(&scene, &frames).unwrap();
+    let sight = Sight::of(&scene, &survey, &frames, &mut motion).unwrap();
+    let (mut document, geometry) = model(&scene, sight, &motion);
     document.buffers[0].byte_length = LARGEST - 8;
     let mut out = Vec::new();
     let refused = write(&document, &geometry, &motion, &mut out);
@@ -129,4 +131,26 @@ fn what_no_film_can_show_is_shown_as_one_can() {
     assert!((exported.faster / 2.5e9 - 1.0).abs() < 1e-12);
     let (motion, _) = Motion::of(&scene(slow), &Selection::first(11)).unwrap();
     assert_eq!(motion.times().last(), Some(&0.4));
+}
+
+#[test]
+fn a_camera_beyond_the_numbers_is_an_error() {
+    let far = format!("camera.location = [0, 0, 1e39]\n{SCENE}");
+    let refused = write_glb(&scene(&far), &Selection::first(2), Vec::new());
+    let Err(ExportError::OutOfRange { what, .. }) = refused else { panic!("it is written") };
+    assert_eq!(what, "camera");
+}
+
+/// A changing angle has no word in glTF, and one of half a turn and more none either.
+#[test]
+fn an_angle_is_that_of_the_first_of_the_frames_and_less_than_half_a_turn() {
+    for (angle, frames, degrees) in
+        [("'60 + 10*t'", "0-40", 60.0), ("'60 + 10*t'", "20-30", 80.0), ("'120 + 60*t'", "20,30", 179.9)]
+    {
+        let text = format!("camera.angle = {angle}\noutput.size = [100, 100]\n{SCENE}");
+        let json = json(&file(&scene(&text), frames));
+        let perspective = &json["cameras"][0]["perspective"];
+        let yfov = perspective["yfov"].as_f64().unwrap().to_degrees();
+        assert!((yfov - degrees).abs() < 1e-9, "{angle}: {perspective}");
+    }
 }

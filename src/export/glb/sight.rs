@@ -1,0 +1,177 @@
+//! From where a scene is seen, and what shines there: cameras and lights, with how they move.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::document::{Camera, CameraLens, Light, Orthographic, Perspective};
+use super::motion::{Motion, Pose, Recorder};
+use crate::export::ExportError;
+use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
+use crate::scene::{Output, Scene};
+use crate::simulate::{Frames, Selection, Survey};
+
+/// The widest angle of view that is written, degrees: glTF has none of half a turn.
+const WIDEST: f64 = 179.9;
+
+/// What a scene is seen by and lit by. Their ways stand behind those of the bodies in the motion: cameras first.
+pub(super) struct Sight {
+    /// What surrounds the bodies.
+    pub(super) stage: Stage,
+    /// The main camera, and those of the views.
+    pub(super) cameras: Vec<Camera>,
+    pub(super) lights: Vec<Light>,
+}
+
+impl Sight {
+    /// The cameras and lights of a scene, in the frames of a motion. A camera that moves has the scene simulated once
+    /// more, since it takes the survey to place it, and what has been before if it lags.
+    pub(super) fn of(
+        scene: &Scene,
+        survey: &Survey,
+        selection: &Selection,
+        motion: &mut Motion,
+    ) -> Result<Sight, ExportError> {
+        let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
+        let all = std::iter::once(("camera".to_owned(), &scene.camera)).chain(views);
+        let (names, plans): (Vec<String>, Vec<Plan>) =
+            all.map(|(name, camera)| (name, Plan::new(scene, camera, survey))).unzip();
+        let stage = plans[0].stage().clone();
+        let mut seen: Vec<Seen> = plans.iter().map(|_| Seen::default()).collect();
+        let mut see = |time: f64, placed: Vec<Placed>, motion: &mut Motion, ways: &mut Recorder| {
+            seen.iter_mut().zip(&placed).for_each(|(seen, placed)| seen.see(placed, &stage));
+            ways.add(placed.iter().map(pose), time, |i| names[i].clone(), &mut motion.room)
+        };
+        let mut ways = Recorder::new(motion.times().len());
+        if plans.iter().any(Plan::camera_moves) {
+            for frame in Frames::new(scene) {
+                let frame = frame?;
+                if selection.contains(frame.index) {
+                    let placed = plans.iter().map(|plan| plan.camera(&frame)).collect();
+                    see(frame.time, placed, motion, &mut ways)?;
+                }
+                if selection.last().is_none_or(|last| frame.index >= last) {
+                    break;
+                }
+            }
+        } else {
+            see(0.0, plans.iter().map(|plan| *plan.placed()).collect(), motion, &mut ways)?;
+        }
+        motion.append(ways);
+        let cameras = names.into_iter().zip(seen);
+        let cameras = cameras.map(|(name, seen)| seen.camera(name, scene.output, &stage)).collect();
+        let lights = lights(scene, &plans[0], selection, motion)?;
+        Ok(Sight { cameras, lights, stage })
+    }
+}
+
+/// Where a camera is, and how it is turned.
+fn pose(camera: &Placed) -> Pose {
+    let screen = camera.screen();
+    let (right, up) = (screen.right(), screen.up());
+    let turn = DMat3::from_cols(right, up, right.cross(up));
+    Pose { location: camera.location(), orientation: DQuat::from_mat3(&turn).normalize() }
+}
+
+/// How a camera sees in the first frame, and how near and how far in all of them.
+#[derive(Default)]
+struct Seen {
+    lens: Option<Lens>,
+    /// How far it is from everything where it is nearest, m.
+    near: Option<f64>,
+    /// How far it is from the middle of everything where it is farthest, m.
+    far: f64,
+}
+
+impl Seen {
+    fn see(&mut self, camera: &Placed, stage: &Stage) {
+        self.lens.get_or_insert(camera.lens());
+        let (location, bounds) = (camera.location(), stage.scenery.bounds);
+        let mut near = location.clamp(bounds.min, bounds.max).distance(location);
+        if let Some(ground) = stage.ground.filter(|ground| ground.height < location.y) {
+            near = near.min(location.y - ground.height);
+        }
+        self.near = Some(self.near.map_or(near, |nearest| nearest.min(near)));
+        self.far = self.far.max(location.distance(stage.center));
+    }
+
+    fn camera(self, name: String, output: Output, stage: &Stage) -> Camera {
+        // Beyond the corners of the ground.
+        let zfar = self.far + 2.5 * stage.size;
+        // What is near is told apart with 24 bits, and less of them are left the nearer that begins.
+        let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-4);
+        let aspect = f64::from(output.width) / f64::from(output.height);
+        let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
+            Lens::Perspective { angle } => {
+                let half = libm::tan(angle.min(WIDEST).to_radians() / 2.0) / aspect;
+                let yfov = 2.0 * libm::atan(half);
+                CameraLens::Perspective {
+                    perspective: Perspective { aspect_ratio: aspect, yfov, znear, zfar },
+                }
+            }
+            Lens::Orthographic { width } => CameraLens::Orthographic {
+                orthographic: Orthographic { xmag: width / 2.0, ymag: width / 2.0 / aspect, znear, zfar },
+            },
+        };
+        Camera { name, lens }
+    }
+}
+
+/// The lights that are given, or the usual ones; their ways are added to the motion.
+fn lights(
+    scene: &Scene,
+    plan: &Plan,
+    selection: &Selection,
+    motion: &mut Motion,
+) -> Result<Vec<Light>, ExportError> {
+    let frames = (0..scene.simulation.frames()).filter(|&frame| selection.contains(frame));
+    let mut times = frames.map(|frame| scene.simulation.time(frame));
+    let first = times.next().unwrap_or(0.0);
+    let mut shining = plan.lights(first);
+    if shining.is_empty() {
+        shining = plan.usual_lights();
+    }
+    let center = plan.stage().center;
+    let poses = |lights: &[PlacedLight]| -> Vec<Pose> {
+        let pose = |light: &PlacedLight| Pose {
+            location: light.location,
+            orientation: match light.kind {
+                Lamp::Sun => towards(center - light.location),
+                Lamp::Point | Lamp::Area => DQuat::IDENTITY,
+            },
+        };
+        lights.iter().map(pose).collect()
+    };
+    let name = |i: usize| format!("light {}", shining[i].name);
+    let mut ways = Recorder::new(motion.times().len());
+    ways.add(poses(&shining).into_iter(), first, name, &mut motion.room)?;
+    if plan.lights_move() {
+        for time in times {
+            ways.add(poses(&plan.lights(time)).into_iter(), time, name, &mut motion.room)?;
+        }
+    }
+    motion.append(ways);
+    Ok((0..shining.len()).map(|i| light(name(i), &shining[i], plan.stage())).collect())
+}
+
+/// The rotation that turns what shines along -z into a direction.
+fn towards(direction: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(DVec3::NEG_Z, direction.normalize_or(DVec3::NEG_Y))
+}
+
+/// A light in the words of glTF. POV-Ray's lights are as bright at any distance, those of glTF are not: they are as bright
+/// in the middle of everything, where a white surface that faces a light of intensity 1 is white. It throws back 1/π of
+/// its light into each direction, so that takes π lux.
+fn light(name: String, light: &PlacedLight, stage: &Stage) -> Light {
+    let largest = light.color.into_iter().fold(0.0, f64::max);
+    let color = if largest > 0.0 { light.color.map(|c| (c / largest).max(0.0)) } else { [1.0; 3] };
+    let lux = largest * std::f64::consts::PI;
+    let (kind, intensity) = match light.kind {
+        Lamp::Sun => ("directional", lux),
+        // A lamp in the midst of everything lights what is around it.
+        Lamp::Point | Lamp::Area => {
+            let distance = light.location.distance(stage.center).max(stage.size / 2.0);
+            ("point", lux * distance * distance)
+        }
+    };
+    // Readers have it as `f32`.
+    Light { name, kind, color, intensity: intensity.min(f64::from(f32::MAX)) }
+}
