@@ -4,6 +4,13 @@ import assert from "node:assert/strict";
 import { drawn, LONG, seek, tests, until } from "./browser.mjs";
 
 await tests({
+  async what_is_shown_beside_bodies_does_not_hold_up_a_run_that_goes_on({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.recorded > 1);
+    await seek(page, 1);
+    assert.equal(await page.evaluate(() => window.jabuka.settled), false);
+  },
+
   async the_page_works_while_the_run_goes_on({ open }) {
     const page = await open({ size: { width: 480, height: 400 } });
     const { recorded, frames, settled } = await page.evaluate(() => ({ ...window.jabuka }));

@@ -1,8 +1,9 @@
-//! Many bodies for a long time: memory does not grow with them, and the page need not wait.
+//! Runs that take long: memory does not grow with them, and the page need not wait.
 
 use std::fs;
 
 use crate::http::count;
+use crate::in_the_browser;
 use crate::server::{Scene, Server};
 
 const BODIES: u64 = 10_000;
@@ -47,4 +48,21 @@ fn the_page_works_while_the_run_goes_on() {
         println!("{} MB", peak / 1_000_000);
         assert!(peak < 300_000_000, "{peak}");
     }
+}
+
+/// Where labels stand is known when a run is finished; this one never is, as far as a test can wait.
+const ENDLESS: &str = "
+    [simulation]
+    duration = 1e6
+    frame_rate = 10
+    step = 1e-4
+    [body.ball]
+    shape.sphere.radius = 1
+    velocity = [1, 0, 0]
+    [label.clock]
+    text = '${t:.1}'
+    ";
+
+in_the_browser! { Scene::of(ENDLESS), "large.mjs":
+    what_is_shown_beside_bodies_does_not_hold_up_a_run_that_goes_on,
 }

@@ -129,7 +129,7 @@ export class Run {
       const recorded = this.progress?.recorded ?? 0;
       if (frame < recorded && !this.poses(frame)) {
         await this.fetchPoses(Math.floor(frame / this.together), recorded);
-      } else if (frame < recorded && this.description.shows && !this.shownIn(frame, view)) {
+      } else if (frame < recorded && this.description.shows && this.description.stage && !this.shownIn(frame, view)) {
         await this.fetchShown(frame, view, recorded);
       } else {
         const next = this.next(frame, recorded);
