@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::run::{Outcome, Simulation};
 use crate::dynamics::METHODS;
-use crate::picture::{Plan, of_look, pale};
+use crate::picture::{PlacedLight, Plan, of_look, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
@@ -287,6 +287,10 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
     bodies || springs || texts || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
 }
 
+fn lights(lights: &[PlacedLight]) -> Vec<super::shown::Light> {
+    lights.iter().map(super::shown::Light::of).collect()
+}
+
 fn stage(outcome: &Outcome) -> Stage {
     let (plan, survey) = (&outcome.plans[0], &outcome.survey);
     let stage = plan.stage();
@@ -321,6 +325,9 @@ fn stage(outcome: &Outcome) -> Stage {
             grid.lines.iter().map(line).collect()
         }),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
-        lights: plan.lights(0.0).iter().map(super::shown::Light::of).collect(),
+        lights: match plan.lights(0.0) {
+            given if given.is_empty() => lights(&plan.usual_lights()),
+            given => lights(&given),
+        },
     }
 }

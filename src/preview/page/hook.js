@@ -18,7 +18,7 @@ window.jabuka = {
   /** How a place of the world, m, comes to one of the picture: to (it - center) / size, and that by the matrix `clip`. */
   get view() {
     const { clip, width, height } = drawn.view ?? { clip: [] };
-    return { clip: Array.from(clip), width, height, ...painter.space };
+    return { clip: Array.from(clip), width, height, ...open.painter.space };
   },
   get bodies() { return open.run?.description.bodies.map(({ name }) => name) ?? []; },
   /** Location (m) and orientation (x y z w) of a body, by its name or number, in a frame; null until it is there. */

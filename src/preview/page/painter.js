@@ -1,7 +1,7 @@
 // Draws a picture with WebGL2.
 
 import { add, length, product, orthographic, axes as axesOf, lookAt, sub, times, turned, unit } from "./math.js";
-import { surroundings } from "./surroundings.js";
+import { FIRST_LAMP, surroundings } from "./surroundings.js";
 import { corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
 import * as shaders from "./shaders.js";
 
@@ -120,7 +120,7 @@ export class Painter {
   draw(view, lamps, lines, planePose) {
     const { gl, description } = this;
     const around = surroundings(description);
-    const light = this.lamps(lamps, around);
+    const light = this.lamps(lamps);
     const shaded = this.batches.run.total < MOST_SHADOWED && light.shade;
     if (shaded) this.drawShadows({ shade: light.shade, light: unit(light.sorted[0].location) });
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -136,10 +136,10 @@ export class Painter {
     this.drawBodies("other", [0.9, 0.6, 0.05, 0.55]);
   }
 
-  lamps(lamps, around) {
+  lamps(lamps) {
     const { center, size } = this.space;
     const near = (lamp) => (lamp.sun ? unit(sub(lamp.location, center)) : times(sub(lamp.location, center), 1 / size));
-    const given = lamps.length ? lamps.map((lamp) => ({ ...lamp, location: near(lamp) })) : around.lamps;
+    const given = lamps.length ? lamps.map((lamp) => ({ ...lamp, location: near(lamp) })) : [FIRST_LAMP];
     const sorted = [...given].sort((a, b) => Number(b.shadows) - Number(a.shadows)).slice(0, 4);
     const first = sorted[0];
     const shade = first?.shadows && length(first.location) > 0.7 ? this.shade(first) : undefined;
