@@ -45,7 +45,6 @@ fn the_page_works_while_the_run_goes_on() {
     // There is no such list elsewhere.
     if cfg!(target_os = "linux") {
         let peak = peak(&server);
-        println!("{} MB", peak / 1_000_000);
         assert!(peak < 300_000_000, "{peak}");
     }
 }
