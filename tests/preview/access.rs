@@ -17,8 +17,11 @@ fn server() -> Server {
     server
 }
 
+/// Methods and paths.
+type Asked = Vec<(&'static str, String)>;
+
 /// All paths of the server, by its source, with a run and a body in them.
-fn paths() -> (Vec<(&'static str, String)>, Vec<(&'static str, String)>) {
+fn paths() -> (Asked, Asked) {
     let read = |file: &str| std::fs::read_to_string(root().join("src/preview").join(file)).unwrap();
     let (routes, page) = (read("routes.rs"), read("page.rs"));
     let of_api = routes.split(".route(\"").skip(1).map(|rest| {

@@ -92,7 +92,7 @@ fn assert_same_poses(name: &str) {
             let Some(put) = put.get(body.as_str()) else { continue };
             seen += 1;
             let close = |a: f64, b: f64, size: f64| {
-                assert!((a - b).abs() <= 1e-6 * size.max(1.0), "{name}, frame {frame}, {body}: {a} {b}")
+                assert!((a - b).abs() <= 1e-6 * size.max(1.0), "{name}, frame {frame}, {body}: {a} {b}");
             };
             for (there, here) in put.location.into_iter().zip(pose.location) {
                 close(there, here / unit, size);
@@ -110,7 +110,7 @@ fn assert_same_poses(name: &str) {
             }
         }
     }
-    println!("{name}: {seen} poses, {matrices} of them with axes");
+    assert!(matrices > 0, "{name}: nothing says how it is turned");
     assert!(seen >= held.frames.len() * (held.names.len() / 2).max(1), "{name}: {seen}");
 }
 

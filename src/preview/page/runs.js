@@ -17,6 +17,8 @@ export async function changed(state) {
     if (progress && (await run.progressed(progress)) && run === open.run) paint(run);
   }
   await refresh();
+  // A run that had diverged before it was opened says so only now.
+  sayProblem();
   redraw();
 }
 
