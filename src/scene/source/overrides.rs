@@ -45,7 +45,15 @@ impl Override {
         };
         let span = Span::new(source, key.len() + 1..self.0.len());
         let node = match toml::parse_value(value.trim(), source) {
-            Ok(node) => moved(node, key.len() + 1 + (value.len() - value.trim_start().len())),
+            Ok((node, said)) => {
+                let by = key.len() + 1 + (value.len() - value.trim_start().len());
+                // A number that is too large is none that the check could refuse.
+                if let Some(mut error) = said.into_iter().next() {
+                    error.labels.iter_mut().for_each(|label| label.span = shifted(label.span, by));
+                    return Err(error);
+                }
+                moved(node, by)
+            }
             // A string by intention does not begin so.
             Err(_) if value.trim_start().starts_with(['[', '{', '"']) => {
                 let help = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
@@ -70,9 +78,13 @@ fn path(table: &Table, mut names: Vec<Name>) -> Option<Vec<Name>> {
     }
 }
 
+fn shifted(span: Span, by: usize) -> Span {
+    Span { start: span.start + by, end: span.end + by, ..span }
+}
+
 /// The node with every place moved by so many bytes.
 fn moved(mut node: Node, by: usize) -> Node {
-    let shift = |span: Span| Span { start: span.start + by, end: span.end + by, ..span };
+    let shift = |span: Span| shifted(span, by);
     node.span = shift(node.span);
     node.value = match node.value {
         Value::Array(items) => Value::Array(items.into_iter().map(|item| moved(item, by)).collect()),
@@ -148,6 +160,14 @@ mod tests {
         let (root, _) = set("", "s.size= [1, 22]");
         let Value::Array(items) = value(&root, &["s", "size"]) else { panic!("not a list") };
         assert_eq!((items[1].span.start, items[1].span.end), (12, 14));
+    }
+
+    #[test]
+    fn a_number_that_is_too_large_is_refused_at_its_place() {
+        let (root, diagnostics) = set("", "s.step= 1e999");
+        assert!(root.get("s").is_none());
+        let [error] = diagnostics.as_slice() else { panic!("{diagnostics:?}") };
+        assert_eq!(error.span().map(|span| (span.start, span.end)), Some((8, 13)), "{error:?}");
     }
 
     #[test]

@@ -37,10 +37,11 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
 }
 
 /// Parses a text that is one value, as it would stand after `key = `.
-pub(super) fn parse_value(text: &str, source: SourceId) -> Result<Node, Error> {
+pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Diagnostic>), Error> {
     let value = DeValue::parse(text)?;
-    // A number that is too large is refused later, at its place; here it only becomes `Invalid`.
-    Ok(Reader { source, wrong: Vec::new(), diagnostics: &mut Vec::new() }.node(&value))
+    let mut diagnostics = Vec::new();
+    let node = Reader { source, wrong: Vec::new(), diagnostics: &mut diagnostics }.node(&value);
+    Ok((node, diagnostics))
 }
 
 struct Reader<'a> {
