@@ -15,6 +15,7 @@ mod large;
 mod methods;
 mod page;
 mod process;
+mod readme;
 mod rendering;
 mod saving;
 mod strangers;

@@ -39,7 +39,7 @@ function draw() {
   const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size);
   open.painter.place("run", at);
   const lines = new Lines();
-  drawLines(lines, run, shown, at);
+  drawLines(lines, run, shown, at, view);
   if (viewpoint.own && stage && !camera.width) outlineCamera(lines, camera, run.description.size);
   strobes(run, position, at);
   if (open.other) placeOther(run);
@@ -60,7 +60,7 @@ function draw() {
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
 }
 
-function drawLines(lines, run, shown, at) {
+function drawLines(lines, run, shown, at, view) {
   const stage = run.description.stage;
   stage?.grid.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
   stage?.trails.forEach((each) => trail(lines, run, each, player.position));
@@ -68,15 +68,15 @@ function drawLines(lines, run, shown, at) {
   shown?.arrows.forEach((each) => arrow(lines, each));
   shown?.axes.forEach((each) => axes(lines, each));
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
-    mark(lines, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
+    mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
   }
 }
 
-/** A cross of lines around the chosen body. */
-function mark(lines, [x, y, z], pieces) {
+/** Four lines around the chosen body, beside it in the picture. */
+function mark(lines, view, [x, y, z], pieces) {
   if (!pieces.length) return;
   const reach = 1.25 * Math.max(...pieces.map((piece) => length(piece.location) + Math.max(...piece.scale)));
-  for (const axis of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) {
+  for (const axis of [view.right, view.up]) {
     for (const side of [-1, 1]) {
       const point = (far) => [x + axis[0] * far * side, y + axis[1] * far * side, z + axis[2] * far * side];
       lines.add(point(reach), point(1.35 * reach), open.painter.space.size * 0.0012, [0.1, 0.55, 1]);
