@@ -120,6 +120,22 @@ fn what_is_wrong_with_a_formula_is_said_with_its_place_and_time() {
     assert!(said.contains("scene.toml:3:42") && said.contains(", at t = 3.04 s"), "{said}");
 }
 
+/// Formulas are checked at the times of frames; what is between is found when somebody looks there.
+#[test]
+fn a_camera_or_a_light_that_is_nowhere_between_frames_is_named() {
+    let place = |what: &str| {
+        let text = format!(
+            "simulation.duration = 1\n[body.a]\nshape.sphere.radius = 1\n{what} = ['1/(t - 0.5)', 3, 10]\n"
+        );
+        let scene = Scene::parse(&text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        assert!(run.frames().all(|frame| run.script(&frame.unwrap()).is_ok()));
+        run.script(&Frames::at(&scene, 0.5).unwrap()).unwrap_err().to_string()
+    };
+    assert!(place("[camera]\nlocation").contains("at t = 0.5 s the camera is"));
+    assert!(place("[light.lamp]\npoint.location").contains("at t = 0.5 s the light `lamp` is"));
+}
+
 /// By whatever name it goes.
 #[test]
 fn a_file_that_a_scene_is_made_from_is_not_overwritten() {

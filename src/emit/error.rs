@@ -7,8 +7,8 @@ use crate::diagnostic::{Diagnostic, Report, Span};
 pub enum EmitError {
     /// A place is not a number in POV-Ray's units.
     OutOfRange {
-        /// The name of the body.
-        body: String,
+        /// What is there: a body, a light, or the camera.
+        what: String,
         /// The time, s.
         time: f64,
     },
@@ -66,8 +66,8 @@ fn line_range(text: &str, line: usize) -> std::ops::Range<usize> {
 impl std::fmt::Display for EmitError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            EmitError::OutOfRange { body, time } => {
-                write!(f, "at t = {time} s `{body}` is at a place that is no number in POV-Ray's units")
+            EmitError::OutOfRange { what, time } => {
+                write!(f, "at t = {time} s {what} is at a place that is no number in POV-Ray's units")
             }
             EmitError::Template(report) => report.fmt(f),
         }

@@ -111,10 +111,13 @@ impl Emitter {
     /// # Errors
     /// Where a body is at a place that cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
+        let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
+        if let Some(what) = self.plan.lost(frame) {
+            return Err(out_of_range(what));
+        }
         let mut bodies_sdl = String::new();
-        self.block
-            .write(&mut bodies_sdl, frame)
-            .map_err(|body| EmitError::OutOfRange { body: self.names[body].clone(), time: frame.time })?;
+        let written = self.block.write(&mut bodies_sdl, frame);
+        written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
         self.showing.write(&mut bodies_sdl, &self.plan, frame, &self.names);
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, bodies_sdl))
     }

@@ -14,13 +14,16 @@ use crate::simulate::Branch;
 /// Where a file cannot be written, the run leaves the numbers before, or the script cannot be made.
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
+    // What cannot be made takes nothing away.
+    let mut branch = Branch::at(scene, time)?;
+    let frame = branch.frame()?;
+    let script = run.script(&frame)?;
+
     let head = Head::new(run);
     let begun = Head { state: State::Clearing, ..head.clone() };
     folder.write_with(MANIFEST, |file| manifest::write(file, &begun, &[]))?;
     folder.remove_scripts()?;
 
-    let mut branch = Branch::at(scene, time)?;
-    let frame = branch.frame()?;
     let mut entries = Vec::new();
     let mut put = |number: Option<usize>, name: String, text: &str| {
         folder.write(&name, text.as_bytes())?;
@@ -30,7 +33,7 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     for (name, text) in run.emitter().sequence(scene)? {
         put(None, name.to_owned(), &text)?;
     }
-    put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &run.script(&frame)?)?;
+    put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &script)?;
     if let Some(shutter) = run.shutter() {
         entries.push(put_blurred(run, folder, &frame, shutter, branch)?);
     }

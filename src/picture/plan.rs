@@ -82,6 +82,19 @@ impl Plan {
         self.eye.at(frame)
     }
 
+    /// What sees or shines from no finite place at a moment, in words: formulas are checked at the times of frames only.
+    pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
+        let is_lost = |camera: &Placed| !camera.location().is_finite() || !camera.look_at().is_finite();
+        if self.camera_moves() && is_lost(&self.camera(frame)) {
+            return Some("the camera".to_owned());
+        }
+        let lights = if self.lights_move { self.lights(frame.time) } else { Vec::new() };
+        lights
+            .iter()
+            .find(|light| !light.location.is_finite())
+            .map(|light| format!("the light `{}`", light.name))
+    }
+
     /// The camera before it moves: of all frames, if it does not.
     pub fn placed(&self) -> &Placed {
         self.eye.placed()
