@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::run::{Outcome, Simulation};
-use crate::dynamics::METHODS;
+use crate::dynamics::{METHODS, Shape};
 use crate::picture::{PlacedLight, Plan, of_look, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
@@ -59,6 +59,8 @@ struct BodyText<'a> {
     material: Option<usize>,
     ghosts: bool,
     trail: Option<TrailText>,
+    /// The length of its arms, m, if it is a triad of axes.
+    axes: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -249,6 +251,10 @@ fn body(body: &Body) -> BodyText<'_> {
         },
         material: body.material,
         ghosts: body.showing.ghosts.is_some(),
+        axes: match body.drawn() {
+            Shape::Axes { length } => Some(length),
+            _ => None,
+        },
         trail: body.showing.trail.map(|trail| TrailText { duration: trail.duration }),
     }
 }

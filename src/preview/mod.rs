@@ -5,12 +5,13 @@
 //! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
 //! | a run in the background, its frames on disk | `run`, `recording` |
 //! | what the page is told of it | `describe`, `shown`, `samples` |
-//! | the server, and who may ask it | `routes`, `access` |
+//! | the server, who may ask it, and why there is no answer | `routes`, `access`, `failed` |
 //! | a frame by POV-Ray | `render` |
 //! | the page itself | `page`, and the files in the folder of that name |
 
 mod access;
 mod describe;
+mod failed;
 mod page;
 mod recording;
 mod render;

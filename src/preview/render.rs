@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use serde::Deserialize;
 
-use super::routes::Failed;
+use super::failed::Failed;
 use super::run::{RunId, Simulation};
 use crate::Run;
 use crate::diagnostic::Report;

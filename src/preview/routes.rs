@@ -31,14 +31,12 @@ use tokio_stream::wrappers::ReceiverStream;
 use tokio_stream::{Stream, StreamExt as _};
 
 use super::access::{self, Refused, Token};
+use super::failed::Failed;
 use super::page;
 use super::render::{Renderer, Wanted};
 use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
 use super::{describe, samples, shown};
-use crate::diagnostic::Report;
-use crate::output::OutputError;
-use crate::render::RenderError;
 
 /// What all answers are made from.
 #[derive(Clone)]
@@ -103,52 +101,6 @@ async fn with_token(State(server): State<Server>, request: Request, next: Next) 
 impl IntoResponse for Refused {
     fn into_response(self) -> Response {
         (StatusCode::FORBIDDEN, self.message()).into_response()
-    }
-}
-
-/// Why there is no answer.
-pub(super) enum Failed {
-    /// The run is not kept any more, or has no such frame or body.
-    Gone,
-    /// What the terminal would show.
-    Report(Report),
-    /// Something of this machine.
-    Io(std::io::Error),
-}
-
-impl From<std::io::Error> for Failed {
-    fn from(error: std::io::Error) -> Failed {
-        Failed::Io(error)
-    }
-}
-
-impl From<OutputError> for Failed {
-    fn from(error: OutputError) -> Failed {
-        Failed::Report(error.report())
-    }
-}
-
-impl From<RenderError> for Failed {
-    fn from(error: RenderError) -> Failed {
-        Failed::Report(error.report())
-    }
-}
-
-impl From<Report> for Failed {
-    fn from(report: Report) -> Failed {
-        Failed::Report(report)
-    }
-}
-
-impl IntoResponse for Failed {
-    fn into_response(self) -> Response {
-        match self {
-            Failed::Gone => (StatusCode::NOT_FOUND, "there is no such run, frame or body\n").into_response(),
-            Failed::Report(report) => {
-                (StatusCode::UNPROCESSABLE_ENTITY, report.to_text(false)).into_response()
-            }
-            Failed::Io(error) => (StatusCode::INTERNAL_SERVER_ERROR, format!("{error}\n")).into_response(),
-        }
     }
 }
 

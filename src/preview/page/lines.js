@@ -63,7 +63,8 @@ export function coil(lines, { span, fixed, knob, radius, wire, turns, color }) {
   lines.add(end, b, wire, color);
 }
 
-const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
+/** The colors of x, y and z. */
+export const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
 
 export function axes(lines, { location, turn, length: arm }) {
   AXES.forEach((color, i) => {

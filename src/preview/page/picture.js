@@ -44,7 +44,7 @@ function draw() {
   strobes(run, position, at);
   if (open.other) placeOther(run);
   open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, at);
-  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3));
+  texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at));
   const film = element("film");
   film.hidden = viewpoint.own;
   const [left, top, w, h] = view.rectangle;
@@ -58,6 +58,16 @@ function draw() {
   panel.show(frame);
   Object.assign(drawn, { count: drawn.count + 1, run: run.id, frame, position, view });
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
+}
+
+/** The triads of axes that are to be seen: bodies, and those that are drawn on bodies. */
+function triads(run, shown, at) {
+  const bodies = run.description.bodies.flatMap(({ axes: length }, body) => {
+    if (!length) return [];
+    const here = at(body);
+    return [{ location: here.slice(0, 3), turn: here.slice(3), length }];
+  });
+  return [...bodies, ...(shown?.axes ?? [])];
 }
 
 function drawLines(lines, run, shown, at, view) {

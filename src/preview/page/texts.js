@@ -1,14 +1,18 @@
 // Labels and numbers, over the picture. All of it is set as text: what a scene says is never read as anything else.
 
-import { add, css, projected, sub, times } from "./math.js";
+import { AXES } from "./lines.js";
+import { add, css, projected, sub, times, turned } from "./math.js";
+
+/** Of more triads than this, the letters would hide the picture. */
+const MOST_TRIADS = 20;
 
 export class Texts {
   constructor(element) {
     this.element = element;
   }
 
-  /** Puts up the texts of a frame. `at(body)` tells where a body is. */
-  show(shown, view, space, at) {
+  /** Puts up the texts of a frame, and the letters of triads of axes. `at(body)` tells where a body is. */
+  show(shown, view, space, at, triads) {
     const [left, top, width, height] = view.rectangle;
     const spans = [];
     // In the scene's own picture, its width is 2 and its middle 0.
@@ -20,6 +24,7 @@ export class Texts {
       if (x === undefined) continue;
       spans.push(this.span(text, x, y, (text.height / 2) * width));
     }
+    if (triads.length <= MOST_TRIADS) spans.push(...triads.flatMap((triad) => this.letters(triad, view, space)));
     if (shown?.bar && !view.own) spans.push(this.bar(shown.bar, place, width));
     this.element.replaceChildren(...spans);
   }
@@ -34,6 +39,21 @@ export class Texts {
     span.style.textShadow = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([a, b]) => `${a}px ${b}px 1px ${halo}`).join(",");
     span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, -85%)`;
     return span;
+  }
+
+  /** x, y and z at the ends of a triad. */
+  letters({ location, turn, length: arm }, view, space) {
+    return AXES.flatMap((color, axis) => {
+      const end = add(location, turned(turn, [0, 1, 2].map((k) => (k === axis ? 1.14 * arm : 0))));
+      const spot = projected(view.clip, times(sub(end, space.center), 1 / space.size));
+      const size = (0.25 * arm * view.focal) / space.size / spot.w;
+      if (!(spot.w > 0) || size < 7) return [];
+      const [x, y] = [((spot.x + 1) / 2) * view.width, ((1 - spot.y) / 2) * view.height];
+      const span = this.span({ says: "xyz"[axis], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
+      span.className = "axis";
+      span.style.textShadow = "none";
+      return [span];
+    });
   }
 
   bar(bar, place, width) {
