@@ -82,8 +82,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes the script of the moment into a folder of its own, which nobody else changes until it is rendered.
 fn write_script(arguments: &Arguments, scene: &Scene, view: Option<&View>) -> Result<Folder, Failure> {
     let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
-    // No scene has this name, and none of its views.
-    let folder = Path::new("out").join(format!("{}.still{view_name}", scene.name));
+    // Scripts of no scene go there: what is in that folder is no script.
+    let folder = Path::new("out/.still").join(format!("{}{view_name}", scene.name));
     let progress = Progress::new(scene.simulation.frames());
     let run = run_arguments::survey(scene, &progress)?;
     let seen = run_arguments::seen(&run, view, &progress)?;

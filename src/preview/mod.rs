@@ -72,8 +72,8 @@ impl Preview {
         let renderer = Arc::new(Renderer::new(self.povray));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
-        let following =
-            thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
+        // It ends with the process: a scene that takes long to be read holds nobody up.
+        thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
         let served = runtime.block_on(async {
             tokio::select! {
                 served = axum::serve(listener, routes::router(server)).into_future() => served,
@@ -84,8 +84,6 @@ impl Preview {
         renderer.end();
         // Connections that are open have nothing to lose.
         runtime.shutdown_timeout(Duration::from_secs(1));
-        // It has seen the wish to stop; how it ended is of no account.
-        let _ = following.join();
         served
     }
 }

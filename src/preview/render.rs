@@ -99,8 +99,8 @@ impl Renderer {
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen.map_err(OutputError::from)?.unwrap_or(whole);
-        // No scene has this name.
-        let folder = Folder::open(&Path::new("out").join(format!("{}.preview", scene.name)))?;
+        // Scripts of no scene go there: what is in that folder is no script.
+        let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
         output::write_moment(&seen, &folder, time)?;
         self.image(&folder, time, wanted.fine, stop)

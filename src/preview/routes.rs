@@ -13,7 +13,6 @@
 //! | `/api/render` | a frame by POV-Ray |
 
 use std::sync::Arc;
-use std::thread;
 use std::time::Duration;
 
 use axum::body::{Body, Bytes};
@@ -194,24 +193,31 @@ async fn poses(
 ) -> Result<Response, Failed> {
     /// Several small frames go together.
     const TOGETHER: usize = 1 << 16;
+    /// So often it is seen whether there are more.
+    const LOOK: Duration = Duration::from_millis(4);
     let run = server.run(id)?;
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
-    tokio::task::spawn_blocking(move || {
+    tokio::spawn(async move {
         let (mut frame, end) = (frames.from, frames.end(&run));
         while frame < end && !sender.is_closed() {
-            let recorded = run.recording.recorded().min(end);
+            let (is_over, recorded) = (run.outcome().is_some(), run.recording.recorded().min(end));
             if frame >= recorded {
-                if run.outcome().is_some() {
+                if is_over {
                     return;
                 }
-                thread::sleep(Duration::from_millis(4));
+                tokio::time::sleep(LOOK).await;
                 continue;
             }
             let many = (TOGETHER / run.recording.pose_bytes().max(1)).max(1);
             let until = recorded.min(frame + many);
-            let bytes: std::io::Result<Vec<Vec<u8>>> =
-                (frame..until).map(|k| run.recording.poses(k)).collect();
-            if sender.blocking_send(bytes.map(|bytes| bytes.concat().into())).is_err() {
+            let read = Arc::clone(&run);
+            let bytes = tokio::task::spawn_blocking(move || {
+                let poses: std::io::Result<Vec<Vec<u8>>> =
+                    (frame..until).map(|frame| read.recording.poses(frame)).collect();
+                poses.map(|poses| Bytes::from(poses.concat()))
+            });
+            let bytes = bytes.await.unwrap_or_else(|error| Err(std::io::Error::other(error)));
+            if sender.send(bytes).await.is_err() {
                 return;
             }
             frame = until;

@@ -30,6 +30,8 @@ pub(super) struct Session {
 
 #[derive(Default)]
 struct Inner {
+    /// How many scenes there have been.
+    generation: u64,
     current: Option<Arc<Simulation>>,
     /// Runs of the same scene by other methods, each with what it differs by; the oldest first.
     variants: VecDeque<(Variant, Arc<Simulation>)>,
@@ -60,10 +62,17 @@ pub(super) struct State {
 }
 
 /// So many runs by other methods are kept.
-const VARIANTS: usize = 4;
+const VARIANTS: usize = 8;
 
 /// So long a new run may take before it is shown unfinished.
 const QUICK: Duration = Duration::from_millis(150);
+
+impl Inner {
+    fn variant(&self, variant: &Variant) -> Option<Arc<Simulation>> {
+        let found = self.variants.iter().find(|(other, _)| other == variant);
+        found.map(|(_, run)| Arc::clone(run))
+    }
+}
 
 impl Session {
     /// The session of a scene, before it is read. `said` gets what the terminal shall show.
@@ -123,25 +132,42 @@ impl Session {
     /// # Errors
     /// What is wrong with the scene, or with the method or the step.
     pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<Simulation>, Report> {
-        if let Some((_, run)) = self.lock().variants.iter().find(|(other, _)| *other == variant) {
-            return Ok(Arc::clone(run));
+        loop {
+            let begun_with = {
+                let inner = self.lock();
+                if let Some(run) = inner.variant(&variant) {
+                    return Ok(run);
+                }
+                inner.generation
+            };
+            let scene = Scene::from_path_with(&self.path, &self.options_of(&variant))?;
+            let run = self.begin(scene).map_err(|error| no_room(&error))?;
+            let mut inner = self.lock();
+            let other = inner.variant(&variant);
+            // The scene may have become another one meanwhile, and somebody else may have asked for the same.
+            if inner.generation != begun_with || other.is_some() {
+                run.cancel();
+                continue;
+            }
+            inner.variants.push_back((variant, Arc::clone(&run)));
+            if inner.variants.len() > VARIANTS {
+                inner.variants.pop_front().iter().for_each(|(_, run)| run.cancel());
+            }
+            drop(inner);
+            self.beat();
+            return Ok(run);
         }
+    }
+
+    /// How the scene is read for another method; an empty one, or an empty step, is the scene's own.
+    fn options_of(&self, variant: &Variant) -> Options {
         let mut options = self.options.clone();
-        let set = |key: &str, value: &str| Override::new(format!("simulation.{key}={value}"));
-        options.overrides.push(set("integrator", &variant.integrator));
-        if !variant.step.trim().is_empty() {
-            options.overrides.push(set("step", &variant.step));
+        for (key, value) in [("integrator", &variant.integrator), ("step", &variant.step)] {
+            if !value.trim().is_empty() {
+                options.overrides.push(Override::new(format!("simulation.{key}={value}")));
+            }
         }
-        let scene = Scene::from_path_with(&self.path, &options)?;
-        let run = self.begin(scene).map_err(|error| no_room(&error))?;
-        let mut inner = self.lock();
-        inner.variants.push_back((variant, Arc::clone(&run)));
-        if inner.variants.len() > VARIANTS {
-            inner.variants.pop_front().iter().for_each(|(_, run)| run.cancel());
-        }
-        drop(inner);
-        self.beat();
-        Ok(run)
+        options
     }
 
     /// Reads the scene; tells whether it should be read once more, since it may have changed meanwhile.
@@ -177,6 +203,7 @@ impl Session {
             thread::sleep(Duration::from_millis(2));
         }
         let mut inner = self.lock();
+        inner.generation += 1;
         let old = inner.current.replace(run);
         let variants = std::mem::take(&mut inner.variants);
         inner.problem = None;

@@ -75,6 +75,7 @@ struct Coil {
 
 #[derive(Serialize)]
 struct Text {
+    name: String,
     says: String,
     /// The place on the screen, whose x goes from -1 to 1, and whose y has the same scale and is 0 in the middle.
     x: f64,
@@ -84,7 +85,7 @@ struct Text {
     color: Vector,
     /// The body beside which it stands, and on which side.
     beside: Option<(usize, &'static str)>,
-    /// Whether it stands at a place of the world, as the numbers of a grid do.
+    /// Whether it belongs to what only the scene's camera sees so: a grid, the scale bar.
     in_world: bool,
 }
 
@@ -172,6 +173,7 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         color: coil.color.0,
     };
     let text = |text: &picture::Text<'_>| Text {
+        name: text.name.to_owned(),
         says: text.says.to_string(),
         x: text.x,
         y: height(text.y),
@@ -179,7 +181,7 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         align: text.align,
         color: text.color.0,
         beside: beside(scene, text.name),
-        in_world: text.name == "grid",
+        in_world: ["grid", "scale bar"].contains(&text.name),
     };
     let bar = |bar: picture::Bar| Bar {
         from: bar.from,

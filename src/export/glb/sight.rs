@@ -97,7 +97,7 @@ impl Seen {
         // Beyond the corners of the ground.
         let zfar = self.far + 2.5 * stage.size;
         // What is near is told apart with 24 bits, and less of them are left the nearer that begins.
-        let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-4);
+        let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-6);
         let aspect = f64::from(output.width) / f64::from(output.height);
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
             Lens::Perspective { angle } => {

@@ -27,8 +27,13 @@ function toggleCamera() {
 
 function takeCamera() {
   if (!open.run) return;
-  viewpoint.take(sceneCamera(open.run, player.frame));
+  viewpoint.take(sceneCamera(open.run, player.position));
   element("camera").textContent = "Own camera";
+}
+
+function loop(on) {
+  player.loop = on;
+  element("loop").checked = on;
 }
 
 function speed(by) {
@@ -51,6 +56,7 @@ const KEYS = [
   [["End"], "End", "the last frame", () => player.step(Infinity)],
   [["+", "="], "+", "faster", () => speed(1)],
   [["-"], "−", "slower", () => speed(-1)],
+  [["l"], "L", "play it over and over, or once", () => loop(!player.loop)],
   [["c"], "C", "the scene's camera, or one of your own", toggleCamera],
   [["a"], "A", "turn the camera to the left", turn(0.1, 0)],
   [["d"], "D", "turn the camera to the right", turn(-0.1, 0)],
@@ -140,7 +146,7 @@ export function listen() {
   });
   element("speed").replaceChildren(...SPEEDS.map((s) => new Option(`${s} ×`, s, s === 1, s === 1)));
   element("speed").onchange = () => (player.speed = Number(element("speed").value));
-  element("loop").onchange = () => (player.loop = element("loop").checked);
+  element("loop").onchange = () => loop(element("loop").checked);
   element("camera").onclick = act(toggleCamera);
   element("view").onchange = act(() => (open.view = Number(element("view").value)));
   element("render").onclick = renderThis;

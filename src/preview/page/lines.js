@@ -75,12 +75,12 @@ export function axes(lines, { location, turn, length: arm }) {
 }
 
 /** The way of a body up to the present position in the film, as far as its frames are there. */
-export function trail(lines, run, { body, radius, color, tapers }, position) {
+export function trail(lines, run, { body, radius, color, tapers }, position, most) {
   const rate = run.rate;
   const duration = run.description.bodies[body].trail?.duration;
   const first = duration ? Math.max(0, position - duration * rate) : 0;
   const points = [];
-  const stride = Math.max(1, Math.ceil((position - first) / 1500));
+  const stride = Math.max(1, Math.ceil((position - first) / Math.min(1500, most)));
   for (let frame = Math.ceil(first); frame < position; frame += stride) {
     const poses = run.poses(frame);
     if (poses) points.push(Array.from(poses.subarray(3 * body, 3 * body + 3)));
@@ -88,7 +88,7 @@ export function trail(lines, run, { body, radius, color, tapers }, position) {
   }
   const here = run.posesAt(position)?.(body);
   if (here) points.push(here.slice(0, 3));
-  const smooth = rounded(points);
+  const smooth = points.length * 8 < most ? rounded(points) : points;
   for (let i = 1; i < smooth.length; i++) {
     const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
     lines.add(smooth[i - 1], smooth[i], width(i - 1), color, width(i));

@@ -16,13 +16,24 @@ function begin() {
   }
   nothing.textContent = "…";
   listen();
-  let queue = Promise.resolve();
+  // Of states that come while one is taken in, only the newest counts.
+  let newest, busy;
+  const takeIn = async () => {
+    busy = true;
+    while (newest) {
+      const state = newest;
+      newest = undefined;
+      await changed(state).catch((error) => console.error(error));
+    }
+    busy = false;
+  };
   const lost = () => {
     open.gone = true;
     sayProblem();
   };
   follow((state) => {
-    queue = queue.then(() => changed(state)).catch((error) => console.error(error));
+    newest = state;
+    if (!busy) takeIn();
   }, lost);
   requestAnimationFrame(tick);
 }

@@ -6,6 +6,8 @@ import { corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, pro
 import * as shaders from "./shaders.js";
 
 const MOTIFS = { none: 0, ground: 0, checkered: 1, striped: 2, "beach-ball": 3 };
+/** As many lamps as the shaders have room for. */
+const MOST_LAMPS = 8;
 /** With more vertices than this, shadows would take too long. */
 const MOST_SHADOWED = 4e6;
 /** More balls than this are drawn as squares that face the eye. */
@@ -140,7 +142,9 @@ export class Painter {
     const { center, size } = this.space;
     const near = (lamp) => (lamp.sun ? unit(sub(lamp.location, center)) : times(sub(lamp.location, center), 1 / size));
     const given = lamps.length ? lamps.map((lamp) => ({ ...lamp, location: near(lamp) })) : [FIRST_LAMP];
-    const sorted = [...given].sort((a, b) => Number(b.shadows) - Number(a.shadows)).slice(0, 4);
+    // The first one casts the shadows.
+    const brightness = (lamp) => Number(lamp.shadows) + length(lamp.color) / 1000;
+    const sorted = [...given].sort((a, b) => brightness(b) - brightness(a)).slice(0, MOST_LAMPS);
     const first = sorted[0];
     const shade = first?.shadows && length(first.location) > 0.7 ? this.shade(first) : undefined;
     return { sorted, shade };
@@ -172,7 +176,7 @@ export class Painter {
     gl.uniform3fv(shader.at("u_eye"), view.eye);
     gl.uniform3fv(shader.at("u_toward"), view.toward);
     gl.uniform1i(shader.at("u_lamps"), light.sorted.length);
-    const [places, colors] = [new Float32Array(16), new Float32Array(16)];
+    const [places, colors] = [new Float32Array(4 * MOST_LAMPS), new Float32Array(4 * MOST_LAMPS)];
     light.sorted.forEach((lamp, i) => {
       places.set([...lamp.location, lamp.sun ? 0 : 1], 4 * i);
       colors.set([...lamp.color, lamp.shadows ? 1 : 0], 4 * i);
@@ -244,8 +248,12 @@ export class Painter {
     gl.uniform1f(ground.at("u_tile"), tile / space.size);
     gl.uniform1f(ground.at("u_tilesFade"), tilesFade / space.size);
     gl.uniform1f(ground.at("u_fade"), fade / space.size);
+    // What lies on it is in front of it.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 4);
     gl.bindVertexArray(this.square);
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 
   drawBodies(name, ghost) {

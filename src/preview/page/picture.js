@@ -4,16 +4,42 @@ import { arrow, axes, camera as cameraLines, coil, Lines, trail } from "./lines.
 import { length, short, sub, unit } from "./math.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
+/** All trails together have no more points. */
+const MOST_POINTS = 60_000;
+
 let before;
 
-/** The camera of the scene at the position of the film. */
-export function sceneCamera(run, frame) {
+/** The camera of the scene at a position of the film: that of a frame, or between two. */
+export function sceneCamera(run, position) {
+  const frame = Math.floor(position + 1e-9);
   const stage = run.description.stage;
-  const shown = run.shownIn(frame, open.view)?.camera;
-  if (shown) return shown;
+  const here = run.shownIn(frame, open.view)?.camera;
+  const then = position - frame > 1e-6 ? run.shownIn(frame + 1, open.view)?.camera : undefined;
+  if (here && then) return betweenCameras(here, then, position - frame);
+  if (here) return here;
   if (stage) return stage.cameras[Math.min(open.view, stage.cameras.length - 1)];
   const { center, size } = open.painter.space;
   return { location: [center[0] + 0.16 * 1.6 * size, center[1] + 0.11 * 1.6 * size, center[2] + 1.6 * size], look_at: center, angle: 40 };
+}
+
+function betweenCameras(a, b, part) {
+  const mixed = (p, q) => p + part * (q - p);
+  const point = (p, q) => p.map((number, i) => mixed(number, q[i]));
+  return { ...a, location: point(a.location, b.location), look_at: point(a.look_at, b.look_at), angle: a.angle && mixed(a.angle, b.angle) };
+}
+
+/** How far it is from an eye to what is nearest, bodies or ground, m. */
+function nearestTo(run, at, eye) {
+  const { pieces, stage } = run.description;
+  let nearest = stage?.ground ? Math.abs(eye[1] - stage.ground.height) : Infinity;
+  for (const { body, location, scale, plane } of pieces) {
+    const place = at(body);
+    const away = Math.hypot(place[0] - eye[0], place[1] - eye[1], place[2] - eye[2]);
+    const reach = plane ? 0 : length(location) + 1.8 * Math.max(...scale);
+    // Within what may be a long body, only its surface would tell how near it is.
+    nearest = Math.min(nearest, plane ? away : Math.max(away - reach, 0.02 * reach));
+  }
+  return nearest;
 }
 
 function draw() {
@@ -24,8 +50,12 @@ function draw() {
   const at = run.posesAt(position);
   if (!at) return;
   // A frame that stands still is drawn when all of it is there.
-  const shown = run.shownIn(frame, open.view);
-  if (!player.playing && run.description.shows && run.description.stage && !shown) return;
+  const present = run.shownIn(frame, open.view);
+  if (!player.playing && run.hasShown && !present) return;
+  // While it plays, what is not there yet is seen as it was last.
+  if (present) open.shown = present;
+  const shown = present ?? (open.shownOf === run.id ? open.shown : undefined);
+  open.shownOf = run.id;
   drawn.dirty = false;
   const canvas = element("picture");
   const scale = Math.min(2, window.devicePixelRatio || 1);
@@ -35,8 +65,8 @@ function draw() {
     canvas.height = Math.round(height * scale);
   }
   const stage = run.description.stage;
-  const camera = sceneCamera(run, frame);
-  const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size);
+  const camera = !present && shown ? shown.camera : sceneCamera(run, position);
+  const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye));
   open.painter.place("run", at);
   const lines = new Lines();
   drawLines(lines, run, shown, at, view);
@@ -73,7 +103,7 @@ function triads(run, shown, at) {
 function drawLines(lines, run, shown, at, view) {
   const stage = run.description.stage;
   stage?.grid.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
-  stage?.trails.forEach((each) => trail(lines, run, each, player.position));
+  stage?.trails.forEach((each) => trail(lines, run, each, player.position, MOST_POINTS / stage.trails.length));
   shown?.coils.forEach((each) => coil(lines, each));
   shown?.arrows.forEach((each) => arrow(lines, each));
   shown?.axes.forEach((each) => axes(lines, each));
@@ -114,7 +144,7 @@ function strobes(run, position, at) {
     const turned = Math.abs(o[0] * here[3] + o[1] * here[4] + o[2] * here[5] + o[3] * here[6]) < 1 - 1e-4;
     return turned || length(sub(location, here)) > 1e-4 * open.painter.space.size;
   });
-  const key = `${run.id} ${past.length} ${apart.length}`;
+  const key = `${run.id} ${past.length} ${apart.map((ghost) => past.indexOf(ghost)).join()}`;
   if (open.strobes !== key) {
     open.strobes = key;
     open.painter.put("ghosts", apart.map(({ body }, pose) => ({ body, pose })), true);

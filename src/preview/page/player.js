@@ -23,8 +23,14 @@ export class Player {
     return Math.max(0, (this.run?.progress?.recorded ?? 1) - 1);
   }
 
+  /** The last frame that there will be: a run that has diverged ends early. */
+  get end() {
+    if (!this.run) return 0;
+    return this.run.progress?.settled ? this.last : this.run.frames - 1;
+  }
+
   seek(frame) {
-    this.position = Math.max(0, Math.min(Math.round(frame), this.run ? this.run.frames - 1 : 0));
+    this.position = Math.max(0, Math.min(Math.round(frame), this.end));
   }
 
   /** Back to the initial state, at rest: the tutorial's space key. */
@@ -40,7 +46,7 @@ export class Player {
 
   play() {
     if (!this.run) return;
-    if (this.position >= this.run.frames - 1) this.position = 0;
+    if (this.position >= this.end) this.position = 0;
     this.playing = true;
   }
 
@@ -58,7 +64,7 @@ export class Player {
   advance(seconds) {
     if (!this.playing || !this.run) return;
     let next = this.position + Math.min(seconds, 0.25) * this.speed * this.run.rate;
-    const end = this.run.frames - 1;
+    const { end } = this;
     if (next >= end) {
       if (this.loop && this.last === end) next = end > 0 ? next % end : 0;
       else if (this.last === end) {

@@ -8,6 +8,8 @@ const BUDGET = 256 << 20;
 const PIECE = 2 << 20;
 /** The numbers of a body that say where it is: location and orientation. */
 const POSE = 7;
+/** So many frames ahead it is known what is seen in them. */
+const AHEAD = 30;
 const NOTHING = new Float64Array();
 
 export class Run {
@@ -108,6 +110,13 @@ export class Run {
     return this.shown.get(`${view} ${frame}`);
   }
 
+  /** Fetches a frame, with what is seen in it. */
+  async ready(frame, view) {
+    const recorded = this.progress?.recorded ?? 0;
+    if (frame < recorded && !this.poses(frame)) await this.fetchPoses(Math.floor(frame / this.together), recorded);
+    if (frame < recorded && this.hasShown && !this.shownIn(frame, view)) await this.fetchShown(frame, view, recorded);
+  }
+
   /** Fetches a frame, and then those after it, as long as there is room. */
   async want(frame, view) {
     this.wanted = { frame, view };
@@ -116,10 +125,16 @@ export class Run {
     try {
       await this.loading;
     } catch (error) {
-      // A run that has been replaced is asked for no more; of anything else, the next wish tells.
-      if (error.status !== 404) console.warn(error.message);
+      // The run has been replaced, or the server has gone, and both are said elsewhere: it is asked again after a while.
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      this.changed();
     }
     this.loading = null;
+  }
+
+  /** Whether there is anything to be seen beside the bodies, and it is known where. */
+  get hasShown() {
+    return this.description.shows && Boolean(this.description.stage);
   }
 
   async load() {
@@ -127,10 +142,11 @@ export class Run {
       if (this.closed) return;
       const { frame, view } = this.wanted;
       const recorded = this.progress?.recorded ?? 0;
+      const unseen = this.hasShown ? this.unseen(frame, view, recorded) : undefined;
       if (frame < recorded && !this.poses(frame)) {
         await this.fetchPoses(Math.floor(frame / this.together), recorded);
-      } else if (frame < recorded && this.description.shows && this.description.stage && !this.shownIn(frame, view)) {
-        await this.fetchShown(frame, view, recorded);
+      } else if (unseen !== undefined) {
+        await this.fetchShown(unseen, view, recorded);
       } else {
         const next = this.next(frame, recorded);
         if (next === undefined) return;
@@ -138,6 +154,13 @@ export class Run {
       }
       this.changed();
     }
+  }
+
+  /** The first of the next frames of which it is not known what is seen in them. */
+  unseen(frame, view, recorded) {
+    const end = Math.min(frame + AHEAD, recorded);
+    for (let next = frame; next < end; next++) if (!this.shownIn(next, view)) return next;
+    return undefined;
   }
 
   /** The number of the next piece to be fetched ahead of need, from the present frame on. */

@@ -52,25 +52,27 @@ function method(integrator, step) {
   return { integrator: element(integrator).value, step: element(step).value.trim() };
 }
 
-/** The number of the run by a method, which the server begins if need be. */
+/** The number of the run by a method, which the server begins if need be; `usual` where there can be none. */
 async function wanted(which, { integrator, step }, usual) {
-  if (usual && !integrator && !step) {
-    delete open.wanted[which];
-    return usual;
-  }
+  if (usual && !integrator && !step) return usual;
+  const { state } = open;
   const key = `${integrator} ${step}`;
-  open.wanted[which] ??= {};
-  if (open.wanted[which].key === key) return open.wanted[which].id;
+  // What has failed may be possible with another scene; what others have driven out is begun again.
+  const scene = JSON.stringify([state.current, state.problem]);
+  const known = open.wanted[which];
+  if (known?.key === key && (known.failed ? known.scene === scene : state.runs[known.id])) return known.id;
+  const problem = element("method-problem");
   try {
-    const current = open.run?.description.integrator;
-    const order = { integrator: integrator || open.integrator || current || "euler-cromer", step };
-    const progress = await (await post("/api/variants", order)).json();
+    const progress = await (await post("/api/variants", { integrator, step })).json();
+    problem.hidden = true;
     open.wanted[which] = { key, id: progress.id };
-    open.state.runs[progress.id] ??= progress;
+    state.runs[progress.id] ??= progress;
     return progress.id;
   } catch (error) {
-    open.wanted[which] = { key, id: which === "first" ? open.run?.id ?? usual : null, problem: error.message };
-    return open.wanted[which].id;
+    problem.textContent = error.message;
+    problem.hidden = false;
+    open.wanted[which] = { key, id: usual, failed: true, scene };
+    return usual;
   }
 }
 
@@ -98,7 +100,7 @@ async function show(id, serial) {
   // The new run is not shown before there is something of it at this time.
   const frame = run.frameAt(player.time);
   run.changed = () => redraw();
-  await run.want(Math.min(frame, Math.max(0, (run.progress?.recorded ?? 1) - 1)), open.view);
+  await run.ready(Math.min(frame, Math.max(0, (run.progress?.recorded ?? 1) - 1)), open.view);
   if (serial !== open.serial) return run.close();
   open.run?.close();
   open.run = run;
@@ -115,7 +117,7 @@ async function show(id, serial) {
 function paint(run) {
   open.painter.take(run);
   open.strobes = null;
-  if (open.other) open.painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
+  if (open.other?.bodies === run.bodies) open.painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
 }
 
 async function compare(id, serial) {

@@ -27,9 +27,19 @@ export async function post(path, order, signal) {
   return answer(await fetch(address(path), { method: "POST", headers, body: JSON.stringify(order), signal }));
 }
 
-/** Calls `changed` with the state of the server, now and whenever it changes; `lost` when the server is gone. */
+/**
+ * Calls `changed` with the state of the server, now and whenever it changes; `lost` when the server is gone. A page that
+ * nobody sees does not listen: a browser has few connections to one server.
+ */
 export function follow(changed, lost) {
-  const events = new EventSource(address("/api/events"));
-  events.onmessage = (event) => changed(JSON.parse(event.data));
-  events.onerror = lost;
+  let events;
+  const listen = () => {
+    events?.close();
+    events = document.hidden ? undefined : new EventSource(address("/api/events"));
+    if (!events) return;
+    events.onmessage = (event) => changed(JSON.parse(event.data));
+    events.onerror = lost;
+  };
+  document.addEventListener("visibilitychange", listen);
+  listen();
 }

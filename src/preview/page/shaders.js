@@ -59,8 +59,8 @@ uniform vec3 u_toward;        // without perspective: where all eyes look from
 
 const LIGHT = `${EYE}
 uniform int u_lamps;
-uniform vec4 u_lamp[4];       // w is 0 for parallel light
-uniform vec4 u_lampColor[4];  // w is 1 for a lamp that casts shadows
+uniform vec4 u_lamp[8];       // w is 0 for parallel light
+uniform vec4 u_lampColor[8];  // w is 1 for a lamp that casts shadows
 uniform vec3 u_ambient;
 uniform vec4 u_sky[7];        // height from 0 to 1, and color in sRGB
 uniform int u_stops;
@@ -191,7 +191,7 @@ void main() {
   } else {
     sum = base * u_ambient * 0.17;
     float shine = 2.0 / max(1e-3, roughness * roughness * roughness * roughness) + 2.0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 8; i++) {
       if (i >= u_lamps) break;
       vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - place) : u_lamp[i].xyz;
       float facing = max(dot(normal, to), 0.0);
@@ -269,7 +269,7 @@ void main() {
   vec3 eye = u_toward == vec3(0.0) ? normalize(u_eye - v_place) : u_toward;
   vec3 normal = dot(u_normal, eye) < 0.0 ? -u_normal : u_normal;
   vec3 sum = base * vec3(0.27, 0.29, 0.32) * u_ambient;
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < 8; i++) {
     if (i >= u_lamps) break;
     vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - v_place) : u_lamp[i].xyz;
     float seen = i == 0 && u_lampColor[0].w > 0.5 ? lit(v_place, normal) : 1.0;

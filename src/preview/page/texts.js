@@ -17,9 +17,11 @@ export class Texts {
     const spans = [];
     // In the scene's own picture, its width is 2 and its middle 0.
     const place = (x, y) => [left + ((x + 1) / 2) * width, top + height / 2 - (y / 2) * width];
+    // Beside ghosts, a label stands where the scene's camera has them; elsewhere only that of the present moment is shown.
+    const latest = new Set(new Map((shown?.texts ?? []).map((text) => [text.beside ? text.name : text, text])).values());
     for (const text of shown?.texts ?? []) {
       let [x, y] = place(text.x, text.y);
-      if (view.rectangle[2] === view.width && text.in_world) continue;
+      if (view.own && (text.in_world || !latest.has(text))) continue;
       if (view.own && text.beside) [x, y] = beside(text, view, space, at, width);
       if (x === undefined) continue;
       spans.push(this.span(text, x, y, (text.height / 2) * width));

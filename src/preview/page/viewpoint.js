@@ -50,8 +50,11 @@ export class Viewpoint {
     return add(this.aim, times([c * Math.sin(this.around), s, c * Math.cos(this.around)], this.distance));
   }
 
-  /** What is needed to draw: the picture is `width` x `height`, that of the scene `size`, which fits into it. */
-  view(camera, { center, size }, width, height, film) {
+  /**
+   * What is needed to draw: the picture is `width` x `height`, the film fits into it; `nearest(eye)` is how far it is to
+   * what is nearest, m.
+   */
+  view(camera, { center, size }, width, height, film, nearest) {
     const [w, h] = film;
     const aspect = this.own ? width / height : w / h;
     const scale = Math.min(width / w, height / h) * (Math.abs(width / height - w / h) < 0.01 ? 1 : 0.96);
@@ -59,11 +62,12 @@ export class Viewpoint {
     const location = this.own ? this.location : camera.location;
     const aim = this.own ? this.aim : camera.look_at;
     const { right, up, back } = axes(location, aim);
-    const near = (point) => times(sub(point, center), 1 / size);
-    const eye = near(location);
+    const eye = times(sub(location, center), 1 / size);
     const distance = Math.max(1e-6, length(sub(location, aim)) / size);
     // How much is seen beside the film.
     const [moreX, moreY] = [width / rectangle[2], height / rectangle[3]];
+    // What is near is seen as well, also where the camera looks far away.
+    const near = Math.max(1e-6, Math.min(0.01 * distance, (0.3 * nearest(location)) / size));
     const flat = !this.own && camera.width;
     const reach = 240 + 4 * distance;
     let projection, tangentX, tangentY;
@@ -72,12 +76,12 @@ export class Viewpoint {
       tangentY = tangentX / aspect;
       projection = orthographic(tangentX * moreX, tangentY * moreY, -reach, reach);
     } else {
-      tangentX = this.own ? this.tangent * Math.max(1, aspect / 1.2) : Math.tan((Math.min(camera.angle, 170) * Math.PI) / 360);
+      tangentX = this.own ? this.tangent * Math.max(1, aspect / 1.2) : Math.tan((Math.min(camera.angle, 179) * Math.PI) / 360);
       tangentY = tangentX / aspect;
-      projection = perspective(tangentX * moreX, tangentY * moreY, Math.max(1e-5, 0.01 * distance), reach);
+      projection = perspective(tangentX * moreX, tangentY * moreY, near, reach);
     }
     return {
-      location, right, up, back, eye, rectangle, aspect, flat, width, height,
+      own: this.own, location, right, up, back, eye, rectangle, aspect, flat, width, height,
       tangentX: tangentX * moreX, tangentY: tangentY * moreY, filmTangents: [tangentX, tangentY],
       clip: product(projection, lookAt(eye, { right, up, back })),
       toward: flat ? back : [0, 0, 0],
