@@ -53,6 +53,8 @@ pub(super) struct Variant {
 pub(super) struct State {
     /// The run of the scene as it last was without errors.
     current: Option<String>,
+    /// The method that the scene itself names.
+    integrator: Option<&'static str>,
     /// What is wrong with the scene now, as the terminal shows it.
     problem: Option<String>,
     /// What was noticed of the scene and is no error.
@@ -114,6 +116,7 @@ impl Session {
         let runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
         State {
             current: inner.current.as_ref().map(|run| run.id.to_string()),
+            integrator: inner.current.as_ref().map(|run| run.scene.simulation.method.name),
             problem: inner.problem.clone(),
             warnings: inner.warnings.clone(),
             runs: runs.map(|run| (run.id.to_string(), run.progress())).collect(),

@@ -54,24 +54,23 @@ function method(integrator, step) {
 
 /** The number of the run by a method, which the server begins if need be; `usual` where there can be none. */
 async function wanted(which, { integrator, step }, usual) {
-  if (usual && !integrator && !step) return usual;
+  if (usual && !integrator && !step) {
+    delete open.wanted[which];
+    return usual;
+  }
   const { state } = open;
   const key = `${integrator} ${step}`;
   // What has failed may be possible with another scene; what others have driven out is begun again.
   const scene = JSON.stringify([state.current, state.problem]);
   const known = open.wanted[which];
-  if (known?.key === key && (known.failed ? known.scene === scene : state.runs[known.id])) return known.id;
-  const problem = element("method-problem");
+  if (known?.key === key && (known.problem ? known.scene === scene : state.runs[known.id])) return known.id;
   try {
     const progress = await (await post("/api/variants", { integrator, step })).json();
-    problem.hidden = true;
     open.wanted[which] = { key, id: progress.id };
     state.runs[progress.id] ??= progress;
     return progress.id;
   } catch (error) {
-    problem.textContent = error.message;
-    problem.hidden = false;
-    open.wanted[which] = { key, id: usual, failed: true, scene };
+    open.wanted[which] = { key, id: usual, problem: error.message, scene };
     return usual;
   }
 }
@@ -104,7 +103,6 @@ async function show(id, serial) {
   if (serial !== open.serial) return run.close();
   open.run?.close();
   open.run = run;
-  if (id === open.state.current) open.integrator = run.description.integrator;
   if (open.view > run.description.views.length) open.view = 0;
   player.take(run);
   paint(run);
@@ -156,7 +154,7 @@ function describe(run) {
   document.title = `${title} – jabuka`;
   element("title").textContent = title;
   element("time").max = run.frames - 1;
-  for (const [id, none] of [["integrator", `scene: ${open.integrator}`], ["other-integrator", "nothing"]]) {
+  for (const [id, none] of [["integrator", `scene: ${open.state.integrator}`], ["other-integrator", "nothing"]]) {
     const select = element(id);
     const value = select.value;
     const options = description.methods.map(({ name, summary }) => Object.assign(new Option(name), { title: summary }));
