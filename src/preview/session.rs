@@ -98,7 +98,11 @@ impl Session {
                     return;
                 }
                 thread::sleep(INTERVAL);
-                if watched.have_changed() || (again && read.elapsed() > 2 * INTERVAL) {
+                if watched.have_changed() {
+                    watched.settle();
+                    break;
+                }
+                if again && read.elapsed() > 2 * INTERVAL {
                     break;
                 }
             }

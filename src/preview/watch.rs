@@ -39,6 +39,23 @@ impl Watched {
         self.0.iter().any(|(file, before)| mark(file) != *before)
     }
 
+    /// Waits until nobody writes to them any more, as far as that can be seen: what writes a file anew empties it first.
+    pub(super) fn settle(&self) {
+        const QUIET: Duration = Duration::from_millis(20);
+        const MOST: u32 = 15;
+        let marks = || self.0.iter().map(|(file, _)| mark(file)).collect::<Vec<Mark>>();
+        let mut before = marks();
+        for _ in 0..MOST {
+            std::thread::sleep(QUIET);
+            let now = marks();
+            let is_empty = now.iter().flatten().any(|(bytes, ..)| *bytes == 0);
+            if now == before && !is_empty {
+                return;
+            }
+            before = now;
+        }
+    }
+
     /// Whether one is so young that another change of the same moment might look the same.
     pub(super) fn are_young(&self) -> bool {
         const YOUNG: Duration = Duration::from_millis(50);
@@ -75,5 +92,22 @@ mod tests {
         assert!(watched(&|| fs::rename(&other, &file).unwrap()));
         assert!(watched(&|| fs::remove_file(&file).unwrap()));
         assert!(!watched(&|| {}));
+    }
+
+    #[test]
+    fn a_file_that_has_just_been_emptied_is_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.toml");
+        fs::write(&file, "").unwrap();
+        let watched = Watched::new(std::slice::from_ref(&file));
+        let written = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                std::thread::sleep(Duration::from_millis(50));
+                fs::write(&file, "title = 'whole'").unwrap();
+            });
+            watched.settle();
+            fs::read_to_string(&file).unwrap()
+        });
+        assert_eq!(written, "title = 'whole'");
     }
 }

@@ -30,12 +30,14 @@ export class Player {
   }
 
   seek(frame) {
+    this.sought = undefined;
     this.position = Math.max(0, Math.min(Math.round(frame), this.end));
   }
 
   /** Back to the initial state, at rest: the tutorial's space key. */
   reset() {
     this.pause();
+    this.sought = undefined;
     this.position = 0;
   }
 
@@ -46,6 +48,7 @@ export class Player {
 
   play() {
     if (!this.run) return;
+    this.sought = undefined;
     if (this.position >= this.end) this.position = 0;
     this.playing = true;
   }
@@ -79,9 +82,11 @@ export class Player {
 
   /** Goes on with another run at the same time. */
   take(run) {
-    const time = this.time;
+    // A run that is shorter for a moment does not make the viewer lose the place.
+    const time = this.sought ?? this.time;
     this.run = run;
     const place = Math.min(time * run.rate, run.frames - 1);
     this.position = this.playing ? place : Math.round(place);
+    this.sought = time * run.rate > run.frames - 1 ? time : undefined;
   }
 }
