@@ -76,7 +76,7 @@ fn a_still_is_the_image_of_any_moment() {
     assert!(at_frame == pixels(&place.path("out/scene/images/frame_0010.png")));
     // Between two it is neither, but where the ball is then.
     assert!(still("0.42", "between.png") != at_frame);
-    let script = fs::read_to_string(place.path("out/scene.still/frame_0010.pov")).unwrap();
+    let script = fs::read_to_string(place.path("out/.still/scene/frame_0010.pov")).unwrap();
     assert!(script.contains("sphere { <0.42, 0, 0>, 1 "), "{script}");
     assert_eq!(names(&place.path(".")), ["between.png", "frame.png", "out", "scene.toml"]);
 
