@@ -93,6 +93,9 @@ float lit(vec3 place, vec3 normal) {
   }
   return sum * 0.25;
 }
+vec3 toLamp(int i, vec3 place) { return u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - place) : u_lamp[i].xyz; }
+// How much of a lamp's light gets to a place: only the first one casts shadows.
+float reaches(int i, vec3 place, vec3 normal) { return i == 0 && u_lampColor[0].w > 0.5 ? lit(place, normal) : 1.0; }
 `;
 
 /** Balls, where there are many: each is a square that faces the eye, on which every pixel finds its place on the ball. */
@@ -193,9 +196,9 @@ void main() {
     float shine = 2.0 / max(1e-3, roughness * roughness * roughness * roughness) + 2.0;
     for (int i = 0; i < 8; i++) {
       if (i >= u_lamps) break;
-      vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - place) : u_lamp[i].xyz;
+      vec3 to = toLamp(i, place);
       float facing = max(dot(normal, to), 0.0);
-      float seen = i == 0 && u_lampColor[0].w > 0.5 ? lit(place, normal) : 1.0;
+      float seen = reaches(i, place, normal);
       float glint = u_lampColor[i].w > 0.5 ? pow(max(dot(normal, normalize(to + eye)), 0.0), min(shine, 400.0)) : 0.0;
       vec3 tint = mix(vec3(1.0), base, metallic);
       sum += seen * u_lampColor[i].rgb * (base * facing * mix(0.74, 0.35, metallic) + tint * glint * 0.5 * (1.0 - roughness));
@@ -271,8 +274,8 @@ void main() {
   vec3 sum = base * vec3(0.27, 0.29, 0.32) * u_ambient;
   for (int i = 0; i < 8; i++) {
     if (i >= u_lamps) break;
-    vec3 to = u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - v_place) : u_lamp[i].xyz;
-    float seen = i == 0 && u_lampColor[0].w > 0.5 ? lit(v_place, normal) : 1.0;
+    vec3 to = toLamp(i, v_place);
+    float seen = reaches(i, v_place, normal);
     sum += seen * u_lampColor[i].rgb * base * max(dot(normal, to), 0.0) * 0.74;
   }
   float clear = u_fade > 0.0 ? exp(-far / u_fade) : 1.0;
