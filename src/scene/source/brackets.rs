@@ -1,8 +1,8 @@
-//! What is to be said of a text's brackets and quotes, beyond what the parser says.
+//! What is to be said of a text's brackets, quotes and dotted keys, beyond what the parser says.
 //!
 //! The parser knows TOML 1.1, which editors and the schema's users do not: what is new in it is refused. And where a
 //! bracket is never closed, the parser reads on to the end of the file and finds fault with every line: the place to
-//! mend is the bracket.
+//! mend is the bracket. The parser also refuses a key of too many parts, but does not say where it stands.
 
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
@@ -12,19 +12,21 @@ use crate::diagnostic::{Diagnostic, SourceId, Span};
 /// As deep as the crate `toml` goes.
 const MAX_DEPTH: u32 = 80;
 
-/// What a text's brackets and quotes tell.
+/// What a text's brackets, quotes and dotted keys tell.
 pub(super) struct Brackets {
     /// What is new in TOML 1.1.
     pub(super) too_new: Vec<Diagnostic>,
     /// The first bracket or quote that is never closed: what follows it cannot be trusted.
     pub(super) unclosed: Option<Diagnostic>,
+    /// The keys of too many parts.
+    pub(super) deep_keys: Vec<Diagnostic>,
 }
 
 /// Looks through a text.
 pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     let tokens = toml_parser::Source::new(text).lex().into_vec();
-    let found = Brackets { too_new: Vec::new(), unclosed: None };
-    let mut looker = Looker { text, source, open: Vec::new(), found };
+    let found = Brackets { too_new: Vec::new(), unclosed: None, deep_keys: Vec::new() };
+    let mut looker = Looker { text, source, open: Vec::new(), key: None, found };
     let mut see = |event: Event| looker.see(event);
     parse_document(&tokens, &mut RecursionGuard::new(&mut see, MAX_DEPTH), &mut ());
     looker.found
@@ -40,10 +42,19 @@ struct Open {
     several_lines: bool,
 }
 
+/// A dotted key, as far as it was seen.
+struct Key {
+    start: usize,
+    parts: u32,
+    /// Whether its last dot awaits a part.
+    goes_on: bool,
+}
+
 struct Looker<'a> {
     text: &'a str,
     source: SourceId,
     open: Vec<Open>,
+    key: Option<Key>,
     found: Brackets,
 }
 
@@ -84,11 +95,32 @@ impl Looker<'_> {
                     open.several_lines = true;
                 }
             }
-            EventKind::Scalar | EventKind::SimpleKey => {
+            EventKind::Scalar => {
                 self.no_comma();
                 self.string(span, event.encoding());
             }
+            EventKind::SimpleKey => {
+                self.no_comma();
+                self.string(span, event.encoding());
+                self.part_of_key(span);
+            }
+            EventKind::KeySep => {
+                if let Some(key) = &mut self.key {
+                    key.goes_on = true;
+                }
+            }
             _ => {}
+        }
+    }
+
+    fn part_of_key(&mut self, span: toml_parser::Span) {
+        let before = self.key.take().filter(|key| key.goes_on);
+        let (start, parts) = before.map_or((span.start(), 1), |key| (key.start, key.parts + 1));
+        self.key = Some(Key { start, parts, goes_on: false });
+        if parts == MAX_DEPTH + 1 {
+            let place = Span::new(self.source, start..span.end());
+            let error = Diagnostic::error("toml-syntax", format!("a key has more than {MAX_DEPTH} parts"));
+            self.found.deep_keys.push(error.at(place, "").help("no key of a scene is so deep"));
         }
     }
 

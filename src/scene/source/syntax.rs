@@ -4,6 +4,9 @@ use toml::de::Error;
 
 use crate::diagnostic::{Diagnostic, SourceId, Span};
 
+/// What the parser says of a key of too many parts, without a place. `brackets` says it with one.
+pub(super) const DEEP_KEY: &str = "recursion limit";
+
 /// An error of the parser as a diagnostic. What the parser says in words that are not known here is said as it is.
 pub(super) fn diagnose(error: &Error, text: &str, source: SourceId) -> Diagnostic {
     let range = error.span();
@@ -83,7 +86,7 @@ fn words(what: &str, expected: &str, found: &str, next: Option<char>) -> (String
         }
         "missing comma between array elements" => ("a comma is missing between the values of a list", ""),
         "extra comma in array" => ("a value is missing between two commas", ""),
-        what if what.starts_with("cannot recurse") || what == "recursion limit" => {
+        what if what.starts_with("cannot recurse") => {
             ("lists or tables stand in each other more than 80 deep", "no key of a scene is so deep")
         }
         "invalid mantissa" | "invalid fraction" => {

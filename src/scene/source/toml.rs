@@ -11,6 +11,7 @@ use crate::diagnostic::{Diagnostic, SourceId, Span};
 /// Parses a text as far as it goes: what cannot be read becomes a diagnostic, and the rest a tree.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
     let (document, mut errors) = DeTable::parse_recoverable(text);
+    errors.retain(|error| error.message() != syntax::DEEP_KEY);
     errors.sort_by_key(|error| error.span().map(|range| range.start));
     let brackets = brackets::look(text, source);
     let span = Span::new(source, 0..text.len());
@@ -33,6 +34,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     }
     diagnostics.extend(brackets.unclosed);
     diagnostics.extend(brackets.too_new);
+    diagnostics.extend(brackets.deep_keys);
     root
 }
 
