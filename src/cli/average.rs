@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use jabuka::diagnostic::visible;
 use jabuka::render::linear_light;
 
 use super::{Failure, say};
@@ -20,7 +21,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mean = linear_light::mean(&arguments.images).and_then(|mean| mean.write(&arguments.output));
     mean.map_err(|error| {
-        say::error(&format!("error: {error}\n"));
+        say::error(&format!("error: {}\n", visible(&error.to_string())));
         Failure::Errors
     })
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use jabuka::Scene;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::scene::Options;
 
 use super::{Failure, say};
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if matches!(arguments.format, Format::Json) {
-        say::result(&format!("{:#}\n", serde_json::Value::Array(json)));
+        say::json(&format!("{:#}\n", serde_json::Value::Array(json)));
     }
     if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
 }
@@ -64,5 +64,5 @@ fn show(path: &std::path::Path, report: &Report) {
         (errors, 0) => count(errors, "error"),
         (errors, warnings) => format!("{}, {}", count(errors, "error"), count(warnings, "warning")),
     };
-    say::result(&format!("{}: {verdict}\n", path.display()));
+    say::result(&format!("{}: {verdict}\n", visible_path(path)));
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use jabuka::Run;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
 use jabuka::simulate::Selection;
 
@@ -77,7 +77,7 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     let scripts_a_frame = if run.shutter().is_some() { 2 } else { 1 };
     let compared = scripts_a_frame * selection.count_within(run.scene().simulation.frames());
     if differences.is_empty() {
-        say::result(&format!("{}: {compared} scripts are as the scene gives them\n", folder.display()));
+        say::result(&format!("{}: {compared} scripts are as the scene gives them\n", visible_path(folder)));
         return Ok(());
     }
     for difference in differences.iter().take(SHOWN) {
@@ -86,6 +86,6 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     if differences.len() > SHOWN {
         say::result(&format!("… and {} more scripts\n", differences.len() - SHOWN));
     }
-    say::result(&format!("{}: {} of {compared} scripts differ\n", folder.display(), differences.len()));
+    say::result(&format!("{}: {} of {compared} scripts differ\n", visible_path(folder), differences.len()));
     Err(Failure::Errors)
 }

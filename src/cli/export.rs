@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use jabuka::diagnostic::{Diagnostic, Report};
+use jabuka::diagnostic::{Diagnostic, Report, visible_path};
 use jabuka::export::{ExportError, Exported, write_csv, write_glb};
 use jabuka::output::OutputError;
 use jabuka::scene::Scene;
@@ -47,7 +47,7 @@ impl Format {
         } else {
             Err(Failure::Usage(format!(
                 "what is exported is a table, `.csv`, or a model, `.glb`, and `{}` ends in neither",
-                path.display()
+                visible_path(path)
             )))
         }
     }
@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::report(&report(error, &arguments.output));
         Failure::Errors
     })?;
-    say::result(&format!("{}: {text}\n", arguments.output.display()));
+    say::result(&format!("{}: {text}\n", visible_path(&arguments.output)));
     Ok(())
 }
 
@@ -102,7 +102,7 @@ fn report(error: ExportError, path: &Path) -> Report {
         ExportError::Io(error) => OutputError::Io(path.to_owned(), error).report(),
         ExportError::Diverged(error) => OutputError::from(error).report(),
         ExportError::TooLarge(_) | ExportError::OutOfRange { .. } => {
-            let message = format!("`{}`: {error}", path.display());
+            let message = format!("`{}`: {error}", visible_path(path));
             let diagnostic = Diagnostic::error("cannot-export", message);
             let help = error.help();
             Report {

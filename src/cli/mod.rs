@@ -22,6 +22,7 @@ mod run_arguments;
 mod say;
 mod scene_arguments;
 mod schema;
+mod shell;
 mod status;
 mod still;
 mod summary;
@@ -30,6 +31,7 @@ mod templates;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use jabuka::diagnostic::visible;
 
 /// Compiles a physics scene written in TOML into POV-Ray scripts, one per frame.
 #[derive(Parser)]
@@ -101,7 +103,7 @@ pub(crate) fn main() -> ExitCode {
         // As shells tell that a signal of the keyboard has ended a command.
         Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
-            say::error(&format!("error: {message}\n\nFor more information, try '--help'.\n"));
+            say::error(&format!("error: {}\n\nFor more information, try '--help'.\n", visible(&message)));
             ExitCode::from(2)
         }
     }

@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::PathBuf;
 
+use jabuka::diagnostic::visible_path;
 use jabuka::starter::write_starter;
 
 use super::{Failure, say};
@@ -16,7 +17,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = write_starter(&arguments.name).map_err(|error| {
-        let name = arguments.name.display();
+        let name = visible_path(&arguments.name);
         say::error(&match error.kind() {
             ErrorKind::AlreadyExists => format!("error: the scene `{name}` is there already\n"),
             _ => format!("error: cannot write the scene `{name}`: {error}\n"),
@@ -25,7 +26,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     say::result(&format!(
         "{}: a scene to start from; `jabuka compile` makes scripts of it\n",
-        path.display()
+        visible_path(&path)
     ));
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use jabuka::diagnostic::visible_path;
 use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
 
 use super::progress::Progress;
@@ -49,7 +50,7 @@ impl Products {
             };
             let shots: Vec<Shot> = scripts.iter().map(shot).collect();
             sheet.make(&shots).map_err(|error| failed(&error))?;
-            say::result(&format!("sheet     {}\n", sheet.path().display()));
+            say::result(&format!("sheet     {}\n", visible_path(sheet.path())));
         }
         if let Some((film, ffmpeg)) = &self.film {
             let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
@@ -64,7 +65,7 @@ impl Products {
             progress.finish();
             made.map_err(|error| failed(&error))?;
             let seconds = frames.len() as f64 / film.shown_rate(rate);
-            say::result(&format!("film      {}, {seconds:.2} s\n", film.path().display()));
+            say::result(&format!("film      {}, {seconds:.2} s\n", visible_path(film.path())));
         }
         Ok(())
     }

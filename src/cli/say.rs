@@ -1,29 +1,55 @@
 //! What is said to people: results to standard output, the rest to standard error.
 //!
+//! All that goes to a terminal passes here, and nothing in it can command the terminal. Where a line break in a name would
+//! start a line of its own, the caller makes the name visible.
+//!
 //! A reader that has gone away (`jabuka … | head`) is no error of ours, so failures to write are of no account.
 
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::error::ContextKind;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, is_invisible, visible, visible_lines};
 
-use super::Failure;
+use super::{Failure, shell};
 
 /// Says a result.
 pub(super) fn result(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    write(std::io::stdout().lock(), &visible_lines(text));
+}
+
+/// Says a result in JSON, which has escapes of its own for what is not visible.
+pub(super) fn json(text: &str) {
+    // Such characters stand in strings only; the serializer has escaped those below U+0020.
+    let escape = |c: char| match c {
+        c if is_invisible(c) && c != '\n' => {
+            c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect()
+        }
+        c => c.to_string(),
+    };
+    write(std::io::stdout().lock(), &text.chars().map(escape).collect::<String>());
+}
+
+/// Says a result in place of one of so many lines above it, on a terminal.
+pub(super) fn in_place_of(lines: usize, text: &str) {
+    let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
+    write(std::io::stdout().lock(), &(up + &visible_lines(text)));
 }
 
 /// Says what is no result.
 pub(super) fn error(text: &str) {
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    write(std::io::stderr().lock(), &visible_lines(text));
+}
+
+fn write(mut stream: impl Write, text: &str) {
+    let _ = stream.write_all(text.as_bytes());
 }
 
 /// Says errors and warnings, with colors where they can be seen.
 pub(super) fn report(report: &Report) {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
-    error(&report.to_text(color));
+    write(std::io::stderr().lock(), &report.to_text(color));
 }
 
 /// Says a list of things, each with what there is to know about it, in two columns.
@@ -36,7 +62,7 @@ pub(super) fn rows(rows: &[(&str, &str)]) {
 /// Says that there is nothing of this name, and what may have been meant.
 pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
     let meant = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-    error(&format!("error: there is no {noun} `{name}`{meant}\n"));
+    error(&format!("error: there is no {noun} `{}`{meant}\n", visible(name)));
     Failure::Errors
 }
 
@@ -44,9 +70,15 @@ pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
 pub(super) fn misused(error: &clap::Error) -> ExitCode {
     let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
-        self::error(&format!("error: `{scene}` is not a command; did you mean `jabuka compile {scene}`?\n"));
+        let command = format!("jabuka compile {}", shell::path(Path::new(&scene)));
+        self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
         return ExitCode::from(2);
     }
-    let _ = error.print();
+    // It repeats arguments, which may be names of files.
+    let text = error.render().to_string();
+    match visible_lines(&text) == text {
+        true => drop(error.print()),
+        false => self::error(&text),
+    }
     ExitCode::from(if error.use_stderr() { 2 } else { 0 })
 }

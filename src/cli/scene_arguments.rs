@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::scene::{Options, Override};
 
 use super::{Failure, say};
@@ -56,7 +56,8 @@ impl SceneArguments {
 /// Refuses to write what a scene was read from.
 pub(super) fn spare(scene: &Scene, output: &Path) -> Result<(), Failure> {
     if scene.is_made_from(output) {
-        let message = format!("`{}` would be overwritten, and the scene is made from it", output.display());
+        let message =
+            format!("`{}` would be overwritten, and the scene is made from it", visible_path(output));
         say::report(&Report::of_error("cannot-overwrite", message));
         return Err(Failure::Errors);
     }

@@ -9,6 +9,6 @@ use super::{Failure, say};
 pub(super) struct Arguments {}
 
 pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
-    say::result(&format!("{:#}\n", grammar::schema()));
+    say::json(&format!("{:#}\n", grammar::schema()));
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
 use jabuka::render::{Images, Job, Sequence};
 use jabuka::scene::View;
@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     if arguments.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
         let message =
-            format!("an image is a PNG, and `{}` does not end in `.png`", arguments.output.display());
+            format!("an image is a PNG, and `{}` does not end in `.png`", visible_path(&arguments.output));
         return Err(Failure::Usage(message));
     }
     arguments.povray.look().map_err(|error| failed(&error))?;
@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for script in sequence.scripts() {
         images.copy_out(&script.name, &arguments.output).map_err(|error| failed(&error))?;
     }
-    let (shown, took) = (arguments.output.display(), start.elapsed().as_secs_f64());
+    let (shown, took) = (visible_path(&arguments.output), start.elapsed().as_secs_f64());
     say::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
     Ok(())
 }

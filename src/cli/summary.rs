@@ -4,7 +4,10 @@ use std::path::Path;
 use std::time::Duration;
 
 use jabuka::Run;
+use jabuka::diagnostic::visible_path;
 use jabuka::output::Written;
+
+use super::shell;
 
 /// What was written, and how right it is.
 pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Duration) -> String {
@@ -34,8 +37,9 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
          {unit}\
          {blur}\
          written   {bytes} in {seconds:.2} s\n\
-         render    jabuka render {folder}\n",
-        folder = folder.display(),
+         render    jabuka render {word}\n",
+        folder = visible_path(folder),
+        word = shell::path(folder),
         scripts = written.scripts,
         bodies = scene.bodies.len(),
         step = short(survey.timestep),

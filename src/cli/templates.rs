@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 
 use super::{Failure, say};
 
@@ -16,13 +16,13 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.folder;
     let written = jabuka::emit::write_templates(folder).map_err(|error| {
-        let message = format!("cannot write templates into `{}`: {error}", folder.display());
+        let message = format!("cannot write templates into `{}`: {error}", visible_path(folder));
         say::report(&Report::of_error("cannot-write", message));
         Failure::Errors
     })?;
     say::result(&format!(
         "{}: {written} templates, and README.md, which says what they see\n",
-        folder.display()
+        visible_path(folder)
     ));
     Ok(())
 }

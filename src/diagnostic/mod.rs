@@ -4,10 +4,12 @@ mod json;
 mod nearest;
 mod source;
 mod text;
+mod visible;
 
 pub use json::Entry;
 pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
+pub use visible::{is_invisible, visible, visible_lines, visible_path};
 
 /// How grave a [`Diagnostic`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +50,7 @@ impl Diagnostic {
         Diagnostic {
             severity: Severity::Error,
             code,
-            message: one_line(message.into()),
+            message: visible(&message.into()),
             labels: Vec::new(),
             help: None,
         }
@@ -62,14 +64,14 @@ impl Diagnostic {
     /// Adds a place: the first one added is the one that is wrong.
     #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label { span, text: one_line(text.into()) });
+        self.labels.push(Label { span, text: visible(&text.into()) });
         self
     }
 
     /// Adds how to mend it.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
-        self.help = Some(one_line(help.into()));
+        self.help = Some(visible(&help.into()));
         self
     }
 
@@ -77,15 +79,6 @@ impl Diagnostic {
     pub fn span(&self) -> Option<Span> {
         self.labels.first().map(|label| label.span)
     }
-}
-
-/// A text as one line: names and words of a scene stand in messages, and may contain anything.
-fn one_line(text: String) -> String {
-    if !text.contains(char::is_control) {
-        return text;
-    }
-    let escaped = |c: char| if c.is_control() { c.escape_debug().to_string() } else { c.to_string() };
-    text.chars().map(escaped).collect()
 }
 
 /// The diagnostics of one scene, with the texts that they point into.

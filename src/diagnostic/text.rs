@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::{Diagnostic, Label, Report, Severity, SourceId, Sources};
+use super::{Diagnostic, Label, Report, Severity, SourceId, Sources, is_invisible, visible};
 
 /// So many diagnostics are shown of one line; each shows the line, which may be very long.
 const MOST_OF_A_LINE: usize = 50;
@@ -28,11 +28,14 @@ pub(super) fn render(report: &Report, color: bool) -> String {
         text.push_str("\n\n");
     }
     for ((source, line), count) in lines.into_iter().filter(|(_, count)| *count > MOST_OF_A_LINE) {
-        let name = &report.sources.get(source).name;
+        let name = visible(&report.sources.get(source).name);
         let more = count - MOST_OF_A_LINE;
         text.push_str(&format!("… and {more} more in line {line} of {name}\n\n"));
     }
-    text
+    // Lines of the scene are shown too. The renderer has replaced most of what is invisible in them, also every escape,
+    // so the escapes that are left are its colors.
+    let shown = |c: char| if is_invisible(c) && !matches!(c, '\n' | '\u{1b}') { '\u{fffd}' } else { c };
+    text.chars().map(shown).collect()
 }
 
 fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>> {
@@ -69,7 +72,7 @@ fn snippet<'a>(
         kind.span(label.span.start - window.start..end - window.start).label(text)
     });
     Snippet::source(&source.text[window.clone()])
-        .path(&source.name)
+        .path(visible(&source.name))
         .line_start(line)
         .annotations(annotations.collect::<Vec<_>>())
 }
@@ -124,6 +127,29 @@ mod tests {
           |
           = help: mend it
         ");
+    }
+
+    #[test]
+    fn a_name_and_a_line_cannot_command_the_terminal() {
+        let mut sources = Sources::default();
+        let hostile = "a\u{1b}[2J\u{9b}1m\u{202e}b\u{200f}c\u{61c}";
+        let id = sources.add(format!("x\n{hostile}.toml"), format!("{hostile} = 1\n"));
+        let diagnostic = Diagnostic::error("test", format!("unknown `{hostile}`"))
+            .at(Span::new(id, 0..1), hostile)
+            .help(format!("not {hostile}"));
+        let report = Report { sources, diagnostics: vec![diagnostic; MOST_OF_A_LINE + 1] };
+        assert!(!report.to_text(false).chars().any(|c| is_invisible(c) && c != '\n'));
+        let colored = report.to_text(true);
+        let escapes = colored.split('\u{1b}').skip(1);
+        assert!(escapes.clone().count() > 0);
+        for escape in escapes {
+            let (color, _) = escape.split_once('m').unwrap();
+            assert!(
+                color.strip_prefix('[').unwrap().chars().all(|c| c.is_ascii_digit() || c == ';'),
+                "{color:?}"
+            );
+        }
+        assert!(!colored.chars().any(|c| is_invisible(c) && !matches!(c, '\n' | '\u{1b}')));
     }
 
     #[test]

@@ -12,3 +12,4 @@ mod scene;
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 #[path = "../support/mod.rs"]
 mod support;
+mod terminal;

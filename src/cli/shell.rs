@@ -1,0 +1,72 @@
+//! Words of commands that people may copy into a shell.
+
+use std::path::Path;
+
+use jabuka::diagnostic::is_invisible;
+
+/// A path as one word of a command for bash or zsh. It is never taken for an option, and what is not visible in it is
+/// written as an escape.
+pub(super) fn path(path: &Path) -> String {
+    let bytes = path.as_os_str().as_encoded_bytes();
+    let prefix = if bytes.starts_with(b"-") { "./" } else { "" };
+    let plain = |c: char| c.is_alphanumeric() || "/._-+,:@%".contains(c);
+    match path.to_str() {
+        Some(text) if !text.is_empty() && text.chars().all(plain) => format!("{prefix}{text}"),
+        Some(text) if !text.chars().any(is_invisible) => {
+            format!("'{prefix}{}'", text.replace('\'', r"'\''"))
+        }
+        _ => format!("$'{prefix}{}'", bytes.utf8_chunks().map(|chunk| ansi_c(&chunk)).collect::<String>()),
+    }
+}
+
+/// A piece of a word between `$'` and `'`.
+fn ansi_c(chunk: &std::str::Utf8Chunk<'_>) -> String {
+    let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
+    let character = |c: char| match c {
+        '\n' => r"\n".to_owned(),
+        '\'' | '\\' => format!("\\{c}"),
+        c if is_invisible(c) => octal(c.to_string().as_bytes()),
+        c => c.to_string(),
+    };
+    chunk.valid().chars().map(character).collect::<String>() + &octal(chunk.invalid())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    use std::process::Command;
+
+    use super::*;
+
+    #[test]
+    fn bash_reads_a_word_as_the_path_it_was() {
+        for bytes in [
+            &b"out/film-job"[..],
+            b"",
+            b" a  b",
+            b"it's",
+            b"$(touch PWNED)",
+            b"`x`",
+            b"a\nb",
+            b"\"\\",
+            b"-x",
+            b"-x y",
+            b"~",
+            b"*",
+            b"!x",
+            b"\xff\x1b[31m",
+            "ü\u{202e}7".as_bytes(),
+            b"a;b",
+            b"#",
+            b"{a,b}",
+        ] {
+            let word = path(Path::new(OsStr::from_bytes(bytes)));
+            assert!(!word.chars().any(is_invisible), "{word}");
+            let output = Command::new("bash").arg("-c").arg(format!("printf '%s' {word}")).output().unwrap();
+            let read = output.stdout.strip_prefix(b"./").filter(|_| bytes.starts_with(b"-"));
+            assert_eq!(read.unwrap_or(&output.stdout), bytes, "{word}");
+        }
+        assert_eq!(path(Path::new("out/bällchen-job")), "out/bällchen-job");
+    }
+}

@@ -1,0 +1,54 @@
+//! Texts as they can go to a terminal: nothing in them can move the cursor, start a line or reorder what stands there.
+//!
+//! Names of files and words of scenes may hold any character. Control characters command a terminal, and those that
+//! set the direction of writing make a text look like another one.
+
+use std::path::Path;
+
+/// A text in one line. What is not visible is written as Rust writes it: `\n`, `\u{202e}`.
+pub fn visible(text: &str) -> String {
+    escaped(text, is_invisible)
+}
+
+/// A text whose lines and tabs stay; all else that is not visible is written as [`visible`] writes it.
+pub fn visible_lines(text: &str) -> String {
+    escaped(text, |c| is_invisible(c) && !matches!(c, '\n' | '\t'))
+}
+
+/// The path of a file in one line.
+pub fn visible_path(path: &Path) -> String {
+    visible(&path.display().to_string())
+}
+
+/// Whether a character commands the terminal, ends a line, sets the direction of writing, or has no width.
+///
+/// The joiners U+200C and U+200D pass: Persian and emoji need them.
+pub fn is_invisible(c: char) -> bool {
+    c.is_control()
+        || matches!(c,
+            '\u{61c}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}'
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+}
+
+fn escaped(text: &str, special: impl Fn(char) -> bool) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if special(c) { out.extend(c.escape_debug()) } else { out.push(c) }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_commands_a_terminal_becomes_visible() {
+        let hostile = "a\u{1b}[2Jb\u{9b}31m\nc\u{202e}d\u{2067}\u{200f}e\r\t\u{7f}";
+        assert_eq!(visible(hostile), r"a\u{1b}[2Jb\u{9b}31m\nc\u{202e}d\u{2067}\u{200f}e\r\t\u{7f}");
+        assert_eq!(visible_lines("a\tb\u{1b}\nc\u{2028}"), "a\tb\\u{1b}\nc\\u{2028}");
+        for harmless in ["", "bällchen 球.toml", "שלום", "👩\u{200d}🚀", r"C:\x"] {
+            assert_eq!(visible(harmless), harmless);
+        }
+    }
+}
