@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, OutputError};
 use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
 use jabuka::simulate::Selection;
@@ -11,7 +11,7 @@ use jabuka::simulate::Selection;
 use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
 use super::run_arguments::{RunArguments, seen, survey};
-use super::{Failure, say};
+use super::{Failure, say, shell};
 
 /// Write a folder that a cluster renders: scripts, and what sends them to Slurm or a render farm
 #[derive(clap::Args)]
@@ -36,22 +36,22 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
     limit: u64,
     /// Slurm's partition
-    #[arg(long, value_name = "NAME", value_parser = parse_line)]
+    #[arg(long, value_name = "NAME", value_parser = parse_word)]
     partition: Option<String>,
     /// Slurm's account
-    #[arg(long, value_name = "NAME", value_parser = parse_line)]
+    #[arg(long, value_name = "NAME", value_parser = parse_word)]
     account: Option<String>,
     /// The longest that a chunk may take, as Slurm writes it: 01:30:00
-    #[arg(long, value_parser = parse_line)]
+    #[arg(long, value_parser = parse_word)]
     time: Option<String>,
     /// The modules to be loaded on a node: "povray/3.7 ffmpeg"
-    #[arg(long, value_parser = parse_line)]
+    #[arg(long, value_parser = parse_words)]
     modules: Option<String>,
     /// The processors for a chunk [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     cpus: Option<u32>,
     /// The memory for a chunk, as Slurm writes it: 2G
-    #[arg(long, value_parser = parse_line)]
+    #[arg(long, value_parser = parse_word)]
     mem: Option<String>,
 }
 
@@ -63,13 +63,23 @@ enum Engine {
     Openjd,
 }
 
-/// What goes into a line of a script.
-fn parse_line(argument: &str) -> Result<String, String> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || " ,.:/_+=%@-".contains(c);
+/// What becomes the value of an option in a script: one word.
+fn parse_word(argument: &str) -> Result<String, String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || ",.:/_+=%@-".contains(c);
     match !argument.is_empty() && argument.chars().all(plain) {
         true => Ok(argument.to_owned()),
-        false => Err("it may have letters, digits, spaces and , . : / _ + = % @ -".to_owned()),
+        false => Err("it may have letters, digits and , . : / _ + = % @ -".to_owned()),
     }
+}
+
+/// What becomes words of a command in a script: words between spaces, none of them an option.
+fn parse_words(argument: &str) -> Result<String, String> {
+    let words: Vec<&str> = argument.split(' ').filter(|word| !word.is_empty()).collect();
+    if words.is_empty() || words.iter().any(|word| word.starts_with('-')) {
+        return Err("name modules, as in \"povray/3.7 ffmpeg\"".to_owned());
+    }
+    words.iter().try_for_each(|word| parse_word(word).map(drop))?;
+    Ok(words.join(" "))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -110,12 +120,19 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let from = &arguments.scene;
+    // Nothing is written for scripts that cannot be sent.
+    let frames = arguments.of_scene.frames.as_ref();
+    let settings = batch::settings(from, frames, String::new()).map_err(|error| failed(&error))?;
+    if settings.frames.is_empty() {
+        let asked = frames.map(|frames| format!(" of the frames {frames}")).unwrap_or_default();
+        return Err(Failure::Usage(format!("the folder `{}` has no scripts{asked}", from.display())));
+    }
     let name = from.file_name().unwrap_or(from.as_os_str()).to_string_lossy();
     let copy = |job: &JobFolder| {
         batch::copy_scripts(from, &job.scripts()?)?;
         Ok(batch::size(from))
     };
-    let said = make(arguments, &folder(arguments, &name), arguments.of_scene.frames.as_ref(), copy);
+    let said = make(arguments, &folder(arguments, &name), frames, copy);
     say::result(&said.map_err(|error| failed(&error))?);
     Ok(())
 }
@@ -160,11 +177,14 @@ fn make(
     let edits = job.write(&settings, engine, &requirements)?;
     let (done, all) = batch::up_to_date(folder).map_err(|error| OutputError::Io(folder.to_owned(), error))?;
 
-    let shown = folder.display();
+    let word = shell::path(folder);
     let chunks = all.div_ceil(chunk);
     let (s, c) = (if all == 1 { "" } else { "s" }, if chunks == 1 { "" } else { "s" });
-    let mut said =
-        format!("{shown}: {all} frame{s} in {chunks} chunk{c} of {chunk}, for {}\n", engine.name());
+    let mut said = format!(
+        "{}: {all} frame{s} in {chunks} chunk{c} of {chunk}, for {}\n",
+        visible_path(folder),
+        engine.name()
+    );
     said.push_str(&format!("images    {done} of {all} are there\n"));
     for name in &edits.kept {
         let new = if edits.new.contains(name) {
@@ -178,9 +198,9 @@ fn make(
         said.push_str(&format!("replaced  {name}; as you edited it, it is {name}.old\n"));
     }
     said.push_str(&match engine {
-        batch::Engine::Slurm => format!("send      cd {shown} && ./submit\n"),
-        batch::Engine::OpenJd => format!("send      deadline bundle submit {shown}\n"),
+        batch::Engine::Slurm => format!("send      cd {word} && ./submit\n"),
+        batch::Engine::OpenJd => format!("send      deadline bundle submit {word}\n"),
     });
-    said.push_str(&format!("watch     jabuka status {shown} --watch\n"));
+    said.push_str(&format!("watch     jabuka status {word} --watch\n"));
     Ok(said)
 }

@@ -55,6 +55,7 @@ impl PovRayArguments {
             retries: self.retry,
             keep_going: false,
             time_limit: self.time_limit.map(Duration::from_secs),
+            verify: false,
         }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use jabuka::Scene;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder, OutputError};
 use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
 use jabuka::scene::View;
@@ -44,6 +44,9 @@ pub(super) struct Arguments {
     /// Go on even where the first frames all fail
     #[arg(long)]
     keep_going: bool,
+    /// Read the images that are up to date, and render again those that have changed since they were rendered
+    #[arg(long)]
+    verify: bool,
     #[command(flatten)]
     scene: RunArguments,
     #[command(flatten)]
@@ -167,6 +170,7 @@ fn render_scripts(
     let job = Job {
         jobs: arguments.jobs.map(usize::from),
         keep_going: arguments.keep_going,
+        verify: arguments.verify,
         ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
     };
     let outcome = render(&job, stop)?;
@@ -238,10 +242,18 @@ pub(super) fn failed(error: &RenderError) -> Failure {
 fn summed_up(images: &Images, sequence: &Sequence, known: &str, outcome: &Outcome, took: Duration) -> String {
     let frames = sequence.scripts().len();
     let there = frames - outcome.failed.len();
-    let mut text = format!("{}: {there} of {frames} frames\n{known}", images.folder().display());
-    let mut line = |name: &str, what: String| text.push_str(&format!("{name:10}{what}\n"));
+    let mut text = format!("{}: {there} of {frames} frames\n{known}", visible_path(images.folder()));
+    let mut line = |name: &str, what: String| text.push_str(&format!("{name:9} {what}\n"));
     if outcome.up_to_date > 0 {
         line("as before", format!("{}, up to date", outcome.up_to_date));
+    }
+    let list = |frames: &[usize]| frames.iter().copied().collect::<Selection>();
+    if !outcome.changed.is_empty() {
+        line("changed", format!("{} since they were rendered, and rendered again", list(&outcome.changed)));
+    }
+    if !outcome.unverified.is_empty() {
+        let why = "whose records have no digest, rendered again";
+        line("unverified", format!("{}, {why}", list(&outcome.unverified)));
     }
     if outcome.copied > 0 {
         line("copied", format!("{}, equal to others", outcome.copied));

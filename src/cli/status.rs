@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::ValueEnum;
+use jabuka::diagnostic::{visible, visible_path};
 use jabuka::render::Status;
 use serde_json::json;
 
@@ -20,6 +21,9 @@ pub(super) struct Arguments {
     /// Show it again and again, until all images are there
     #[arg(long)]
     watch: bool,
+    /// Read the images, too, and name those that have changed since they were rendered
+    #[arg(long, conflicts_with = "watch")]
+    verify: bool,
     /// How it is shown
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -39,9 +43,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Where people look, the new status takes the place of the old one.
     let redraw = std::io::stdout().is_terminal() && arguments.format == Format::Text;
     let mut shown = String::new();
+    let read = if arguments.verify { Status::verified } else { Status::read };
     loop {
-        let status = Status::read(&arguments.folder).map_err(|error| {
-            say::error(&format!("error: the folder `{}`: {error}\n", arguments.folder.display()));
+        let status = read(&arguments.folder).map_err(|error| {
+            let (folder, why) = (visible_path(&arguments.folder), visible(&error.to_string()));
+            say::error(&format!("error: the folder `{folder}`: {why}\n"));
             Failure::Errors
         })?;
         let text = match arguments.format {
@@ -49,9 +55,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             Format::Json => json(&status, arguments.watch),
         };
         if text != shown {
-            let lines = if redraw { shown.lines().count() } else { 0 };
-            let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
-            say::result(&(up + &text));
+            match arguments.format {
+                Format::Json => say::json(&text),
+                Format::Text if redraw => say::in_place_of(shown.lines().count(), &text),
+                Format::Text => say::result(&text),
+            }
             shown = text;
         }
         if status.is_complete() {

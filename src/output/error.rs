@@ -18,6 +18,10 @@ pub enum OutputError {
     NotAFolder(PathBuf),
     /// There is no such folder to compare with.
     NoFolder(PathBuf),
+    /// The folder has no scripts of jabuka's.
+    NoScripts(PathBuf),
+    /// Not all scripts of the folder were written.
+    Incomplete(PathBuf),
     /// A file that jabuka writes to is a link, which may lead anywhere.
     Link(PathBuf),
     /// Another process writes into the folder.
@@ -36,6 +40,8 @@ impl OutputError {
         match self {
             OutputError::NotOurs(_) => "folder-not-ours",
             OutputError::NotAFolder(_) | OutputError::NoFolder(_) => "no-folder",
+            OutputError::NoScripts(_) => "no-scripts",
+            OutputError::Incomplete(_) => "incomplete-scripts",
             OutputError::Link(_) => "link",
             OutputError::Locked(_) => "folder-locked",
             OutputError::Io(..) => "cannot-write",
@@ -69,6 +75,10 @@ impl OutputError {
                 Some("wait until the other run has ended, or name another folder with `-o`")
             }
             OutputError::NoFolder(_) => Some("write it first, by the same command without `--check`"),
+            OutputError::NoScripts(_) => {
+                Some("`jabuka compile` writes them; `jabuka batch SCENE.toml` does both")
+            }
+            OutputError::Incomplete(_) => Some("run `jabuka compile` again"),
             _ => None,
         }
     }
@@ -82,6 +92,12 @@ impl fmt::Display for OutputError {
             }
             OutputError::NotAFolder(path) => write!(f, "`{}` is not a folder", path.display()),
             OutputError::NoFolder(path) => write!(f, "there is no folder `{}`", path.display()),
+            OutputError::NoScripts(path) => {
+                write!(f, "the folder `{}` holds no scripts that jabuka wrote", path.display())
+            }
+            OutputError::Incomplete(path) => {
+                write!(f, "not all scripts are in `{}`: what writes them was interrupted", path.display())
+            }
             OutputError::Link(path) => write!(f, "`{}` is a link, which is not followed", path.display()),
             OutputError::Locked(path) => {
                 write!(f, "another jabuka writes to the folder `{}`", path.display())

@@ -122,6 +122,7 @@ impl Renderer {
             retries: 1,
             keep_going: false,
             time_limit: None,
+            verify: false,
         };
         let outcome = job.run(&mut |_| {}, stop)?;
         if let Some(fault) = outcome.failed.first() {

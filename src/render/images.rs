@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::RenderError;
-use super::record::{HIDDEN, Record};
+use super::record::{HIDDEN, Record, Verdict};
 use crate::output::Manifest;
 
 /// A folder of images that this process alone renders into.
@@ -76,17 +76,23 @@ impl Images {
     /// between them leaves an image that is rendered again.
     pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {
         let path = self.image(name);
-        let length = fs::metadata(finished).map_err(RenderError::io(&path))?.len();
+        let record = record.clone().of_image(finished).map_err(RenderError::io(finished))?;
         fs::rename(finished, &path).map_err(RenderError::io(&path))?;
-        let record = Record { bytes: length, ..record.clone() };
-        record.write(&self.folder, name).map_err(RenderError::io(&path))?;
+        record.write(&self.folder, name).map_err(RenderError::io(Record::path(&self.folder, name)))?;
         self.forget_failure(name)
+    }
+
+    /// Whether an image that is there has the bytes that its record speaks of. One that cannot be read was damaged.
+    pub(super) fn verify(&self, name: &str) -> Verdict {
+        let Some(record) = Record::read(&self.folder, name) else { return Verdict::Unverified };
+        record.verify(&self.image(name)).unwrap_or(Verdict::Changed)
     }
 
     /// Takes in a copy of an image that is there, under another name.
     pub(super) fn copy(&self, from: &str, name: &str, record: &Record) -> Result<(), RenderError> {
         let temporary = self.hidden().join(format!("work-{}-copy.png", std::process::id()));
-        fs::copy(self.image(from), &temporary).map_err(RenderError::io(self.image(name)))?;
+        let bytes = fs::read(self.image(from)).map_err(RenderError::io(self.image(from)))?;
+        fs::write(&temporary, bytes).map_err(RenderError::io(self.image(name)))?;
         self.adopt(&temporary, name, record)
     }
 

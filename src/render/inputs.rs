@@ -23,7 +23,7 @@ pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Resu
     let mut digests: HashMap<&[PathBuf], Files> = HashMap::new();
     for list in &lists {
         if !digests.contains_key(list.as_slice()) {
-            let files = Files::read(list).map_err(RenderError::io(sequence.folder()))?;
+            let files = Files::read(list).map_err(|(path, error)| RenderError::io(path)(error))?;
             digests.insert(list, files);
         }
     }

@@ -1,14 +1,16 @@
 //! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
+
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::making::Making;
 use super::order::coarse_to_fine;
 use super::pool::Pool;
 use super::process::{Setup, Unit};
-use super::record::{Compare, Record, State};
+use super::record::{Compare, Record, State, Verdict};
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
 
 /// What is to be rendered, and how.
@@ -31,6 +33,8 @@ pub struct Job<'a> {
     pub keep_going: bool,
     /// How long a frame may take; none: far longer than others have taken.
     pub time_limit: Option<Duration>,
+    /// Whether images that are up to date are read, and rendered again unless their bytes are those that were rendered.
+    pub verify: bool,
 }
 
 /// What happens while a job is done.
@@ -62,6 +66,10 @@ pub struct Outcome {
     pub copied: usize,
     /// The images that were up to date.
     pub up_to_date: usize,
+    /// The frames whose images had changed since they were rendered, and were not kept.
+    pub changed: Vec<usize>,
+    /// The frames whose images could not be verified, since their records have no digest, and were not kept.
+    pub unverified: Vec<usize>,
     /// The frames that failed, in the order of their numbers.
     pub failed: Vec<Fault>,
     /// The images that were removed, since the film has no such frames any more.
@@ -107,22 +115,44 @@ impl Job<'_> {
     fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
         let scripts = self.sequence.scripts();
         let folder = self.images.folder();
-        let mut there: HashMap<String, &str> = HashMap::new();
-        let mut missing = Vec::new();
-        for (index, (script, record)) in scripts.iter().zip(records).enumerate() {
-            if record.state(folder, &script.name, Compare::All) == State::UpToDate {
-                outcome.up_to_date += 1;
-                there.insert(record.to_text(), &script.name);
-            } else {
-                missing.push(index);
+        let state = |index: usize| records[index].state(folder, &scripts[index].name, Compare::All);
+        let (there, mut missing): (Vec<usize>, Vec<usize>) =
+            (0..scripts.len()).partition(|&index| state(index) == State::UpToDate);
+        let looks_missing: HashSet<String> = missing.iter().map(|&index| records[index].to_text()).collect();
+        // An image that is copied is read anyhow, so it is verified also without being asked.
+        let is_read = |index: &usize| self.verify || looks_missing.contains(&records[*index].to_text());
+        let verdicts: Vec<Verdict> = there
+            .par_iter()
+            .map(|index| match is_read(index) {
+                true => self.images.verify(&scripts[*index].name),
+                false => Verdict::Intact,
+            })
+            .collect();
+        let mut equals: HashMap<String, &str> = HashMap::new();
+        for (&index, verdict) in there.iter().zip(verdicts) {
+            let frame = scripts[index].frame;
+            match verdict {
+                Verdict::Changed => outcome.changed.push(frame),
+                Verdict::Unverified if self.verify => outcome.unverified.push(frame),
+                Verdict::Unverified => {
+                    outcome.up_to_date += 1;
+                    continue;
+                }
+                Verdict::Intact => {
+                    outcome.up_to_date += 1;
+                    equals.insert(records[index].to_text(), &scripts[index].name);
+                    continue;
+                }
             }
+            missing.push(index);
         }
+        missing.sort_unstable();
         let mut groups: Vec<Group> = Vec::new();
         let mut group_of: HashMap<String, usize> = HashMap::new();
         for index in missing {
             let (record, name) = (&records[index], &scripts[index].name);
             let text = record.to_text();
-            if let Some(equal) = there.get(&text) {
+            if let Some(equal) = equals.get(&text) {
                 self.images.copy(equal, name, record)?;
                 outcome.copied += 1;
                 continue;

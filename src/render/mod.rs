@@ -44,6 +44,6 @@ pub use images::Images;
 pub use job::{Event, Job, Outcome};
 pub use options::{Quality, options};
 pub use povray::PovRay;
-pub use record::{Compare, Files, HIDDEN, Record, State};
+pub use record::{Compare, Files, HIDDEN, Record, State, Verdict};
 pub use sequence::{Script, Sequence};
 pub use status::{Failed, Running, Status};

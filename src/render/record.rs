@@ -1,6 +1,6 @@
 //! What an image was rendered from: a text beside it, by which a finished image is known to be up to date.
 //!
-//! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, six lines:
+//! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, seven lines:
 //!
 //! ```text
 //! script <SHA-256 of the script without its first line, which has number and time>
@@ -9,7 +9,12 @@
 //! frame <the frame's number where the script may depend on it, or ->
 //! povray <the version of POV-Ray>
 //! bytes <the length of the image>
+//! image <SHA-256 of the image>
 //! ```
+//!
+//! Whether an image is up to date follows from its record and its length alone, so that thousands are looked at quickly.
+//! `--verify` also reads the images and compares their digests. Records of earlier versions lack the last line; their
+//! images are up to date, but cannot be verified.
 //!
 //! It is written after the image, so whatever breaks off leaves an image without a record, which is rendered again. The
 //! script `render-chunk` of a cluster job writes and reads the same texts; a test holds the two together.
@@ -46,6 +51,9 @@ pub struct Record {
     pub povray: String,
     /// The length of the image in bytes; of no account in a record of what would be rendered.
     pub bytes: u64,
+    /// The digest of the image in hexadecimal digits. `None` in a record of what would be rendered, and in one of an
+    /// earlier version.
+    pub image: Option<String>,
 }
 
 /// How much of a record must be as expected.
@@ -70,6 +78,17 @@ pub enum State {
     Missing,
 }
 
+/// Whether an image has the bytes that were rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It has.
+    Intact,
+    /// It was changed or damaged since.
+    Changed,
+    /// Its record has no digest.
+    Unverified,
+}
+
 /// The files that all scripts of a folder read: what they share, and their assets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Files {
@@ -81,12 +100,12 @@ impl Files {
     /// Reads the files, in the order of the list.
     ///
     /// # Errors
-    /// Where one cannot be read.
-    pub fn read(files: &[PathBuf]) -> io::Result<Files> {
+    /// Where one cannot be read: which, and why.
+    pub fn read(files: &[PathBuf]) -> Result<Files, (PathBuf, io::Error)> {
         let mut hasher = Sha256::new();
         let mut numbered = false;
         for path in files {
-            let bytes = fs::read(path)?;
+            let bytes = fs::read(path).map_err(|error| (path.clone(), error))?;
             hasher.update(&bytes);
             numbered |= path.extension().is_some_and(|end| end == "inc") && mentions_number(&bytes);
         }
@@ -120,7 +139,27 @@ impl Record {
             frame: numbered.then_some(frame),
             povray: povray.to_owned(),
             bytes: 0,
+            image: None,
         })
+    }
+
+    /// Completes the record by the length and the digest of the finished image.
+    ///
+    /// # Errors
+    /// Where the image cannot be read.
+    pub fn of_image(self, image: &Path) -> io::Result<Record> {
+        let (image, bytes) = digest_of_file(image)?;
+        Ok(Record { bytes, image: Some(image), ..self })
+    }
+
+    /// Reads an image that has this record, and compares its digest.
+    ///
+    /// # Errors
+    /// Where the image cannot be read.
+    pub fn verify(&self, image: &Path) -> io::Result<Verdict> {
+        let Some(digest) = &self.image else { return Ok(Verdict::Unverified) };
+        let is = digest_of_file(image)?.0;
+        Ok(if is == *digest { Verdict::Intact } else { Verdict::Changed })
     }
 
     /// Where the record of an image is; `name` is the image's without its ending: `frame_0007`.
@@ -180,8 +219,9 @@ impl Record {
     pub fn to_text(&self) -> String {
         let frame = self.frame.map_or_else(|| "-".to_owned(), |frame| frame.to_string());
         let Record { script, files, options, povray, bytes, .. } = self;
+        let image = self.image.as_ref().map_or_else(String::new, |image| format!("image {image}\n"));
         format!(
-            "script {script}\nfiles {files}\noptions {options}\nframe {frame}\npovray {povray}\nbytes {bytes}\n"
+            "script {script}\nfiles {files}\noptions {options}\nframe {frame}\npovray {povray}\nbytes {bytes}\n{image}"
         )
     }
 
@@ -198,8 +238,13 @@ impl Record {
             },
             povray: value("povray")?.to_owned(),
             bytes: value("bytes")?.parse().ok()?,
+            image: None,
         };
-        lines.next().is_none().then_some(record)
+        let image = match lines.next() {
+            None => None,
+            Some(line) => Some(line.strip_prefix("image ").filter(|digest| is_digest(digest))?.to_owned()),
+        };
+        lines.next().is_none().then_some(Record { image, ..record })
     }
 }
 
@@ -212,6 +257,26 @@ fn mentions_number(text: &[u8]) -> bool {
             && !is_word(text.get(start + word.len()))
     };
     (0..text.len()).any(|start| NUMBERED.iter().any(|word| at(start, word)))
+}
+
+/// The SHA-256 of a file, in hexadecimal digits, and the number of its bytes.
+fn digest_of_file(path: &Path) -> io::Result<(String, u64)> {
+    let mut reader = BufReader::with_capacity(1 << 16, File::open(path)?);
+    let (mut hasher, mut bytes) = (Sha256::new(), 0);
+    loop {
+        let part = reader.fill_buf()?;
+        if part.is_empty() {
+            return Ok((hex(&hasher.finalize()), bytes));
+        }
+        hasher.update(part);
+        let length = part.len();
+        bytes += length as u64;
+        reader.consume(length);
+    }
+}
+
+fn is_digest(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'))
 }
 
 fn hex(digest: &[u8]) -> String {
@@ -231,20 +296,28 @@ mod tests {
     }
 
     #[test]
-    fn a_record_is_six_lines_and_reads_back() {
+    fn a_record_is_seven_lines_and_reads_back() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join(HIDDEN)).unwrap();
-        let record = Record { bytes: 12, ..expected(folder.path(), "// frame 7\nabc\n") };
+        let image = folder.path().join("image.png");
+        fs::write(&image, "twelve bytes").unwrap();
+        let record = expected(folder.path(), "// frame 7\nabc\n").of_image(&image).unwrap();
         // echo abc | sha256sum
         let text = "script edeaaff3f1774ad2888673770c6d64097e391bc362d7d6fb34982ddf0efd18cb\n\
-                    files -\noptions +W320 +H180 +A0.1 +AM1 +R3\nframe -\npovray 3.7.0.10.unofficial\nbytes 12\n";
+                    files -\noptions +W320 +H180 +A0.1 +AM1 +R3\nframe -\npovray 3.7.0.10.unofficial\nbytes 12\n\
+                    image d4ce2c527afe674c7a086bd74e256019e3d5dcdb31eeb6eaadef5ada8c4383b9\n";
         assert_eq!(record.to_text(), text);
         record.write(folder.path(), "frame_0007").unwrap();
         assert_eq!(Record::read(folder.path(), "frame_0007"), Some(record.clone()));
         assert_eq!(fs::read_dir(folder.path().join(HIDDEN)).unwrap().count(), 1, "no temporary file is left");
-        for broken in ["", "script x\n", &text[..text.len() - 1], &format!("{text}more\n")] {
+        let capitals = text.replace("image d4", "image Z4");
+        for broken in ["", "script x\n", &text[..text.len() - 1], &format!("{text}more\n"), &capitals] {
             assert_eq!(Record::parse(broken), None, "{broken}");
         }
+        // As earlier versions wrote it.
+        let old = text.split_inclusive('\n').take(6).collect::<String>();
+        assert_eq!(Record::parse(&old), Some(Record { image: None, ..record.clone() }));
+        assert_eq!(Record::parse(&old).unwrap().to_text(), old);
         let numbered = Record { frame: Some(7), ..record };
         assert_eq!(Record::parse(&numbered.to_text()), Some(numbered));
     }
@@ -313,5 +386,21 @@ mod tests {
 
         fs::write(folder.path().join("frame_0007.png"), "an imag").unwrap();
         assert_eq!(state(&now, Compare::All), State::Outdated, "the image was cut off");
+    }
+
+    #[test]
+    fn an_image_of_which_one_byte_has_changed_is_found_by_its_digest() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        let image = folder.path().join("frame_0007.png");
+        fs::write(&image, "an image").unwrap();
+        let now = expected(folder.path(), "// frame 7\nabc\n");
+        let record = now.clone().of_image(&image).unwrap();
+        record.write(folder.path(), "frame_0007").unwrap();
+        assert_eq!(record.verify(&image).unwrap(), Verdict::Intact);
+        fs::write(&image, "an imagE").unwrap();
+        assert_eq!(now.state(folder.path(), "frame_0007", Compare::All), State::UpToDate, "it is not read");
+        assert_eq!(record.verify(&image).unwrap(), Verdict::Changed);
+        assert_eq!(Record { image: None, ..record }.verify(&image).unwrap(), Verdict::Unverified);
     }
 }

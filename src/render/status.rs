@@ -6,12 +6,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::batch::{InForce, SCRIPTS};
 use super::files;
-use super::record::{Compare, Files, HIDDEN, Record, State};
+use super::record::{Compare, Files, HIDDEN, Record, State, Verdict};
+use crate::diagnostic::visible;
 use crate::output::{self, MANIFEST};
 use crate::simulate::Selection;
 
@@ -27,6 +29,10 @@ pub struct Status {
     pub frames: Vec<usize>,
     /// Those whose images are up to date.
     pub done: Vec<usize>,
+    /// Those whose images have changed since they were rendered; empty unless the images were read.
+    pub changed: Vec<usize>,
+    /// Those whose records have no digest to compare with; empty unless the images were read.
+    pub unverified: Vec<usize>,
     /// Those that are being rendered.
     pub running: Vec<Running>,
     /// Those that failed when they were last tried.
@@ -73,20 +79,51 @@ struct Place {
 }
 
 impl Status {
-    /// Reads a job folder, or a folder of scripts whose images are in its folder `images`.
+    /// As [`Status::read`], but reads the images, too, and counts as done only those that have the digest of their
+    /// record.
+    ///
+    /// # Errors
+    /// As those of [`Status::read`].
+    pub fn verified(folder: &Path) -> io::Result<Status> {
+        let place = Place::find(folder)?;
+        let mut status = Status::of(&place)?;
+        let verdict = |&frame: &usize| {
+            let name = place.name(frame);
+            let image = place.images.join(format!("{name}.png"));
+            // A damaged disk does not give all bytes.
+            let of_record = |record: Record| record.verify(&image).unwrap_or(Verdict::Changed);
+            Record::read(&place.images, &name).map_or(Verdict::Unverified, of_record)
+        };
+        let verdicts: Vec<Verdict> = status.done.par_iter().map(verdict).collect();
+        for (frame, verdict) in std::mem::take(&mut status.done).into_iter().zip(verdicts) {
+            match verdict {
+                Verdict::Intact => status.done.push(frame),
+                Verdict::Changed => status.changed.push(frame),
+                Verdict::Unverified => status.unverified.push(frame),
+            }
+        }
+        Ok(status)
+    }
+
+    /// Reads a job folder, or a folder of scripts whose images are in its folder `images`. It does not read the images
+    /// themselves.
     ///
     /// # Errors
     /// Where it is neither, or cannot be read.
     pub fn read(folder: &Path) -> io::Result<Status> {
-        let place = Place::find(folder)?;
-        let files = Files::read(&place.files)?;
+        Status::of(&Place::find(folder)?)
+    }
+
+    fn of(place: &Place) -> io::Result<Status> {
+        let files = Files::read(&place.files).map_err(|(path, error)| {
+            io::Error::new(error.kind(), format!("it needs `{}`: {error}", path.display()))
+        })?;
         let compare = if place.options.is_some() { Compare::NotPovray } else { Compare::Scene };
         let options = place.options.as_deref().unwrap_or_default();
         let mut status = Status { frames: place.frames.clone(), ..Status::default() };
         for &frame in &place.frames {
-            let number = format!("{frame:0width$}", width = place.digits);
-            let name = format!("frame_{number}");
-            let blurred = place.scripts.join(format!("shutter_{number}.pov"));
+            let name = place.name(frame);
+            let blurred = place.scripts.join(format!("{name}.pov").replacen("frame", "shutter", 1));
             let script = if blurred.is_file() { blurred } else { place.scripts.join(format!("{name}.pov")) };
             // Without an image, nothing needs to be compared.
             let image = place.images.join(format!("{name}.png")).is_file();
@@ -106,7 +143,7 @@ impl Status {
                 },
             }
         }
-        status.film = place.film.as_ref().map(|(film, how)| is_made(film, how, &place));
+        status.film = place.film.as_ref().map(|(film, how)| is_made(film, how, place));
         Ok(status)
     }
 
@@ -127,9 +164,17 @@ impl Status {
                     running.iter().filter(|r| r.host == **host).map(|r| r.frame).collect();
                 format!("{} on {host}", list(&frames))
             };
-            hosts.iter().map(of).collect::<Vec<_>>().join("; ")
+            visible(&hosts.iter().map(of).collect::<Vec<_>>().join("; "))
         };
         let mut text = format!("done     {} of {}\n", self.done.len(), self.frames.len());
+        if !self.changed.is_empty() {
+            let frames = list(&self.changed);
+            text.push_str(&format!("changed  {}: {frames}, since they were rendered\n", self.changed.len()));
+        }
+        if !self.unverified.is_empty() {
+            let (count, frames) = (self.unverified.len(), list(&self.unverified));
+            text.push_str(&format!("unverified {count}: {frames}, whose records have no digest\n"));
+        }
         if !self.running.is_empty() {
             text.push_str(&format!("running  {}: {}\n", self.running.len(), on_hosts(&self.running)));
         }
@@ -160,8 +205,13 @@ impl Status {
 }
 
 impl Place {
+    /// The name of the script and the image of a frame, without the ending.
+    fn name(&self, frame: usize) -> String {
+        format!("frame_{frame:0width$}", width = self.digits)
+    }
+
     fn find(folder: &Path) -> io::Result<Place> {
-        let (scripts, job) = match InForce::read(folder) {
+        let (scripts, job) = match InForce::read(folder)? {
             Some(job) => (folder.join(SCRIPTS), Some(job)),
             None => (folder.to_owned(), None),
         };
@@ -217,7 +267,7 @@ impl Failed {
         if modified(script) > modified(&path) {
             return None;
         }
-        let reason = text.lines().next().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
+        let reason = visible(text.lines().next().unwrap_or_default());
         Some(Failed { frame, reason })
     }
 }
@@ -227,7 +277,7 @@ fn is_made(film: &Path, how: &str, place: &Place) -> bool {
     let mut hasher = Sha256::new();
     hasher.update(format!("{how}\n"));
     for frame in &place.frames {
-        let name = format!("frame_{frame:0width$}", width = place.digits);
+        let name = place.name(*frame);
         let Ok(record) = fs::read_to_string(Record::path(&place.images, &name)) else { return false };
         hasher.update(format!("{}\n", record.trim_end_matches('\n')));
     }

@@ -29,7 +29,7 @@ fn a_scene_that_is_changed_keeps_the_images_that_are_up_to_date() {
     let output = job.batch(&longer, &[&SLURM[..], &["--quality", "draft", "--frames", "1-3"]].concat());
     assert!(output.status.success());
     assert_eq!(job.missing(), "1-3");
-    assert!(job.read("job.conf").contains("OPTIONS='+W65 +H37 -A +Q9'"));
+    assert!(job.read("job.conf").contains("\nOPTIONS=+W65 +H37 -A +Q9\n"));
 }
 
 #[test]
@@ -80,6 +80,9 @@ fn a_folder_of_scripts_makes_the_same_job_as_its_scene() {
     compile(&toml, &scripts, &[]);
     assert!(stdout(&batch(&[])).contains("images    0 of 2 are there"));
     assert!(!job.join("scripts/frame_0002.pov").exists());
+    let output = batch(&["--frames", "7-9"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no scripts of the frames 7-9"), "{}", stderr(&output));
     let output = batch(&["--set", "simulation.gravity=[0,-1,0]"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("want the scene"), "{}", stderr(&output));
@@ -99,6 +102,43 @@ fn a_folder_of_somebody_else_is_refused() {
     for argument in [["--chunk", "0"], ["--size", "5"], ["--partition", "a\nb"], ["--modules", "$(x)"]] {
         let output = jabuka().args(["batch", "--engine", "slurm"]).arg(toml.path()).args(argument).output();
         assert_eq!(output.unwrap().status.code(), Some(2), "{argument:?}");
+    }
+}
+
+#[test]
+fn a_folder_without_scripts_is_no_job() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scripts, job) = (folder.path().join("scripts"), folder.path().join("job"));
+    fs::create_dir(&scripts).unwrap();
+    let batch = || {
+        let output =
+            jabuka().args(["batch", "--engine", "slurm"]).arg(&scripts).arg("-o").arg(&job).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(!job.exists(), "nothing is begun");
+        stderr(&output)
+    };
+    let said = batch();
+    assert!(said.starts_with("error[no-scripts]") && said.contains("`jabuka compile` writes them"), "{said}");
+    fs::write(folder.path().join("x.toml"), scene(2)).unwrap();
+    compile(&folder.path().join("x.toml"), &scripts, &[]);
+    let manifest = fs::read_to_string(scripts.join("manifest.json")).unwrap();
+    fs::write(scripts.join("manifest.json"), manifest.replace("\"complete\"", "\"writing\"")).unwrap();
+    let said = batch();
+    assert!(said.starts_with("error[incomplete-scripts]") && said.contains("`jabuka compile`"), "{said}");
+}
+
+#[test]
+fn settings_that_cannot_be_read_are_said_with_their_line() {
+    let job = Job::new(&scene(2), &SLURM);
+    fs::write(job.join("local.conf"), "# mine\nLIMIT 5\n").unwrap();
+    let output = jabuka().arg("status").arg(job.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("`local.conf`, line 2: expected KEY=value"), "{}", stderr(&output));
+    for name in ["render-chunk", "render-video", "submit"] {
+        let output = job.command(name).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        let said = format!("{name}: local.conf, line 2: expected KEY=value, found `LIMIT 5`\n");
+        assert_eq!(stderr(&output), said);
     }
 }
 

@@ -31,8 +31,8 @@ fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
     let script = job.join("scripts/frame_0006.pov");
     let files = Files::read(&[]).unwrap();
     let record = Record::expected(&script, 6, &files, "+W65 +H37 +A0.1 +AM1 +R3", version).unwrap();
-    let bytes = fs::metadata(job.join("images/frame_0006.png")).unwrap().len();
-    assert_eq!(job.read("images/.jabuka/frame_0006.txt"), Record { bytes, ..record }.to_text());
+    let record = record.of_image(&job.join("images/frame_0006.png")).unwrap();
+    assert_eq!(job.read("images/.jabuka/frame_0006.txt"), record.to_text());
 
     let before = fs::metadata(job.join("images/frame_0006.png")).unwrap().modified().unwrap();
     assert!(job.chunk(&["0", "7"]).status.success());
@@ -227,7 +227,7 @@ fn an_image_that_is_not_whole_is_none() {
     let job = Job::new(&scene(2), &SLURM);
     let version = "[[ $1 == --version ]] && { echo 'POV-Ray 3.7.0'; exit; }";
     stand_in(&job, "povray", &format!("{version}\nprintf 'half a PNG' >image.png"));
-    fs::write(job.join("local.conf"), "POVRAY=$root/povray # as good as none\n").unwrap();
+    fs::write(job.join("local.conf"), format!("POVRAY={}\n", job.join("povray").display())).unwrap();
     let output = job.chunk(&["0"]);
     assert_eq!(output.status.code(), Some(74), "{}", stdout(&output));
     assert_eq!(job.images(), [""; 0]);
@@ -240,7 +240,7 @@ fn an_image_that_is_not_whole_is_none() {
     // Another POV-Ray makes other images, wherever there is one to ask.
     fs::remove_file(job.join("local.conf")).unwrap();
     assert!(job.chunk(&["0", "1"]).status.success());
-    fs::write(job.join("local.conf"), "POVRAY=$root/povray\n").unwrap();
+    fs::write(job.join("local.conf"), format!("POVRAY={}\n", job.join("povray").display())).unwrap();
     assert_eq!((job.missing().as_str(), job.status().1), ("", true));
     assert_eq!(job.chunk(&["0"]).status.code(), Some(139));
 

@@ -1,6 +1,6 @@
 //! Rendering on many machines: `jabuka batch`, what it writes, and `jabuka status`.
 //!
-//! They need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, and Python for Open Job Description; `tests/run` installs
+//! They need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, shellcheck, and Python for Open Job Description; `tests/run` installs
 //! them.
 #![allow(
     clippy::unwrap_used,
@@ -11,6 +11,7 @@
 
 mod batch;
 mod chunk;
+mod hostile;
 mod job;
 mod openjd;
 mod recipes;

@@ -4,8 +4,9 @@ use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Output, Stdio};
 use std::time::Duration;
 
+use super::hostile::{assert_nothing_was_run, hostile_job};
 use super::job::{Job, film, scene, wait_until};
-use super::support::{root, stderr, stdout};
+use super::support::{jabuka, root, stderr, stdout};
 
 /// What takes seconds may take minutes on a machine that is busy.
 const LONG: Duration = Duration::from_secs(600);
@@ -50,13 +51,17 @@ impl Slurm {
         command.env("SLURM_CONF", self.folder.path().join("slurm.conf")).output().unwrap()
     }
 
+    /// Sends a job by the command that `jabuka batch` has suggested, in a folder.
+    fn send(&self, command: &str, folder: &std::path::Path) -> Output {
+        self.command(Command::new("bash").args(["-c", command]).current_dir(folder))
+    }
+
     fn submit(&self, job: &Job) -> String {
         let output = self.command(&mut job.command("submit"));
         assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
         stdout(&output)
     }
 
-    /// What is in the queue.
     /// What is in the queue. An answer that does not come, on a machine that is busy, is no empty queue.
     fn queue(&self) -> String {
         let mut queue = String::new();
@@ -74,6 +79,28 @@ impl Drop for Slurm {
         drop(self.input.take());
         let _ = self.process.wait();
     }
+}
+
+#[test]
+fn a_hostile_scene_is_rendered_by_the_cluster_and_nothing_in_it_is_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = ["--engine", "slurm", "--partition", "all\n#SBATCH --wrap=touch"];
+    let output = jabuka().arg("batch").args(refused).arg("x.toml").output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "a partition is one word");
+    let (job, said) =
+        hostile_job(folder.path(), 3, &["--engine", "slurm", "--partition", "all", "--chunk", "2"]);
+    let command = said.lines().find_map(|line| line.strip_prefix("send      ")).unwrap();
+    let slurm = Slurm::up();
+    let output = slurm.send(command, folder.path());
+    assert!(output.status.success(), "{command}\n{}{}", stdout(&output), stderr(&output));
+    assert!(first_line(&stdout(&output)).starts_with("sent 3 frames in 2 chunks: job "));
+    // It finds its own jobs in the queue.
+    let again = slurm.send(command, folder.path());
+    assert!(stdout(&again).ends_with("nothing was sent\n"), "{}{}", stdout(&again), stderr(&again));
+    wait_until("the film is made", LONG, || job.join("film.mp4").exists());
+    wait_until("the queue is empty", LONG, || slurm.queue().is_empty());
+    assert_eq!(film(&job.join("film.mp4")).0, 3);
+    assert_nothing_was_run(folder.path());
 }
 
 fn first_line(text: &str) -> &str {

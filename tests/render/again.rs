@@ -100,3 +100,68 @@ fn images_of_frames_that_are_no_more_go() {
     assert_eq!(place.images().len(), 11);
     assert!(place.path("out/scene/images/notes.txt").exists());
 }
+
+/// Changes one byte of an image, and leaves its length.
+fn damage(place: &Place, frame: usize) {
+    let path = place.path(&format!("out/scene/images/frame_{frame:04}.png"));
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, bytes).unwrap();
+}
+
+#[test]
+fn an_image_of_which_a_byte_has_changed_is_rendered_again_where_it_is_verified() {
+    let place = Place::new(SCENE);
+    let render = ["render", "scene.toml", "--frames", "0-4"];
+    let verify = [&render[..], &["--verify"]].concat();
+    let status = |arguments: &[&str]| {
+        let output = place.run(&[&["status", "out/scene"], arguments].concat());
+        (stdout(&output), output.status.code())
+    };
+    place.succeed(&render);
+    let good = pixels(&place.path("out/scene/images/frame_0002.png"));
+    damage(&place, 2);
+    assert!(stdout(&place.succeed(&render)).contains("as before 5, up to date\n"), "images are not read");
+    assert_eq!(status(&[]), ("done     5 of 5\n".to_owned(), Some(0)));
+    let changed = "done     4 of 5\nchanged  1: 2, since they were rendered\n";
+    assert_eq!(status(&["--verify"]), (changed.to_owned(), Some(1)));
+    let json: serde_json::Value = serde_json::from_str(&status(&["--verify", "--format", "json"]).0).unwrap();
+    assert_eq!((&json["changed"], &json["complete"]), (&serde_json::json!([2]), &serde_json::json!(false)));
+
+    let said = stdout(&place.succeed(&verify));
+    assert!(said.contains("changed   2 since they were rendered, and rendered again\n"), "{said}");
+    assert!(said.contains("as before 4, up to date\n") && said.contains("\nrendered  1 in "), "{said}");
+    assert!(pixels(&place.path("out/scene/images/frame_0002.png")) == good);
+    assert_eq!(status(&["--verify"]), ("done     5 of 5\n".to_owned(), Some(0)));
+    assert_eq!(place.run(&["status", "out/scene", "--verify", "--watch"]).status.code(), Some(2));
+
+    // A record of an earlier version has no digest: its image counts as before, but cannot be verified.
+    let record = place.path("out/scene/images/.jabuka/frame_0003.txt");
+    let text = fs::read_to_string(&record).unwrap();
+    let old: String = text.split_inclusive('\n').take(6).collect();
+    fs::write(&record, old).unwrap();
+    assert!(stdout(&place.succeed(&render)).contains("as before 5, up to date\n"));
+    let unverified = "done     4 of 5\nunverified 1: 3, whose records have no digest\n";
+    assert_eq!(status(&["--verify"]), (unverified.to_owned(), Some(1)));
+    let said = stdout(&place.succeed(&verify));
+    assert!(said.contains("unverified 3, whose records have no digest, rendered again\n"), "{said}");
+    assert!(fs::read_to_string(&record).unwrap().contains("\nimage "));
+    assert_eq!(status(&["--verify"]), ("done     5 of 5\n".to_owned(), Some(0)));
+}
+
+#[test]
+fn a_damaged_image_is_not_copied() {
+    let place = Place::new(&SCENE.replace("velocity = [1, 0, 0]", ""));
+    let render = ["render", "scene.toml", "--frames", "0-2"];
+    place.succeed(&render);
+    let image = |frame: usize| pixels(&place.path(&format!("out/scene/images/frame_{frame:04}.png")));
+    let good = image(0);
+    for frame in [0, 1] {
+        damage(&place, frame);
+    }
+    fs::remove_file(place.path("out/scene/images/frame_0002.png")).unwrap();
+    let said = stdout(&place.succeed(&render));
+    assert!(said.contains("changed   0-1 since they were rendered"), "{said}");
+    assert!([0, 1, 2].into_iter().all(|frame| image(frame) == good));
+}

@@ -37,6 +37,24 @@ fn a_link_in_place_of_the_hidden_folder_is_not_followed() {
 }
 
 #[test]
+fn a_folder_in_the_place_of_a_record_is_named() {
+    let place = Place::new(SCENE);
+    fs::create_dir_all(place.path("images/.jabuka/frame_0000.txt")).unwrap();
+    let output = place.run(&["render", "scene.toml", "-o", "images", "--frames", "0"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("`images/.jabuka/frame_0000.txt`: "), "{}", stderr(&output));
+
+    // As is one in the place of the image, or of what an image is copied from.
+    fs::remove_dir(place.path("images/.jabuka/frame_0000.txt")).unwrap();
+    fs::remove_file(place.path("images/frame_0000.png")).unwrap();
+    fs::create_dir_all(place.path("images/frame_0000.png/mine")).unwrap();
+    let output = place.run(&["render", "scene.toml", "-o", "images", "--frames", "0"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("`images/frame_0000.png`: "), "{}", stderr(&output));
+    assert!(place.path("images/frame_0000.png/mine").exists());
+}
+
+#[test]
 fn two_at_once_do_not_disturb_each_other() {
     let place = Place::new(SCENE);
     place.succeed(&["compile", "scene.toml"]);

@@ -6,8 +6,22 @@ use std::io;
 use std::path::Path;
 
 use crate::emit::{COMMON, INI, MASTER};
-use crate::output::{self, Folder, MANIFEST, OutputError};
+use crate::output::{self, Folder, Head, MANIFEST, OutputError};
 use crate::render::files;
+
+/// What the manifest of a folder of scripts says of them.
+///
+/// # Errors
+/// Where the folder has no scripts of jabuka's, or not all of them.
+pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
+    match output::read_manifest(&scripts.join(MANIFEST)) {
+        None => Err(OutputError::NoScripts(scripts.to_owned())),
+        Some(head) if head.state != output::State::Complete => {
+            Err(OutputError::Incomplete(scripts.to_owned()))
+        }
+        Some(head) => Ok(head),
+    }
+}
 
 /// Copies all scripts of a folder, and what belongs to them, into the folder of a job. What is there and equal stays
 /// untouched, what is of no use any more goes.
@@ -16,10 +30,7 @@ use crate::render::files;
 /// Where the scripts are not complete, or a file cannot be copied.
 pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     let io_error = |error| OutputError::Io(from.to_owned(), error);
-    let head = output::read_manifest(&from.join(MANIFEST));
-    if head.is_none_or(|head| head.state != output::State::Complete) {
-        return Err(OutputError::NoFolder(from.to_owned()));
-    }
+    complete(from)?;
     let same = |a: &Path, b: &Path| Ok::<_, io::Error>(a.canonicalize()? == b.canonicalize()?);
     if same(from, to.path()).map_err(io_error)? {
         return Ok(());

@@ -9,8 +9,10 @@ mod settings;
 mod texts;
 
 use std::fs;
+use std::io;
 use std::path::Path;
 
+use copy::complete;
 pub use copy::{copy_scripts, size};
 pub(super) use settings::InForce;
 pub use settings::{SETTINGS, Settings};
@@ -102,7 +104,7 @@ impl JobFolder {
 ///
 /// # Errors
 /// Where a file that the scripts read is not there.
-pub fn up_to_date(folder: &Path) -> std::io::Result<(usize, usize)> {
+pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
     let status = super::status::Status::read(folder)?;
     Ok((status.done.len(), status.frames.len()))
 }
@@ -118,9 +120,7 @@ pub fn settings(
     frames: Option<&crate::simulate::Selection>,
     options: String,
 ) -> Result<Settings, OutputError> {
-    let head = output::read_manifest(&scripts.join(output::MANIFEST));
-    let head = head.filter(|head| head.state == output::State::Complete);
-    let head = head.ok_or_else(|| OutputError::NoFolder(scripts.to_owned()))?;
+    let head = complete(scripts)?;
     let mut frames: Vec<usize> = output::scripts(scripts)?
         .into_iter()
         .map(|(frame, _)| frame)
@@ -135,7 +135,7 @@ pub fn settings(
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     let end = last_frame as f64 / head.frame_rate;
     Ok(Settings {
-        job: format!("jabuka-{}", head.scene),
+        job: job_name(&head.scene),
         frames,
         last_frame,
         end,
@@ -143,11 +143,31 @@ pub fn settings(
         frame_rate: head.frame_rate,
         chunk: chunk(number, 1),
         options,
-        files: super::files::of_scripts(scripts)
-            .map_err(|error| OutputError::Io(scripts.to_owned(), error))?,
+        files: files(scripts)?,
         blurred,
         limit: 3600,
     })
+}
+
+/// The files that all scripts read, by names that the settings can hold: each takes up a line.
+fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
+    let files = super::files::of_scripts(scripts);
+    let files = files.map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
+    if let Some(file) = files.iter().find(|file| file.contains(char::is_control)) {
+        let why = "the settings of a job cannot hold a name with a line break or another control character";
+        return Err(OutputError::Io(scripts.join(file), io::Error::new(io::ErrorKind::InvalidInput, why)));
+    }
+    Ok(files)
+}
+
+/// The name of a job for a scene. Engines give a meaning to commas, braces and the like, so all but letters, digits and
+/// `-_.` become `_`.
+fn job_name(scene: &str) -> String {
+    /// Open Job Description allows 128.
+    const MOST_CHARACTERS: usize = 100;
+    let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    let name: String = scene.chars().take(MOST_CHARACTERS).map(plain).collect();
+    format!("jabuka-{name}")
 }
 
 /// How many frames are one job of an engine, where the user does not say: few enough that a failure costs little, enough

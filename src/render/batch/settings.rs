@@ -1,6 +1,7 @@
 //! The settings of a job folder, `job.conf`: what jabuka tells the scripts that run on the nodes.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::simulate::Selection;
@@ -10,10 +11,30 @@ pub const SETTINGS: &str = "job.conf";
 /// The name of the file of the user's own settings, which come after those.
 const OWN: &str = "local.conf";
 
+/// The keys of the settings.
+const KEYS: [&str; 16] = [
+    "JOB",
+    "FRAMES",
+    "LAST_FRAME",
+    "END",
+    "DIGITS",
+    "FRAME_RATE",
+    "CHUNK",
+    "OPTIONS",
+    "BLURRED",
+    "LIMIT",
+    "FILE",
+    "POVRAY",
+    "JABUKA",
+    "FFMPEG",
+    "VIDEO_OPTIONS",
+    "PROCESSES",
+];
+
 /// The settings of a job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The name of the job: that of the scene, after `jabuka-`.
+    /// The name of the job, of letters, digits and `-_.`.
     pub job: String,
     /// The frames that are to be rendered, in their order.
     pub frames: Vec<usize>,
@@ -49,78 +70,124 @@ pub(crate) struct InForce {
 
 impl Settings {
     /// The settings as the scripts read them.
+    ///
+    /// Every value takes up the rest of its line and is never run, so it needs no quotes, but must be one line.
     pub(super) fn to_text(&self) -> String {
         let frames: Selection = self.frames.iter().copied().collect();
-        let files: Vec<String> = self.files.iter().map(|file| quoted(file)).collect();
-        include_str!("../../../templates/batch/job.conf")
-            .replace("@job@", &quoted(&self.job))
-            .replace("@frames@", &quoted(&frames.to_string()))
-            .replace("@last@", &self.last_frame.to_string())
-            .replace("@end@", &self.end.to_string())
-            .replace("@digits@", &self.digits.to_string())
-            .replace("@frame_rate@", &self.frame_rate.to_string())
-            .replace("@chunk@", &self.chunk.to_string())
-            .replace("@options@", &quoted(&self.options))
-            .replace("@blurred@", if self.blurred { "yes" } else { "no" })
-            .replace("@limit@", &self.limit.to_string())
-            .replace("@files@", &format!("({})", files.join(" ")))
+        let files: Vec<String> = self.files.iter().map(|file| format!("FILE={file}")).collect();
+        fill(
+            include_str!("../../../templates/batch/job.conf"),
+            &[
+                ("job", &self.job),
+                ("frames", &frames.to_string()),
+                ("last", &self.last_frame.to_string()),
+                ("end", &self.end.to_string()),
+                ("digits", &self.digits.to_string()),
+                ("frame_rate", &self.frame_rate.to_string()),
+                ("chunk", &self.chunk.to_string()),
+                ("options", &self.options),
+                ("blurred", if self.blurred { "yes" } else { "no" }),
+                ("limit", &self.limit.to_string()),
+                ("files", &files.join("\n")),
+            ],
+        )
     }
 }
 
 impl InForce {
-    /// Reads the settings of a job folder; none if it is no job folder.
-    pub(crate) fn read(folder: &Path) -> Option<InForce> {
-        let mut text = fs::read_to_string(folder.join(SETTINGS)).ok()?;
-        text.push('\n');
-        text.push_str(&fs::read_to_string(folder.join(OWN)).unwrap_or_default());
-        // The last line that sets something is the one that counts.
-        let words = |key: &str| {
-            let set = |line: &str| line.strip_prefix(key)?.strip_prefix('=').map(words);
-            text.lines().rev().find_map(set)
+    /// Reads the settings of a job folder; `None` if it has none, so is no job folder.
+    ///
+    /// # Errors
+    /// Where a file of settings cannot be read or understood.
+    pub(crate) fn read(folder: &Path) -> io::Result<Option<InForce>> {
+        let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
+        values.extend(values_of_user(folder)?);
+        let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
+        // Of several lines for one key, the last counts.
+        let one = |key: &str| {
+            let value = values.iter().rev().find(|(set, _)| set == key).map(|(_, value)| value.as_str());
+            value.ok_or_else(|| {
+                wrong(format!("its `{SETTINGS}` does not set {key}: run `jabuka batch` again"))
+            })
         };
-        let one = |key: &str| words(key)?.into_iter().next();
+        let frames =
+            one("FRAMES")?.parse().map_err(|error| wrong(format!("FRAMES in its settings: {error}")))?;
         let scripts = folder.join("scripts");
-        Some(InForce {
-            frames: one("FRAMES")?.parse().ok()?,
-            options: one("OPTIONS")?,
-            files: words("FILES")?.into_iter().map(|file| scripts.join(file)).collect(),
+        Ok(Some(InForce {
+            frames,
+            options: one("OPTIONS")?.to_owned(),
+            files: values
+                .iter()
+                .filter(|(key, _)| key == "FILE")
+                .map(|(_, file)| scripts.join(file))
+                .collect(),
             film: format!("{} {}", one("FRAME_RATE")?, one("VIDEO_OPTIONS")?),
-        })
+        }))
     }
 }
 
-/// A word as bash reads it, whatever it contains.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
+/// The settings of the user, if there are any.
+fn values_of_user(folder: &Path) -> io::Result<Vec<(String, String)>> {
+    Ok(values(folder, OWN)?.unwrap_or_default())
 }
 
-/// The words of a value as [`quoted`] writes them, alone or in parentheses; also in double quotes, as people write them.
-fn words(value: &str) -> Vec<String> {
-    let value = value.trim();
-    let value = value.strip_prefix('(').and_then(|value| value.strip_suffix(')')).unwrap_or(value);
-    let mut words = Vec::new();
-    let mut word: Option<String> = None;
-    let mut chars = value.chars();
-    let mut quote = None;
-    while let Some(c) = chars.next() {
-        match (quote, c) {
-            (None, '\'' | '"') => {
-                quote = Some(c);
-                word.get_or_insert_default();
+/// The keys and values of a file of settings, read as `settings.sh` reads them; `None` if there is no such file.
+fn values(folder: &Path, name: &str) -> io::Result<Option<Vec<(String, String)>>> {
+    let bytes = match fs::read(folder.join(name)) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(io::Error::new(error.kind(), format!("its `{name}`: {error}"))),
+    };
+    let text = String::from_utf8_lossy(&bytes);
+    let mut values = Vec::new();
+    for (index, line) in text.split('\n').enumerate() {
+        let line = line.strip_suffix('\r').unwrap_or(line);
+        if line.trim().is_empty() || line.starts_with('#') {
+            continue;
+        }
+        let wrong = |what: &str| {
+            let message = format!("its `{name}`, line {}: {what}", index + 1);
+            io::Error::new(io::ErrorKind::InvalidData, message)
+        };
+        let is_key = |key: &str| !key.is_empty() && key.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+        let pair = line.split_once('=').filter(|(key, _)| is_key(key));
+        let (key, value) = pair.ok_or_else(|| wrong("expected KEY=value"))?;
+        if !KEYS.contains(&key) {
+            return Err(wrong(&format!("unknown setting `{key}`")));
+        }
+        let value = match value.chars().next() {
+            Some(quote @ ('\'' | '"')) => value[1..].strip_suffix(quote).ok_or_else(|| {
+                wrong("the quote at the start of the value must be closed at the end of the line")
+            })?,
+            _ => value,
+        };
+        values.push((key.to_owned(), value.to_owned()));
+    }
+    Ok(Some(values))
+}
+
+/// Puts values into the places `@key@` of a text, in one pass: what a value holds is not looked at again.
+pub(super) fn fill(text: &str, values: &[(&str, &str)]) -> String {
+    let mut filled = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('@') {
+        filled.push_str(before);
+        let found = values.iter().find_map(|(key, value)| {
+            let after = after.strip_prefix(key)?.strip_prefix('@')?;
+            Some((value, after))
+        });
+        match found {
+            Some((value, after)) => {
+                filled.push_str(value);
+                rest = after;
             }
-            (Some(open), c) if c == open => quote = None,
-            (None, '\\') => word.get_or_insert_default().extend(chars.next()),
-            (None, '#') if word.is_none() => break,
-            (None, c) if c.is_whitespace() => words.extend(word.take()),
-            (_, c) => word.get_or_insert_default().push(c),
+            None => {
+                filled.push('@');
+                rest = after;
+            }
         }
     }
-    words.extend(word);
-    words
+    filled + rest
 }
 
 #[cfg(test)]
@@ -145,32 +212,100 @@ pub(super) mod tests {
         }
     }
 
+    /// Every value as `settings.sh` reads it, each followed by `|`; or what it complains of.
+    fn read_by_bash(folder: &Path) -> Result<String, String> {
+        fs::write(folder.join("settings.sh"), include_str!("../../../templates/batch/settings.sh")).unwrap();
+        let print = "set -euo pipefail; export LC_ALL=C; source ./settings.sh; printf '%s|' \"$JOB\" \"$FRAMES\" \
+                     \"$LAST_FRAME\" \"$END\" \"$DIGITS\" \"$FRAME_RATE\" \"$CHUNK\" \"$OPTIONS\" \"${FILES[@]}\" \
+                     \"$BLURRED\" \"$LIMIT\" \"$POVRAY\" \"$VIDEO_OPTIONS\"";
+        let output = Command::new("bash").args(["-c", print, "test"]).current_dir(folder).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
+    }
+
+    /// Texts that a shell or a second substitution would take for something else.
+    const HOSTILE: [&str; 9] = [
+        "a$(touch PWNED)",
+        "a`touch PWNED`",
+        "'; touch PWNED; '",
+        "\"; touch PWNED; \"",
+        "x@options@y@files@",
+        "-rf",
+        "a[$(touch PWNED)]",
+        "# \\ ~ *",
+        "ü \u{202e}",
+    ];
+
     #[test]
-    fn bash_reads_the_settings_as_they_are_meant() {
+    fn bash_and_jabuka_read_the_settings_as_they_are_meant() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
-        let print = "set -eu; source ./job.conf; printf '%s|' \"$JOB\" \"$FRAMES\" \"$LAST_FRAME\" \"$END\" \
-                     \"$DIGITS\" \"$FRAME_RATE\" \"$CHUNK\" \"$OPTIONS\" \"${FILES[@]}\" \"$BLURRED\" \"$LIMIT\"";
-        let output = Command::new("bash").args(["-c", print]).current_dir(folder.path()).output().unwrap();
-        assert_eq!(
-            String::from_utf8(output.stdout).unwrap(),
-            "jabuka-it's $HOME|0-2,7|9|0.36|4|25|10|+W64 +H36 +A0.1 +AM1 +R3|common.inc|assets/a b 'c'.png|no|3600|"
-        );
-        let read = InForce::read(folder.path()).unwrap();
-        assert_eq!(read.frames.to_string(), "0-2,7");
-        assert_eq!(read.options, settings().options);
-        let scripts = folder.path().join("scripts");
-        assert_eq!(read.files, [scripts.join("common.inc"), scripts.join("assets/a b 'c'.png")]);
-        assert_eq!(read.film, "25 -c:v libx264 -crf 18");
+        for hostile in HOSTILE {
+            let settings = Settings {
+                job: format!("jabuka-{hostile}"),
+                options: format!("+W64 {hostile}"),
+                files: vec!["common.inc".to_owned(), format!("assets/{hostile}")],
+                ..settings()
+            };
+            fs::write(folder.path().join(SETTINGS), settings.to_text()).unwrap();
+            assert_eq!(
+                read_by_bash(folder.path()).unwrap(),
+                format!(
+                    "jabuka-{hostile}|0-2,7|9|0.36|4|25|10|+W64 {hostile}|common.inc|assets/{hostile}|no|3600|povray|\
+                     -c:v libx264 -crf 18|"
+                )
+            );
+            let read = InForce::read(folder.path()).unwrap().unwrap();
+            assert_eq!(read.frames.to_string(), "0-2,7");
+            assert_eq!(read.options, settings.options);
+            let scripts = folder.path().join("scripts");
+            assert_eq!(read.files, [scripts.join("common.inc"), scripts.join(format!("assets/{hostile}"))]);
+            assert_eq!(read.film, "25 -c:v libx264 -crf 18");
+            assert!(!folder.path().join("PWNED").exists(), "{hostile}");
+        }
     }
 
     #[test]
     fn what_the_user_sets_counts() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(SETTINGS), Settings { files: Vec::new(), ..settings() }.to_text())
+        fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
+        fs::write(folder.path().join(OWN), "# mine\r\n\nOPTIONS=\"+W32 +H18\"\r\nLIMIT=010\nPOVRAY=$(x)/a b")
             .unwrap();
-        fs::write(folder.path().join(OWN), "OPTIONS=\"+W32 +H18\" # small\n").unwrap();
-        let read = InForce::read(folder.path()).unwrap();
-        assert_eq!((read.options.as_str(), read.files.len()), ("+W32 +H18", 0));
+        let read = InForce::read(folder.path()).unwrap().unwrap();
+        assert_eq!(read.options, "+W32 +H18");
+        let bash = read_by_bash(folder.path()).unwrap();
+        assert!(bash.contains("|+W32 +H18|") && bash.contains("|10|$(x)/a b|"), "{bash}");
+    }
+
+    #[test]
+    fn bash_and_jabuka_refuse_the_same_lines() {
+        let folder = tempfile::tempdir().unwrap();
+        for (line, said) in [
+            ("LIMIT 600", "line 1: expected KEY=value"),
+            ("touch PWNED", "line 1: expected KEY=value"),
+            ("PATH=/tmp", "line 1: unknown setting `PATH`"),
+            ("FILES=(a b)", "line 1: unknown setting `FILES`"),
+            ("POVRAY=\"a\" # mine", "line 1: the quote at the start"),
+            ("POVRAY=\"", "line 1: the quote at the start"),
+            ("FRAMES=a[$(touch PWNED)]", "FRAMES"),
+        ] {
+            fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
+            fs::write(folder.path().join(OWN), line).unwrap();
+            let bash = read_by_bash(folder.path()).unwrap_err();
+            assert!(bash.starts_with("test: local.conf, line 1") && bash.contains(said), "{bash}");
+            let rust = InForce::read(folder.path()).unwrap_err().to_string();
+            assert!(rust.contains(said), "{rust}");
+        }
+        // Bash runs what stands in the index of a number that it computes with.
+        for key in ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED"] {
+            fs::write(folder.path().join(OWN), format!("{key}=a[$(touch PWNED)]")).unwrap();
+            assert!(read_by_bash(folder.path()).unwrap_err().contains(key));
+        }
+        assert!(!folder.path().join("PWNED").exists());
+    }
+
+    #[test]
+    fn what_is_put_into_a_place_is_not_looked_at_again() {
+        let values = [("a", "@b@"), ("b", "@a@"), ("a_b", "3")];
+        assert_eq!(fill("@a@@b@ @a_b@ @c@ a@b @", &values), "@b@@a@ 3 @c@ a@b @");
     }
 }

@@ -1,5 +1,6 @@
 //! The files of a job folder, from `templates/batch/`.
 
+use super::settings::fill;
 use super::{Engine, SETTINGS, Settings};
 use crate::simulate::Selection;
 
@@ -56,19 +57,18 @@ const OPENJD_FILES: &str = "\
 pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirements) -> Vec<Text> {
     let own = |name, text: String, runs| Text { name, text, users: false, runs };
     let users = |name, text| Text { name, text, users: true, runs: false };
-    let job = settings.job.replace(|c: char| c.is_control(), " ");
     let frames = settings.frames.iter().copied().collect::<Selection>().to_string();
     let (kept, how, files) = match engine {
         Engine::Slurm => ("`render.sbatch` and `video.sbatch`", SLURM, SLURM_FILES),
         Engine::OpenJd => ("`template.yaml` and `asset_references.yaml`", OPENJD, OPENJD_FILES),
     };
-    let readme = include_str!("../../../templates/batch/README.md");
-    let readme =
-        [("@kept@", kept), ("@how@", how), ("@files@", files), ("@frames@", &frames), ("@job@", &job)]
-            .iter()
-            .fold(readme.to_owned(), |text, (key, value)| text.replace(key, value));
+    let readme = fill(
+        include_str!("../../../templates/batch/README.md"),
+        &[("kept", kept), ("how", how), ("files", files), ("frames", &frames), ("job", &settings.job)],
+    );
     let mut texts = vec![
         own(SETTINGS, settings.to_text(), false),
+        own("settings.sh", include_str!("../../../templates/batch/settings.sh").to_owned(), false),
         own("render-chunk", include_str!("../../../templates/batch/render-chunk").to_owned(), true),
         own("render-video", include_str!("../../../templates/batch/render-video").to_owned(), true),
         own("README.md", readme, false),
@@ -77,7 +77,7 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
         Engine::Slurm => {
             let modules = modules(requirements);
             let sbatch = |text: &str, more: &str| {
-                text.replace("@sbatch@", &(slurm(requirements) + more)).replace("@modules@", &modules)
+                fill(text, &[("sbatch", &(slurm(requirements) + more)), ("modules", &modules)])
             };
             let cpus = format!("\n#SBATCH --cpus-per-task={}", requirements.cpus.unwrap_or(1));
             let render = sbatch(include_str!("../../../templates/batch/render.sbatch"), &cpus);
@@ -89,11 +89,15 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
             texts.push(own("submit", include_str!("../../../templates/batch/submit").to_owned(), true));
         }
         Engine::OpenJd => {
-            let template = include_str!("../../../templates/batch/template.yaml")
-                .replace("@name@", &yaml(&job))
-                .replace("@frames@", &frames)
-                .replace("@chunk@", &settings.chunk.to_string())
-                .replace("@cpus@", &requirements.cpus.unwrap_or(1).to_string());
+            let template = fill(
+                include_str!("../../../templates/batch/template.yaml"),
+                &[
+                    ("name", &yaml(&settings.job)),
+                    ("frames", &frames),
+                    ("chunk", &settings.chunk.to_string()),
+                    ("cpus", &requirements.cpus.unwrap_or(1).to_string()),
+                ],
+            );
             texts.push(users("template.yaml", template));
             let references = include_str!("../../../templates/batch/asset_references.yaml");
             texts.push(users("asset_references.yaml", references.to_owned()));
@@ -121,7 +125,9 @@ fn slurm(requirements: &Requirements) -> String {
 fn modules(requirements: &Requirements) -> String {
     match &requirements.modules {
         Some(modules) => {
-            format!("command -v module >/dev/null || . /etc/profile\nmodule load {modules} || exit 1")
+            format!(
+                "# shellcheck source=/dev/null\ncommand -v module >/dev/null || . /etc/profile\nmodule load {modules} || exit 1"
+            )
         }
         None => "# module load povray ffmpeg".to_owned(),
     }
