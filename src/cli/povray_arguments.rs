@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use jabuka::diagnostic::is_invisible;
 use jabuka::render::{Images, Job, PovRay, RenderError, Sequence};
 
 use super::picture_arguments::PictureArguments;
@@ -20,8 +21,16 @@ pub(super) struct PovRayArguments {
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: Option<u64>,
     /// Further options for POV-Ray, as in -- +Q4 +AM2
-    #[arg(last = true, value_name = "POVRAY OPTIONS")]
+    #[arg(last = true, value_name = "POVRAY OPTIONS", value_parser = parse_option)]
     options: Vec<String>,
+}
+
+/// An option of POV-Ray, which records keep in one line.
+fn parse_option(argument: &str) -> Result<String, String> {
+    if argument.chars().any(is_invisible) {
+        return Err("it holds a line break or another character that cannot be seen".to_owned());
+    }
+    Ok(argument.to_owned())
 }
 
 impl PovRayArguments {

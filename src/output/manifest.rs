@@ -11,7 +11,7 @@ use super::folder;
 use crate::Run;
 use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
-use crate::scene::{Scene, Shutter};
+use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
 
 /// The name of the manifest in its folder.
 pub const MANIFEST: &str = "manifest.json";
@@ -246,8 +246,12 @@ impl Head {
         }
     }
 
+    /// Whether jabuka can have written it. Numbers that no scene can have would have others count without end.
     fn is_ours(&self) -> bool {
         self.generator == GENERATOR
+            && is_possible_number_of_frames(self.frames)
+            && self.frame_rate.is_finite()
+            && self.frame_rate > 0.0
     }
 
     /// Whether all files of a folder with this manifest are as jabuka would write them now.

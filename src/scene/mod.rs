@@ -44,6 +44,13 @@ pub use source::Override;
 
 use crate::diagnostic::Report;
 
+/// Whether a scene may have so many frames.
+pub(crate) fn is_possible_number_of_frames(frames: usize) -> bool {
+    #[allow(clippy::cast_precision_loss, reason = "the limit is far below 2^53")]
+    let possible = (1.0..=check::MAX_FRAMES).contains(&(frames as f64));
+    possible
+}
+
 /// A checked scene: everything that there is to know, and nothing that could still be wrong.
 #[derive(Clone, Debug)]
 pub struct Scene {

@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use super::hostile::{assert_nothing_was_run, hostile_job};
 use super::job::{Job, film, scene};
 use super::support::{root, stderr, stdout};
 
@@ -24,6 +25,21 @@ fn openjd_checks_and_runs_the_bundle() {
     openjd(&job, &["run", "template.yaml", "--step", "Video"]);
     assert_eq!(film(&job.join("film.mp4")).0, 7);
     assert_eq!(job.status(), ("done     7 of 7\nfilm     made\n".to_owned(), true));
+}
+
+#[test]
+fn a_hostile_scene_is_a_bundle_and_nothing_in_it_is_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let (job, _) = hostile_job(folder.path(), 2, &["--engine", "openjd"]);
+    for arguments in
+        [&["check", "template.yaml"][..], &["run", "template.yaml", "--step", "Render", "-p", "Frames=1"]]
+    {
+        let mut command = Command::new(root().join("tests/cluster/openjd"));
+        let output = command.args(arguments).current_dir(&job).output().unwrap();
+        assert!(output.status.success(), "{arguments:?}\n{}{}", stdout(&output), stderr(&output));
+    }
+    assert!(job.join("images/frame_0001.png").exists());
+    assert_nothing_was_run(folder.path());
 }
 
 #[test]

@@ -55,6 +55,26 @@ fn a_manifest_that_names_files_elsewhere_removes_none() {
 }
 
 #[test]
+fn a_manifest_with_impossible_numbers_is_none_of_ours() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    compile(&scene("projectile"), &out, &["--frames", "0-1"]);
+    let manifest = fs::read_to_string(out.join("manifest.json")).unwrap();
+    let rate = manifest.lines().find(|line| line.contains("\"frame_rate\"")).unwrap();
+    let frames = manifest.lines().find(|line| line.contains("\"frames\"")).unwrap();
+    let status = |text: &str| {
+        fs::write(out.join("manifest.json"), text).unwrap();
+        jabuka().arg("status").arg(&out).output().unwrap()
+    };
+    assert_eq!(stderr(&status(&manifest)), "");
+    for (line, number) in [(frames, "18446744073709551615"), (frames, "0"), (rate, "0"), (rate, "-25.0")] {
+        let (key, _) = line.split_once(':').unwrap();
+        let said = stderr(&status(&manifest.replace(line, &format!("{key}: {number},"))));
+        assert!(said.contains("it holds no scripts that jabuka wrote"), "{key} {number}: {said}");
+    }
+}
+
+#[test]
 fn links_are_replaced_or_refused_and_never_followed() {
     let folder = tempfile::tempdir().unwrap();
     let (out, outside) = (folder.path().join("out"), folder.path().join("mine"));

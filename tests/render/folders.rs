@@ -98,6 +98,7 @@ fn what_is_missing_is_said() {
     place.succeed(&["compile", "scene.toml", "--frames", "0-3"]);
     fails(&["render", "out/scene", "--frames", "3-5"], 1, &["error[no-scripts]", "3-5"]);
     fails(&["render", "out/scene", "--trust"], 2, &["`--trust`"]);
+    fails(&["render", "out/scene", "--", "+Q8\n+Q9"], 2, &["a line break"]);
     let manifest = fs::read_to_string(place.path("out/scene/manifest.json")).unwrap();
     fs::write(place.path("out/scene/manifest.json"), manifest.replace("\"complete\"", "\"writing\""))
         .unwrap();

@@ -30,6 +30,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+pub(super) use self::simulation::MAX_FRAMES;
 pub(super) use self::view::View;
 use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};

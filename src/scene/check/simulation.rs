@@ -9,7 +9,7 @@ use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
 /// More frames than anyone renders: eleven hours at 25 frames per second.
-const MAX_FRAMES: f64 = 1_000_000.0;
+pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
 /// More timesteps than anyone waits for: days, even for a single body.
 const MAX_STEPS: f64 = 1e11;
 
