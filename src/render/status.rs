@@ -283,5 +283,6 @@ fn is_made(film: &Path, how: &str, place: &Place) -> bool {
     }
     let digest: String = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
     let noted = fs::read_to_string(Record::path(&place.images, "film")).unwrap_or_default();
-    fs::metadata(film).is_ok_and(|film| film.len() > 0) && noted.trim_end() == format!("film {digest}")
+    fs::metadata(film).is_ok_and(|film| film.is_file() && film.len() > 0)
+        && noted.trim_end() == format!("film {digest}")
 }

@@ -251,6 +251,26 @@ fn an_image_that_is_not_whole_is_none() {
 }
 
 #[test]
+fn a_folder_in_the_place_of_a_file_is_named() {
+    let job = Job::new(&scene(3), &SLURM);
+    fs::create_dir_all(job.join("images/.jabuka/frame_0000.txt")).unwrap();
+    fs::create_dir_all(job.join("images/frame_0001.png")).unwrap();
+    let output = job.chunk(&["0", "1"]);
+    assert_eq!(output.status.code(), Some(74), "{}", stdout(&output));
+    let said = job.status().0;
+    for place in ["images/.jabuka/frame_0000.txt", "images/frame_0001.png"] {
+        assert!(said.contains(&format!("'{place}'")), "{said}");
+        assert_eq!(names(&job.join(place)), [""; 0], "nothing was put into it");
+        fs::remove_dir(job.join(place)).unwrap();
+    }
+    assert!(job.chunk(&["0", "2"]).status.success());
+    fs::create_dir(job.join("film.mp4")).unwrap();
+    let output = job.command("render-video").output().unwrap();
+    assert!(!output.status.success() && stderr(&output).contains("film.mp4"), "{}", stderr(&output));
+    assert!(job.status().0.contains("film     not made"));
+}
+
+#[test]
 fn a_blurred_frame_is_the_average_of_its_moments() {
     let job = Job::new(&scene(2), &SLURM);
     let moments: String =

@@ -158,9 +158,9 @@ fn options_of_the_engine_are_words() {
 fn another_users_comment_in_the_queue_is_not_run() {
     let job = Job::new(&scene(2), &["--engine", "slurm"]);
     // What names of files and frames a comment leads to is not computed with.
-    fs::write(job.join("evil"), "0+a[$(touch PWNED)]\n").unwrap();
+    fs::write(job.join("evil"), "0+LINENO[$(touch PWNED)]\n").unwrap();
     fs::create_dir_all(job.join("logs")).unwrap();
-    fs::write(job.join("logs/chunks-7.txt"), "0+a[$(touch PWNED)]\n").unwrap();
+    fs::write(job.join("logs/chunks-7.txt"), "0+LINENO[$(touch PWNED)]\n").unwrap();
     let path = fs::canonicalize(job.path()).unwrap();
     let digest: String = Sha256::digest(path.as_os_str().as_encoded_bytes())
         .iter()

@@ -231,7 +231,7 @@ pub(super) mod tests {
         "\"; touch PWNED; \"",
         "x@options@y@files@",
         "-rf",
-        "a[$(touch PWNED)]",
+        "LINENO[$(touch PWNED)]",
         "# \\ ~ *",
         "ü \u{202e}",
     ];
@@ -286,7 +286,7 @@ pub(super) mod tests {
             ("FILES=(a b)", "line 1: unknown setting `FILES`"),
             ("POVRAY=\"a\" # mine", "line 1: the quote at the start"),
             ("POVRAY=\"", "line 1: the quote at the start"),
-            ("FRAMES=a[$(touch PWNED)]", "FRAMES"),
+            ("FRAMES=LINENO[$(touch PWNED)]", "FRAMES"),
         ] {
             fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
             fs::write(folder.path().join(OWN), line).unwrap();
@@ -297,7 +297,7 @@ pub(super) mod tests {
         }
         // Bash runs what stands in the index of a number that it computes with.
         for key in ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED"] {
-            fs::write(folder.path().join(OWN), format!("{key}=a[$(touch PWNED)]")).unwrap();
+            fs::write(folder.path().join(OWN), format!("{key}=LINENO[$(touch PWNED)]")).unwrap();
             assert!(read_by_bash(folder.path()).unwrap_err().contains(key));
         }
         assert!(!folder.path().join("PWNED").exists());
