@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::{Force, Loads, Moment, Motion, RigidBody, State};
+use super::{Force, Loads, Moment, Motion, Pose, RigidBody, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -166,15 +166,17 @@ impl Model {
 
     /// Puts the bodies whose motion is given where they are at time `t`.
     pub fn place(&self, t: f64, state: &mut State) {
-        for (i, motion) in &self.motions {
-            let pose = motion.at(t);
-            let orientation = (pose.orientation * self.principal_axes[*i]).normalize();
-            let in_body = orientation.conjugate() * pose.angular_velocity;
-            state.location[*i] = pose.location;
-            state.velocity[*i] = pose.velocity;
-            state.orientation[*i] = orientation;
-            state.angular_momentum[*i] = orientation * (self.inertia[*i] * in_body);
-        }
+        self.motions.iter().for_each(|(i, motion)| self.place_body(*i, &motion.at(t), state));
+    }
+
+    /// Puts one body where a pose says.
+    pub(super) fn place_body(&self, i: usize, pose: &Pose, state: &mut State) {
+        let orientation = (pose.orientation * self.principal_axes[i]).normalize();
+        let in_body = orientation.conjugate() * pose.angular_velocity;
+        state.location[i] = pose.location;
+        state.velocity[i] = pose.velocity;
+        state.orientation[i] = orientation;
+        state.angular_momentum[i] = orientation * (self.inertia[i] * in_body);
     }
 
     pub(super) fn push_force(&mut self, force: Arc<dyn Force>) {
@@ -186,10 +188,11 @@ impl Model {
     }
 
     pub(super) fn set_constant_torque(&mut self, body: usize, torque: DVec3) {
-        self.torque[body] = torque;
-        self.torqued.retain(|&other| other != body);
-        if torque != DVec3::ZERO {
-            self.torqued.push(body);
+        let before = std::mem::replace(&mut self.torque[body], torque);
+        match (before != DVec3::ZERO, torque != DVec3::ZERO) {
+            (false, true) => self.torqued.push(body),
+            (true, false) => self.torqued.retain(|&other| other != body),
+            _ => {}
         }
     }
 

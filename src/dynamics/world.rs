@@ -61,8 +61,9 @@ impl World {
     /// are not counted, and what guides it does work.
     pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
         self.about_to_change();
+        // This body alone: placing all guided bodies here would make adding n of them take n² placements.
+        self.model.place_body(body.index(), &motion.at(self.time), &mut self.state);
         self.model.drive(body.index(), Arc::new(motion));
-        self.model.place(self.time, &mut self.state);
     }
 
     /// Adds a force, at any time.

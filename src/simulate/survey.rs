@@ -72,7 +72,11 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Div
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     bounds: Option<Bounds>,
+    /// The planes that are watched; from the first frame on, each knows the bodies that may go through it.
     planes: Vec<Watched>,
+    has_begun: bool,
+    /// For each body: whether it has gone through a plane.
+    crossed: Vec<bool>,
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
@@ -82,18 +86,37 @@ pub struct Surveyor<'a> {
 impl<'a> Surveyor<'a> {
     /// Of a run that has not begun.
     pub fn new(scene: &'a Scene) -> Surveyor<'a> {
-        let (planes, largest) = (planes(scene), Largest::default());
-        Surveyor { scene, bounds: None, planes, error: 0.0, largest_kinetic: 0.0, largest }
+        Surveyor {
+            scene,
+            bounds: None,
+            planes: planes(scene),
+            has_begun: false,
+            crossed: vec![false; scene.bodies.len()],
+            error: 0.0,
+            largest_kinetic: 0.0,
+            largest: Largest::default(),
+        }
     }
 
     /// Looks at the next frame of the run.
     pub fn see(&mut self, frame: &Frame) {
         let scene = self.scene;
         self.largest.see(scene, &frame.bodies);
-        self.planes.iter_mut().for_each(|plane| plane.watch(scene, frame));
+        if !std::mem::replace(&mut self.has_begun, true) {
+            // Only these can go through a plane. A scene of many planes has few of them.
+            let free = |body: &&BodyFrame| {
+                let Body { start, motion, .. } = &scene.bodies[body.id];
+                !start.fixed && motion.is_none()
+            };
+            let free: Vec<&BodyFrame> = frame.bodies.iter().filter(free).collect();
+            self.planes.iter_mut().for_each(|plane| plane.begin(scene, &free));
+        }
+        for plane in &mut self.planes {
+            plane.watch(scene, frame, &mut self.crossed);
+        }
         for body in &frame.bodies {
             // What has gone through a plane is behind the scenery, and the camera need not follow.
-            if self.planes.iter().any(|plane| plane.crossed[body.id]) {
+            if self.crossed[body.id] {
                 continue;
             }
             if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
@@ -112,7 +135,7 @@ impl<'a> Surveyor<'a> {
     /// # Errors
     /// Where the run leaves the numbers.
     pub fn finish(self) -> Result<Survey, Diverged> {
-        let Surveyor { scene, bounds, planes, error, largest_kinetic, largest } = self;
+        let Surveyor { scene, bounds, planes, error, largest_kinetic, largest, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
         let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
@@ -160,10 +183,8 @@ struct Watched {
     name: Option<String>,
     point: DVec3,
     normal: DVec3,
-    /// For each body: the side on which it began, and that it has not gone through yet.
-    beginners: Vec<Option<f64>>,
-    /// For each body: whether it has gone through.
-    crossed: Vec<bool>,
+    /// The bodies that may still go through it, by their numbers, and the side on which each began.
+    bodies: Vec<(usize, f64)>,
     crossing: Option<Crossing>,
 }
 
@@ -172,8 +193,7 @@ fn planes(scene: &Scene) -> Vec<Watched> {
         name,
         point,
         normal,
-        beginners: Vec::new(),
-        crossed: vec![false; scene.bodies.len()],
+        bodies: Vec::new(),
         crossing: None,
     };
     let plane = |body: &Body| match body.shape {
@@ -188,32 +208,41 @@ fn planes(scene: &Scene) -> Vec<Watched> {
 }
 
 impl Watched {
-    fn watch(&mut self, scene: &Scene, frame: &Frame) {
-        if self.beginners.is_empty() {
-            self.beginners = frame.bodies.iter().map(|body| self.beginner(scene, body)).collect();
-        }
-        for body in &frame.bodies {
-            let Some(side) = self.beginners[body.id] else { continue };
-            if self.gap(&scene.bodies[body.id].shape, body, side) < -self.tolerance(body) {
-                self.beginners[body.id] = None;
-                self.crossed[body.id] = true;
-                match &mut self.crossing {
-                    Some(crossing) => crossing.others += 1,
-                    None => {
-                        let (plane, name) = (self.name.clone(), scene.bodies[body.id].name.clone());
-                        self.crossing = Some(Crossing { plane, body: name, time: frame.time, others: 0 });
-                    }
+    /// Notes the bodies that do not touch the plane from the start.
+    fn begin(&mut self, scene: &Scene, free: &[&BodyFrame]) {
+        self.bodies = free.iter().filter_map(|body| Some((body.id, self.beginner(scene, body)?))).collect();
+    }
+
+    /// Looks for bodies that have gone through the plane, and marks them in `crossed`.
+    fn watch(&mut self, scene: &Scene, frame: &Frame, crossed: &mut [bool]) {
+        let mut gone = Vec::new();
+        let mut bodies = std::mem::take(&mut self.bodies);
+        bodies.retain(|&(id, side)| {
+            let body = &frame.bodies[id];
+            let is_through = self.gap(&scene.bodies[id].shape, body, side) < -self.tolerance(body);
+            if is_through {
+                gone.push(id);
+            }
+            !is_through
+        });
+        self.bodies = bodies;
+        for id in gone {
+            crossed[id] = true;
+            match &mut self.crossing {
+                Some(crossing) => crossing.others += 1,
+                None => {
+                    let (plane, body) = (self.name.clone(), scene.bodies[id].name.clone());
+                    self.crossing = Some(Crossing { plane, body, time: frame.time, others: 0 });
                 }
             }
         }
     }
 
-    /// The side on which a body begins, if it can move and does not touch the plane from the start.
+    /// The side on which a body begins, if it does not touch the plane from the start.
     fn beginner(&self, scene: &Scene, body: &BodyFrame) -> Option<f64> {
         let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
-        let Body { shape, start, motion, .. } = &scene.bodies[body.id];
-        (!start.fixed && motion.is_none() && self.gap(shape, body, side) >= -self.tolerance(body))
-            .then_some(side)
+        let shape = &scene.bodies[body.id].shape;
+        (self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
     }
 
     /// The distance between the plane and the nearest point of a body that should be on the given side, m.

@@ -50,7 +50,7 @@ fn corner(view: &View<'_>) -> Option<Corner> {
 }
 
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
-    let body = view.text("body").and_then(|name| bodies.iter().position(|body| body.name == name));
+    let body = view.text("body").and_then(|name| context.names.bodies.get(name).copied());
     let mut useless = |key: &str, why: &str| {
         let warning = Diagnostic::warning("no-effect", format!("`{key}` has no effect {why}"));
         context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, "")));
@@ -185,7 +185,7 @@ impl Reader<'_, '_, '_> {
             if !letter(body) || !letter(measure) {
                 continue;
             }
-            let Some(number) = self.bodies.iter().position(|other| other.name == body) else {
+            let Some(number) = self.context.names.bodies.get(body).copied() else {
                 let names = self.bodies.iter().map(|body| body.name.as_str());
                 let label = crate::diagnostic::nearest(body, names.take(1000));
                 let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
