@@ -168,6 +168,86 @@ fn a_huge_file_is_refused_before_it_is_read() {
     assert!(said.starts_with("error[file-too-large]: ") && said.contains("64 MiB"), "{said}");
 }
 
+/// A scene for each kind of file that it can name, and the name.
+const NAMING: [(&str, &str); 6] = [
+    ("include = ['x.toml']", "x.toml"),
+    ("povray.include = ['x.inc']", "x.inc"),
+    ("povray.assets = ['x.png']", "x.png"),
+    ("[body.b]\nshape.sphere.radius = 1\nmotion.trajectory.file = 'x.csv'", "x.csv"),
+    ("[body.b]\nshape.mesh.file = 'x.obj'", "x.obj"),
+    ("[body.b]\nshape.heightfield = { file = 'x.png', size = [1, 1, 1] }", "x.png"),
+];
+
+/// What is said of a file that is checked; a check that blocks is ended, and fails.
+#[cfg(unix)]
+fn check_soon(path: &Path) -> String {
+    let mut child = jabuka()
+        .arg("check")
+        .arg(path)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    for _ in 0..2_000 {
+        if child.try_wait().unwrap().is_some() {
+            let output = child.wait_with_output().unwrap();
+            assert_eq!(output.status.code(), Some(1));
+            return stderr(&output);
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    panic!("the check of {} blocks", path.display());
+}
+
+/// A named pipe has no end until somebody writes to it, so opening it would block for ever.
+#[cfg(unix)]
+#[test]
+fn a_named_pipe_is_refused_wherever_a_scene_names_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = |name: &str| {
+        let made = std::process::Command::new("mkfifo").arg(folder.path().join(name)).status().unwrap();
+        assert!(made.success());
+        folder.path().join(name)
+    };
+    let said = check_soon(&pipe("scene.toml"));
+    assert!(
+        said.starts_with("error[not-a-file]: ") && said.contains("is a named pipe, not a scene"),
+        "{said}"
+    );
+    std::fs::remove_file(folder.path().join("scene.toml")).unwrap();
+    for (text, name) in NAMING {
+        let (scene, pipe) = (folder.path().join("scene.toml"), pipe(name));
+        std::fs::write(&scene, text).unwrap();
+        let said = check_soon(&scene);
+        assert!(said.contains("a named pipe") && said.contains("scene.toml:"), "{text}: {said}");
+        std::fs::remove_file(pipe).unwrap();
+    }
+    std::os::unix::net::UnixListener::bind(folder.path().join("x.toml")).unwrap();
+    std::fs::write(folder.path().join("scene.toml"), "include = ['x.toml']").unwrap();
+    assert!(check_soon(&folder.path().join("scene.toml")).contains("is a socket"));
+    assert!(check_soon(Path::new("/dev/zero")).contains("`/dev/zero` is a device, not a scene file"));
+}
+
+/// The files have a length and take no room on the disk.
+#[test]
+fn files_of_five_gigabytes_are_refused_with_the_number_of_their_bound() {
+    let folder = tempfile::tempdir().unwrap();
+    let bounds = ["64 MiB", "1 MiB", "", "256 MiB", "512 MiB", "512 MiB"];
+    for ((text, name), bound) in NAMING.into_iter().zip(bounds) {
+        let (scene, file) = (folder.path().join("scene.toml"), folder.path().join(name));
+        std::fs::write(&scene, text).unwrap();
+        std::fs::File::create(&file).unwrap().set_len(5 << 30).unwrap();
+        let output = check(&scene, &[]);
+        let said = stderr(&output);
+        // An asset is copied piece by piece, and takes no memory.
+        let is_refused = output.status.code() == Some(1) && said.contains("scene.toml:");
+        assert!(bound.is_empty() || is_refused && said.contains(bound), "{text}: {said}");
+        std::fs::remove_file(file).unwrap();
+    }
+}
+
 #[test]
 fn a_setting_is_refused_at_its_place_in_the_argument() {
     for (setting, expected) in [

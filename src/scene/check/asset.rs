@@ -6,7 +6,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::Diagnostic;
 use crate::scene::Asset;
-use crate::scene::source::Node;
+use crate::scene::source::{Node, file};
 
 /// Reads the list of assets, and reports those that would be copied to one place.
 pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
@@ -67,8 +67,9 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     if !path.starts_with(folder.canonicalize().map_err(missing)?) && !trust {
         return Err(outside());
     }
-    if !path.metadata().map_err(missing)?.is_file() {
-        return Err(error("missing-asset", format!("`{name}` is not a file")));
+    if let Some(what) = file::irregular(path.metadata().map_err(missing)?.file_type()) {
+        let message = format!("`{name}` is {what}, and only regular files are read");
+        return Err(error("missing-asset", message));
     }
     Ok(Asset { name: copied_to, path })
 }

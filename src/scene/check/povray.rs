@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use super::view::View;
 use super::{Context, asset, sdl, suggest};
 use crate::diagnostic::Diagnostic;
-use crate::scene::source::Node;
+use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay};
 
 /// The include files that come with POV-Ray 3.7.
@@ -84,7 +84,7 @@ pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result
         return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));
     }
-    if let Some(path) = folder.map(|folder| folder.join(name)).filter(|path| path.is_file()) {
+    if let Some(path) = folder.map(|folder| folder.join(name)).filter(|path| path.exists()) {
         return include_text(node, name, &path, folder, trust);
     }
     if !STANDARD.contains(&name) && !trust {
@@ -118,11 +118,13 @@ fn include_text(
         return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));
     }
-    if std::fs::metadata(&real).map_err(cannot_read)?.len() > MAX_INCLUDE_BYTES {
-        let message = format!("`{name}` is larger than 1 MiB, and it would stand in every script");
-        return Err(error("file-too-large", message));
-    }
-    let text = std::fs::read_to_string(&real).map_err(cannot_read)?;
+    let text = file::read_text(&real, MAX_INCLUDE_BYTES).map_err(|e| match e.kind() {
+        std::io::ErrorKind::FileTooLarge => {
+            let message = format!("`{name}` is larger than 1 MiB, and it would stand in every script");
+            error("file-too-large", message)
+        }
+        _ => cannot_read(e),
+    })?;
     match sdl::first_file_access(&text) {
         Some(what) if !trust => Err(sdl::untrusted(&what, node.span)),
         _ => Ok(Include::Text { name: name.to_owned(), text }),

@@ -7,6 +7,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::OwnTemplate;
+use crate::scene::source::file;
 
 /// The largest template that is read.
 const MAX_BYTES: u64 = 1 << 20;
@@ -74,10 +75,7 @@ fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Res
         if !metadata.is_file() || !TEMPLATE_ENDINGS.iter().any(|ending| name.ends_with(ending)) {
             continue;
         }
-        if metadata.len() > MAX_BYTES {
-            return Err(format!("the template `{}` is larger than 1 MiB", path.display()));
-        }
-        let text = fs::read_to_string(&path)
+        let text = file::read_text(&path, MAX_BYTES)
             .map_err(|error| format!("cannot read `{}`: {error}", path.display()))?;
         templates.push(OwnTemplate { name, path: path.display().to_string(), text });
     }

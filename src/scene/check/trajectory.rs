@@ -12,6 +12,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::dynamics::Key;
+use crate::scene::source::file;
 
 /// What columns are called.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -69,7 +70,7 @@ pub(super) fn read(
     if let Some(known) = context.recordings.get(&key) {
         return known.clone();
     }
-    let recording = match std::fs::read_to_string(path) {
+    let recording = match file::read_text(path, MOST_BYTES) {
         Ok(text) => {
             context.add_file(text.as_bytes());
             let mut reader = Reader { text: &text, delimiter: delimiter(&text), wrong: Vec::new() };
@@ -132,6 +133,9 @@ struct Reader<'a> {
 
 /// A column with numbers: its place, and what its unit is worth in that of SI.
 type Column = (usize, f64);
+
+/// The largest file that is read: some millions of rows.
+const MOST_BYTES: u64 = 256 << 20;
 
 /// So many mistakes are shown of a file.
 const SHOWN: usize = 20;

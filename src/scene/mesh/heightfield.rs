@@ -1,14 +1,14 @@
 //! Gray levels of an image → heights.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use glam::DVec3;
 use png::{BitDepth, ColorType, Transformations};
 
-use super::Unreadable;
+use super::{MOST_BYTES, Unreadable};
 use crate::dynamics::Mesh;
+use crate::scene::source::file;
 
 /// The largest number of pixels: each makes two triangles, and more than 8 million are no scene.
 const MOST_PIXELS: u64 = 1 << 22;
@@ -54,7 +54,7 @@ struct Image {
 
 fn read(path: &Path) -> Result<Image, Unreadable> {
     let not_png = |error: png::DecodingError| Unreadable::new(format!("it is no PNG: {error}"));
-    let mut decoder = png::Decoder::new(BufReader::new(File::open(path)?));
+    let mut decoder = png::Decoder::new(BufReader::new(file::open(path, MOST_BYTES)?));
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(not_png)?;
     let pixels = u64::from(reader.info().width) * u64::from(reader.info().height);

@@ -7,7 +7,6 @@ mod stl;
 mod weld;
 
 use std::fmt;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -15,6 +14,7 @@ use glam::DVec3;
 use sha2::{Digest, Sha256};
 
 use crate::dynamics::Mesh;
+use crate::scene::source::file;
 
 pub(super) use heightfield::heightfield;
 
@@ -37,6 +37,9 @@ const STL: &str = "stl";
 /// The largest coordinate of a vertex: moments of inertia, which have its fifth power, are still numbers.
 const FARTHEST: f64 = 1e50;
 
+/// The largest file that is read: ten million triangles in a binary STL, whose script would have a gigabyte.
+const MOST_BYTES: u64 = 512 << 20;
+
 /// The largest number of vertices, so that an edge fits in 64 bits.
 const MOST_VERTICES: usize = 1 << 31;
 
@@ -44,8 +47,8 @@ const MOST_VERTICES: usize = 1 << 31;
 pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (positions, triangles) = match ending.as_deref() {
-        Some(OBJ) => obj::read(File::open(path)?)?,
-        Some(STL) => stl::read(File::open(path)?)?,
+        Some(OBJ) => obj::read(file::open(path, MOST_BYTES)?)?,
+        Some(STL) => stl::read(file::open(path, MOST_BYTES)?)?,
         _ => return Err(Unreadable::new("its name ends neither with `.obj` nor with `.stl`")),
     };
     if let Some(far) = positions.iter().find(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
@@ -64,7 +67,7 @@ pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
 
 /// The SHA-256 of a file.
 pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
-    let (mut file, mut hash) = (File::open(path)?, Sha256::new());
+    let (mut file, mut hash) = (file::open(path, MOST_BYTES)?, Sha256::new());
     let mut buffer = [0; 1 << 16];
     loop {
         match file.read(&mut buffer)? {

@@ -1,9 +1,8 @@
 //! File → text.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
+use super::file;
 use crate::diagnostic::{Diagnostic, Report, Sources, Span};
 
 /// The largest scene file that is read. Ten thousand bodies are one megabyte.
@@ -16,20 +15,14 @@ pub fn load(path: &Path) -> Result<String, Report> {
         Report::of_error("cannot-read", format!("cannot read the scene `{shown}`: {}", reason(error)))
     };
     let metadata = std::fs::metadata(path).map_err(|error| cannot_read(&error))?;
-    if metadata.is_dir() {
-        let message = format!("`{shown}` is a folder, not a scene file");
+    if let Some(what) = file::irregular(metadata.file_type()) {
+        let message = format!("`{shown}` is {what}, not a scene file");
         return Err(Report::of_error("not-a-file", message));
     }
-    if metadata.len() > MAX_BYTES {
-        return Err(too_large(path));
-    }
-    let mut bytes = Vec::new();
-    // The length is asked of what was read, too: a pipe has none before.
-    let read = File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
-    read.map_err(|error| cannot_read(&error))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(too_large(path));
-    }
+    let bytes = file::read(path, MAX_BYTES).map_err(|error| match error.kind() {
+        std::io::ErrorKind::FileTooLarge => too_large(path),
+        _ => cannot_read(&error),
+    })?;
     String::from_utf8(bytes).map_err(|error| not_utf8(path, &error))
 }
 

@@ -1,6 +1,7 @@
 //! The scene as written: texts become a tree of values that know where they stand.
 
 mod brackets;
+pub(super) mod file;
 mod load;
 mod overrides;
 mod syntax;

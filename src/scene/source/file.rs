@@ -1,0 +1,84 @@
+//! How the files of a scene are opened: only regular files, and none larger than a bound.
+
+use std::fs::{File, FileType, Metadata, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Opens a regular file of at most `most` bytes. Anything else is refused before it is read: a pipe would block until
+/// somebody writes to it, and a device may have no end.
+///
+/// # Errors
+/// Where it cannot be opened, is no regular file, or is too large. The message of the error says which, as a clause.
+pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
+    // Opening a device may have effects of its own, so it is not even opened.
+    accept(&std::fs::metadata(path)?, most)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // Another file may have taken its place. Opening a pipe must not block then.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());
+    }
+    let file = options.open(path)?;
+    accept(&file.metadata()?, most)?;
+    Ok(file)
+}
+
+/// Reads a regular file of at most `most` bytes.
+///
+/// # Errors
+/// As [`open`].
+pub(in crate::scene) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    // The file may have grown since it was opened.
+    open(path, most)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
+}
+
+/// Reads a regular file of at most `most` bytes as UTF-8.
+///
+/// # Errors
+/// As [`open`], and where the bytes are no UTF-8.
+pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> {
+    String::from_utf8(read(path, most)?).map_err(|error| {
+        let line = error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|byte| **byte == b'\n');
+        io::Error::new(io::ErrorKind::InvalidData, format!("its line {} is not UTF-8", line.count() + 1))
+    })
+}
+
+/// What a file is, if it is no regular file, in words: `a named pipe`.
+pub(in crate::scene) fn irregular(kind: FileType) -> Option<&'static str> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return Some("a named pipe");
+        }
+        if kind.is_socket() {
+            return Some("a socket");
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return Some("a device");
+        }
+    }
+    match () {
+        () if kind.is_file() => None,
+        () if kind.is_dir() => Some("a folder"),
+        () => Some("no regular file"),
+    }
+}
+
+fn accept(metadata: &Metadata, most: u64) -> io::Result<()> {
+    if let Some(what) = irregular(metadata.file_type()) {
+        return Err(io::Error::other(format!("it is {what}, and only regular files are read")));
+    }
+    if metadata.len() > most { Err(too_large(most)) } else { Ok(()) }
+}
+
+fn too_large(most: u64) -> io::Error {
+    io::Error::new(
+        io::ErrorKind::FileTooLarge,
+        format!("it is larger than {} MiB, the most that is read", most >> 20),
+    )
+}
