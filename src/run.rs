@@ -156,7 +156,8 @@ impl<'a> Run<'a> {
     pub fn shutter_script(&self, frame: &Frame, branch: Branch<'_>) -> Result<Option<String>, RunError> {
         let Some(shutter) = self.shutter else { return Ok(None) };
         let mut script = String::new();
-        self.emitter.shutter::<RunError>(frame, shutter, branch.moments(shutter), |piece| {
+        let moments = branch.moments(shutter).map(|moment| moment.map_err(RunError::from));
+        self.emitter.shutter::<RunError>(frame, shutter, moments, |piece| {
             script.push_str(piece);
             Ok(())
         })?;

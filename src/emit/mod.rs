@@ -28,11 +28,12 @@ use self::unit::Unit;
 use self::values::FrameConstants;
 use crate::picture::{Plan, number};
 use crate::scene::{Camera, Layout, Scene, Shutter};
-use crate::simulate::{Diverged, Frame, Survey};
+use crate::simulate::{Frame, Survey};
 
 pub use error::EmitError;
 pub(crate) use names::width;
 pub use names::{ASSETS, COMMON, INI, MASTER, frame_name, shutter_name};
+pub use showing::{TrailFile, is_trail_file};
 pub use templates::{TEMPLATES, write_templates};
 pub(crate) use text::comment;
 
@@ -122,16 +123,23 @@ impl Emitter {
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, bodies_sdl))
     }
 
+    /// The files with parts of trails that the script of a frame includes, but for those that `has` knows by name: a
+    /// name says what is in its file, so each has to be written once for all frames. None in the layout
+    /// `self-contained`.
+    pub fn trail_files(&self, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
+        self.showing.trail_files(&self.plan, frame, has)
+    }
+
     /// The script of an image with motion blur, piece by piece, so that its moments need not be held together: `put`
     /// gets one piece after another. `frame` is the moment at which the shutter opens.
     ///
     /// # Errors
     /// As [`Emitter::script`], where a moment cannot be simulated, and what `put` says.
-    pub fn shutter<E: From<EmitError> + From<Diverged>>(
+    pub fn shutter<E: From<EmitError>>(
         &self,
         frame: &Frame,
         shutter: Shutter,
-        moments: impl Iterator<Item = Result<Frame, Diverged>>,
+        moments: impl Iterator<Item = Result<Frame, E>>,
         mut put: impl FnMut(&str) -> Result<(), E>,
     ) -> Result<(), E> {
         put(&shutter::head(frame, shutter, self.digits))?;

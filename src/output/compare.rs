@@ -1,8 +1,10 @@
 //! Scripts held against those of a folder: a snapshot test for everyone.
 
+use std::collections::HashSet;
 use std::fs;
 use std::io;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use similar::{ChangeTag, TextDiff};
@@ -60,9 +62,14 @@ pub fn compare(
         return Err(OutputError::NoFolder(path.to_owned()));
     }
     let frames = run.scene().simulation.frames();
+    let trails = Mutex::new(HashSet::new());
     let check = |exposed| -> Result<Vec<Difference>, OutputError> {
         let Exposed { frame, shutter } = exposed?;
         let mut scripts = vec![(frame_name(frame.index, frames), run.script(&frame)?)];
+        let is_seen =
+            |name: &str| !trails.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
+        let files = run.emitter().trail_files(&frame, &is_seen);
+        scripts.extend(files.into_iter().map(|file| (file.name, file.text)));
         if let Some((_, branch)) = shutter {
             let script = run.shutter_script(&frame, branch)?;
             scripts.extend(script.map(|script| (shutter_name(frame.index, frames), script)));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::OutputError;
 use super::manifest::{self, MANIFEST};
-use crate::emit::{COMMON, INI, MASTER};
+use crate::emit::{COMMON, INI, MASTER, is_trail_file};
 
 /// The lock stays in the folder: removing it would race with another process that has just opened it. What locks is
 /// not the file but a lock on it, which ends with the process, however that ends.
@@ -96,13 +96,19 @@ impl Folder {
         scripts(&self.path)
     }
 
+    /// The names of the files with parts of trails in the folder, in their order.
+    pub(super) fn trail_files(&self) -> Result<Vec<String>, OutputError> {
+        trail_files(&self.path).map_err(|error| OutputError::Io(self.path.clone(), error))
+    }
+
     /// Removes scripts and what belongs to them, and tells the numbers of the frames of which there was one.
     pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
         let scripts = self.scripts()?;
         let mut numbers: Vec<usize> = scripts.iter().map(|(number, _)| *number).collect();
         numbers.dedup();
         let names = scripts.into_iter().map(|(_, name)| name);
-        for name in names.chain([MASTER, INI, COMMON].map(str::to_owned)) {
+        let names = names.chain([MASTER, INI, COMMON].map(str::to_owned)).chain(self.trail_files()?);
+        for name in names {
             let path = self.path.join(name);
             match fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
@@ -138,6 +144,16 @@ pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> 
     }
     scripts.sort_unstable();
     Ok(scripts)
+}
+
+/// The names of the files with parts of trails in a folder, in their order.
+pub(crate) fn trail_files(path: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(path)? {
+        names.extend(entry?.file_name().into_string().ok().filter(|name| is_trail_file(name)));
+    }
+    names.sort_unstable();
+    Ok(names)
 }
 
 /// The number in the name of a script; `None` for every other name.

@@ -10,13 +10,14 @@ mod folder;
 mod manifest;
 mod moment;
 mod tally;
+mod trails;
 mod up_to_date;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
-pub(crate) use folder::scripts;
+pub(crate) use folder::{scripts, trail_files};
 pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
 pub use moment::write_moment;

@@ -1,6 +1,7 @@
 //! The script of a single moment.
 
 use super::manifest::{self, Entry, Head, MANIFEST, State};
+use super::trails::TrailFiles;
 use super::write::put_blurred;
 use super::{Folder, OutputError, assets};
 use crate::Run;
@@ -33,10 +34,13 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     for (name, text) in run.emitter().sequence(scene)? {
         put(None, name.to_owned(), &text)?;
     }
+    let trails = TrailFiles::default();
+    trails.put(run, folder, &frame)?;
     put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &script)?;
     if let Some(shutter) = run.shutter() {
-        entries.push(put_blurred(run, folder, &frame, shutter, branch)?);
+        entries.push(put_blurred(run, folder, &frame, shutter, branch, &trails)?);
     }
+    entries.extend(trails.into_entries());
     entries.extend(assets::copy(folder, &scene.povray.assets)?);
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;

@@ -1,11 +1,13 @@
 //! All selected scripts of a run into a folder.
 
+use std::collections::HashSet;
 use std::fs;
 use std::io::Write;
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::manifest::{self, Entry, Head, MANIFEST, State};
+use super::trails::TrailFiles;
 use super::{Folder, OutputError, Tally, assets};
 use crate::Run;
 use crate::emit::{frame_name, shutter_name};
@@ -51,8 +53,12 @@ pub fn write(
     }
     put_head(State::Writing)?;
 
-    let mut entries = scripts(run, folder, selection, done)?;
+    let trails = TrailFiles::default();
+    let mut entries = scripts(run, folder, selection, &trails, done)?;
     let scripts = frames(&entries);
+    let trails = trails.into_entries();
+    let kept_trails = kept_trails(folder, &trails)?;
+    entries.extend(trails);
     for (name, text) in run.emitter().sequence(run.scene())? {
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
@@ -63,6 +69,7 @@ pub fn write(
     let kept = kept(folder, selection)?;
     let written = Written { scripts, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
+    entries.extend(kept_trails);
     // First what belongs to the sequence as a whole, then the scripts in their order.
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
@@ -80,17 +87,19 @@ fn scripts(
     run: &Run<'_>,
     folder: &Folder,
     selection: &Selection,
+    trails: &TrailFiles,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Entry>, OutputError> {
     let frames = run.scene().simulation.frames();
     let put = |exposed| -> Result<Vec<Entry>, OutputError> {
         let Exposed { frame, shutter } = exposed?;
         let text = run.script(&frame)?;
+        trails.put(run, folder, &frame)?;
         let name = frame_name(frame.index, frames);
         folder.write(&name, text.as_bytes())?;
         let mut entries = vec![Entry::of(Some(frame.index), name, text.as_bytes())];
         if let Some((shutter, branch)) = shutter {
-            entries.push(put_blurred(run, folder, &frame, shutter, branch)?);
+            entries.push(put_blurred(run, folder, &frame, shutter, branch, trails)?);
         }
         done();
         Ok(entries)
@@ -106,17 +115,35 @@ pub(super) fn put_blurred(
     frame: &Frame,
     shutter: Shutter,
     branch: Branch<'_>,
+    trails: &TrailFiles,
 ) -> Result<Entry, OutputError> {
     let name = shutter_name(frame.index, run.scene().simulation.frames());
     let mut digest = Tally::default();
+    let moments = branch.moments(shutter).map(|moment| {
+        let moment = moment?;
+        trails.put(run, folder, &moment)?;
+        Ok(moment)
+    });
     folder.try_write_with(&name, |file| {
-        run.emitter().shutter(frame, shutter, branch.moments(shutter), |piece| {
+        run.emitter().shutter(frame, shutter, moments, |piece| {
             digest.add(piece.as_bytes());
             let io_error = |error| OutputError::Io(folder.path().join(&name), error);
             file.write_all(piece.as_bytes()).map_err(io_error)
         })
     })?;
     Ok(digest.entry(Some(frame.index), name))
+}
+
+/// The files with parts of trails that were there before, of scripts that have stayed.
+fn kept_trails(folder: &Folder, written: &[Entry]) -> Result<Vec<Entry>, OutputError> {
+    let written: HashSet<&str> = written.iter().map(|entry| entry.name.as_str()).collect();
+    let others = folder.trail_files()?.into_iter().filter(|name| !written.contains(name.as_str()));
+    let entry = |name: String| {
+        let path = folder.path().join(&name);
+        let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
+        Ok(Entry::of(None, name, &bytes))
+    };
+    others.map(entry).collect()
 }
 
 /// The scripts of the folder that were there before and have stayed.

@@ -46,7 +46,7 @@ pub struct Axes {
 pub(super) struct Arrows {
     /// The radius of a shaft, m.
     radius: f64,
-    /// The bodies that have any, by their numbers.
+    /// The bodies that have any, in the order of their numbers.
     bodies: Vec<(usize, Body)>,
     /// Their arrows, in the order of the bodies.
     arrows: Vec<Planned>,
@@ -98,9 +98,14 @@ impl Arrows {
 
     /// The arrows of a body as it was, if its ghosts have any.
     pub(super) fn of_ghost(&self, ghost: &BodyFrame) -> Vec<Arrow> {
-        let of = self.bodies.iter().position(|(number, _)| *number == ghost.id);
-        let of = of.filter(|&of| self.bodies[of].1.showing.ghosts.is_some_and(|ghosts| ghosts.arrows));
-        let its = self.arrows.iter().filter(|arrow| Some(arrow.of) == of);
+        let Ok(of) = self.bodies.binary_search_by_key(&ghost.id, |(number, _)| *number) else {
+            return Vec::new();
+        };
+        if !self.bodies[of].1.showing.ghosts.is_some_and(|ghosts| ghosts.arrows) {
+            return Vec::new();
+        }
+        let first = self.arrows.partition_point(|arrow| arrow.of < of);
+        let its = self.arrows[first..].iter().take_while(|arrow| arrow.of == of);
         its.filter_map(|arrow| self.arrow(arrow, ghost)).collect()
     }
 

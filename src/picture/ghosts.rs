@@ -6,7 +6,7 @@ use crate::simulate::{Frame, Ghost};
 /// The ghosts of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Ghosts {
-    /// The bodies that have any, by their numbers, and how near a ghost may be to its body, m.
+    /// The bodies that have any, in the order of their numbers, and how near a ghost may be to its body, m.
     bodies: Vec<(usize, f64)>,
 }
 
@@ -25,10 +25,11 @@ impl Ghosts {
 
     fn is_drawn(&self, ghost: &Ghost, frame: &Frame) -> bool {
         let now = &frame.bodies[ghost.body.id];
-        let of = self.bodies.iter().find(|(number, _)| *number == ghost.body.id);
-        of.is_some_and(|(_, near)| {
+        let of = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number);
+        of.is_ok_and(|of| {
+            let near = self.bodies[of].1;
             let turned = now.orientation.dot(ghost.body.orientation).abs() < 1.0 - 1e-4;
-            ghost.body.is_finite() && (ghost.body.location.distance(now.location) > *near || turned)
+            ghost.body.is_finite() && (ghost.body.location.distance(now.location) > near || turned)
         })
     }
 }

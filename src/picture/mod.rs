@@ -36,4 +36,4 @@ pub(crate) use plan::has_texts;
 pub use screen::{Screen, Spot};
 pub use stage::{Scenery, Stage, StageGround};
 pub use text::{Text, Vertical};
-pub use trails::Trail;
+pub use trails::{Stretch, Trail};

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::colors;
+use super::{colors, decimal_step};
 use crate::scene::{Color, Scene};
-use crate::simulate::{Frame, Way};
+use crate::simulate::{Frame, Passed, Way};
 
 /// The color of the trail of a body that has no single color.
 const AMBER: Color = Color([0.93, 0.55, 0.08]);
@@ -13,6 +13,11 @@ const BEND: f64 = 0.06;
 /// The most pieces from one point of the way to the next.
 const MOST_PIECES: f64 = 16.0;
 
+/// The width of a trail is so many times what can be told apart in it, at least. A trail is some pixels wide.
+const FINEST: f64 = 50.0;
+/// So many pieces of a way, from one kept point to the next, make a stretch.
+const STRETCH: usize = 32;
+
 /// The trail of a body up to a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
@@ -20,12 +25,30 @@ pub struct Trail {
     pub body: usize,
     /// The points of the line, m, the oldest first: two at least.
     pub points: Vec<DVec3>,
+    /// The stretches of the line that are the same in all frames that have them, in order.
+    pub stretches: Vec<Stretch>,
     /// Half its width, m.
     pub radius: f64,
+    /// What is nearer than this cannot be told apart in the picture, m.
+    pub fineness: f64,
     /// Whether it becomes thin towards its end.
     pub tapers: bool,
     /// Its color.
     pub color: Color,
+}
+
+/// A part of a trail that a body has left behind: its points are the same bits in all later frames, however thick the
+/// trail is in each. `stride` and `number` name it among the stretches of its body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stretch {
+    /// Every so many frames a point of the way is kept.
+    pub stride: usize,
+    /// The number of the stretch at this stride, from 0.
+    pub number: usize,
+    /// The number of its first point in the trail.
+    pub first: usize,
+    /// The number of its last point in the trail, which may be the first of the next stretch.
+    pub last: usize,
 }
 
 impl Trail {
@@ -42,7 +65,7 @@ impl Trail {
 /// The trails of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Trails {
-    /// Trails without points.
+    /// Trails without points, in the order of their bodies.
     trails: Vec<Trail>,
 }
 
@@ -52,10 +75,13 @@ impl Trails {
         for (number, body) in scene.bodies.iter().enumerate() {
             let Some(trail) = body.showing.trail else { continue };
             let of_body = body.material.and_then(|material| colors::of_look(&scene.materials[material].look));
+            let radius = trail.width.unwrap_or(stroke) / 2.0;
             trails.push(Trail {
                 body: number,
                 points: Vec::new(),
-                radius: trail.width.unwrap_or(stroke) / 2.0,
+                stretches: Vec::new(),
+                radius,
+                fineness: decimal_step(radius / FINEST),
                 tapers: trail.duration.is_some(),
                 color: trail.color.or(of_body).unwrap_or(AMBER),
             });
@@ -71,24 +97,88 @@ impl Trails {
     /// The trails up to a frame.
     pub(super) fn up_to(&self, frame: &Frame) -> Vec<Trail> {
         let trail = |way: &Way| {
-            let trail = self.trails.iter().find(|trail| trail.body == way.body)?;
-            let points = line(way, trail.radius);
+            let of = self.trails.binary_search_by_key(&way.body, |trail| trail.body).ok()?;
+            let trail = &self.trails[of];
+            let Line { points, stretches, .. } = Line::along(way, trail.radius);
             let is_line = points.len() >= 2 && points.iter().all(|point| point.is_finite());
-            is_line.then(|| Trail { points, ..trail.clone() })
+            is_line.then(|| Trail { points, stretches, ..trail.clone() })
         };
         frame.past.trails.iter().filter_map(trail).collect()
     }
 }
 
-/// The points of a line along a way, none nearer to the next than a piece of it is wide.
-fn line(way: &Way, radius: f64) -> Vec<DVec3> {
-    let mut line: Vec<DVec3> = way.points.first().map(|point| point.location).into_iter().collect();
+/// The points of a line along a way.
+struct Line {
+    points: Vec<DVec3>,
+    stretches: Vec<Stretch>,
+    /// The least distance from one point to the next, m.
+    least: f64,
+}
+
+impl Line {
+    /// The line along a way whose points are no nearer to each other than given, m. So the points of a stretch follow
+    /// from its own part of the way alone.
+    fn along(way: &Way, least: f64) -> Line {
+        let mut line = Line { points: Vec::new(), stretches: Vec::new(), least };
+        let mut rest = way.points.as_slice();
+        while rest.len() > 1 {
+            let number = stretch_at(rest, way.stride);
+            let end = number.map_or_else(|| until_stretch(rest, way.stride), |_| STRETCH);
+            let points = between(&rest[..=end], least);
+            match number {
+                Some(number) if points.len() > 1 => {
+                    // Of two points at the same place, the first is the last of what was before.
+                    if line.points.last() == points.first() {
+                        line.points.pop();
+                    }
+                    let first = line.points.len();
+                    line.points.extend(points);
+                    line.stretches.push(Stretch {
+                        stride: way.stride,
+                        number,
+                        first,
+                        last: line.points.len() - 1,
+                    });
+                }
+                _ => points.into_iter().for_each(|point| line.put(point)),
+            }
+            rest = &rest[end..];
+        }
+        line
+    }
+
+    /// Appends a point that is far enough from the last.
+    fn put(&mut self, point: DVec3) {
+        if self.points.last().is_none_or(|last| last.distance(point) > self.least) {
+            self.points.push(point);
+        }
+    }
+}
+
+/// The number of the stretch that the first of some points begins, if all its points are there.
+fn stretch_at(points: &[Passed], stride: usize) -> Option<usize> {
+    let frames = stride * STRETCH;
+    let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
+    (points.get(STRETCH)?.frame? == begin + frames).then_some(begin / frames)
+}
+
+/// How many pieces there are until a stretch may begin, or the way ends: one at least.
+fn until_stretch(points: &[Passed], stride: usize) -> usize {
+    let begins = |point: &Passed| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
+    let next = points.iter().skip(1).position(begins);
+    next.map_or(points.len() - 1, |next| next + 1)
+}
+
+/// The points of the line along a part of a way, no nearer to each other than given; its ends are among them, unless all
+/// of it is nearer.
+fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
+    let mut line: Vec<DVec3> = way.first().map(|point| point.location).into_iter().collect();
     let mut put = |point: DVec3| {
-        if line.last().is_none_or(|last| last.distance(point) > radius) {
+        if line.last().is_none_or(|last| last.distance(point) > least) {
             line.push(point);
         }
     };
-    for pair in way.points.windows(2) {
+    for pair in way.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
         let bend = from.velocity.angle_between(to.velocity);
         let pieces = if bend.is_finite() { (bend / BEND).ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
@@ -96,6 +186,16 @@ fn line(way: &Way, radius: f64) -> Vec<DVec3> {
         while piece <= pieces {
             put(from.towards(to, from.time + (to.time - from.time) * piece / pieces));
             piece += 1.0;
+        }
+    }
+    // The next part begins at the end of this one, so that is where the line ends.
+    if let Some(end) = way.last().map(|point| point.location) {
+        let is_near = |point: &DVec3| point.distance(end) <= least;
+        while line.len() > 1 && line.last().is_some_and(is_near) {
+            line.pop();
+        }
+        if !line.last().is_some_and(is_near) {
+            line.push(end);
         }
     }
     line

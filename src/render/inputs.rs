@@ -8,6 +8,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::record::{Files, Record};
 use super::{RenderError, Script, Sequence};
+use crate::emit::is_trail_file;
 use crate::scene::sdl::{Include, includes};
 
 /// The record that the image of each script would get now, but for the length of the image.
@@ -50,6 +51,10 @@ fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, Render
 fn add_included(folder: &Path, text: &[u8], files: &mut Vec<PathBuf>) {
     for include in includes(&String::from_utf8_lossy(text)) {
         let Include::Literal(name) = include else { continue };
+        // The name says what is in it, and stands in the script.
+        if is_trail_file(&name) {
+            continue;
+        }
         let path =
             [folder.join(&name), folder.join("assets").join(&name)].into_iter().find(|path| path.is_file());
         let Some(path) = path.filter(|path| !files.contains(path)) else { continue };

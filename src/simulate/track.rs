@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::{BodyFrame, Frame, Lagging};
 use crate::dynamics::Dynamics;
-use crate::scene::{Scene, Showing};
+use crate::scene::{Scene, Showing, Trail};
 
 /// The most points of a trail; where frames are more, every second, fourth, … is kept.
 const MOST_POINTS: usize = 512;
@@ -32,6 +32,8 @@ pub struct Way {
     pub body: usize,
     /// Points of the way, the oldest first; the last is the present one.
     pub points: Vec<Passed>,
+    /// Every so many frames a point is kept.
+    pub stride: usize,
 }
 
 /// A point that a body has passed.
@@ -43,6 +45,8 @@ pub struct Passed {
     pub location: DVec3,
     /// How fast, m/s.
     pub velocity: DVec3,
+    /// The number of the frame that this is the body of, if the point is kept for later frames.
+    pub frame: Option<usize>,
 }
 
 /// A body as it was.
@@ -144,9 +148,7 @@ impl Track {
         for ((body, showing), way) in self.asks.iter().zip(&mut self.ways) {
             let Some(trail) = showing.trail else { continue };
             // Which frames are kept follows from their numbers and the present one alone.
-            let within =
-                trail.duration.map_or(usize::MAX, |duration| frames_within(duration / self.interval));
-            let stride = stride(within.min(frame.index));
+            let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
                 // The last one before is needed for what is between.
                 let before = way.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
@@ -154,7 +156,8 @@ impl Track {
             }
             way.retain(|(index, _)| index % stride == 0);
             if frame.index.is_multiple_of(stride) {
-                way.push((frame.index, Passed::of(frame.time, &frame.bodies[*body])));
+                let point = Passed::of(frame.time, &frame.bodies[*body]);
+                way.push((frame.index, Passed { frame: Some(frame.index), ..point }));
             }
         }
     }
@@ -171,7 +174,7 @@ impl Track {
             if let Some(duration) = trail.duration {
                 cut(&mut points, moment.time - duration);
             }
-            trails.push(Way { body: *body, points });
+            trails.push(Way { body: *body, points, stride: stride(trail, self.interval, moment.index) });
         }
         let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();
         Past { trails, ghosts: self.ghosts.clone(), lagging }
@@ -180,7 +183,7 @@ impl Track {
 
 impl Passed {
     fn of(time: f64, body: &BodyFrame) -> Passed {
-        Passed { time, location: body.location, velocity: body.velocity }
+        Passed { time, location: body.location, velocity: body.velocity, frame: None }
     }
 }
 
@@ -192,7 +195,7 @@ fn cut(points: &mut Vec<Passed>, from: f64) {
         let point = points[last];
         let part = (from - point.time) / (next.time - point.time);
         let velocity = point.velocity.lerp(next.velocity, part);
-        points[last] = Passed { time: from, location: point.towards(&next, from), velocity };
+        points[last] = Passed { time: from, location: point.towards(&next, from), velocity, frame: None };
     }
     points.drain(..last);
 }
@@ -206,9 +209,10 @@ fn frames_within(intervals: f64) -> usize {
     intervals as usize
 }
 
-/// Of so many frames, each so manieth is kept.
-fn stride(frames: usize) -> usize {
-    (frames / MOST_POINTS + 1).next_power_of_two()
+/// Every so many frames a point of a trail is kept, as seen from a frame: as few as make at most [`MOST_POINTS`].
+fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
+    let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
+    (within.min(frame) / MOST_POINTS + 1).next_power_of_two()
 }
 
 #[cfg(test)]

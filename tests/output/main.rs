@@ -14,5 +14,6 @@ mod meshes;
 mod sameness;
 mod shutter;
 mod templates;
+mod trails;
 mod up_to_date;
 mod views;

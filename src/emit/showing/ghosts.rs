@@ -10,7 +10,7 @@ use crate::simulate::Frame;
 
 /// How the ghosts of a scene are drawn.
 pub(super) struct Ghosts {
-    /// For the bodies that have any, by their numbers.
+    /// For the bodies that have any, in the order of their numbers.
     bodies: Vec<(usize, Block)>,
 }
 
@@ -28,8 +28,8 @@ impl Ghosts {
     /// Appends the ghosts of a frame.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame) {
         for ghost in plan.ghosts(frame) {
-            if let Some((_, block)) = self.bodies.iter().find(|(number, _)| *number == ghost.body.id) {
-                block.write_single(out, &ghost.body);
+            if let Ok(of) = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number) {
+                self.bodies[of].1.write_single(out, &ghost.body);
             }
         }
     }

@@ -12,6 +12,7 @@ mod trails;
 use serde::Serialize;
 
 use self::ghosts::Ghosts;
+use self::trails::Trails;
 use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
@@ -19,9 +20,12 @@ use crate::picture::{Plan, has_texts};
 use crate::scene::{Color, ForceKind, Scene};
 use crate::simulate::Frame;
 
+pub use trails::{TrailFile, is_trail_file};
+
 /// What is the same in all frames about what is shown beside the bodies.
 pub(super) struct Showing {
     ghosts: Ghosts,
+    trails: Trails,
     /// The lines of the grid.
     grid: String,
     style: Style,
@@ -36,6 +40,8 @@ pub(super) struct Shows {
     coils: bool,
     /// Whether something is written.
     labels: bool,
+    /// Whether bodies have trails.
+    trails: bool,
 }
 
 impl Shows {
@@ -45,6 +51,7 @@ impl Shows {
             arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_drawn(&force.kind)),
             labels: has_texts(scene),
+            trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
     }
 }
@@ -60,9 +67,20 @@ impl Showing {
     ) -> Showing {
         Showing {
             ghosts: Ghosts::new(scene, materials, meshes, style),
+            trails: Trails::new(scene.output.layout, style),
             grid: plan.grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
             style,
         }
+    }
+
+    /// The files with parts of trails that the script of a frame includes, but for those that `has` knows by name.
+    pub(super) fn trail_files(
+        &self,
+        plan: &Plan,
+        frame: &Frame,
+        has: &dyn Fn(&str) -> bool,
+    ) -> Vec<TrailFile> {
+        self.trails.files(plan, frame, has)
     }
 
     /// Appends what is to be shown of a frame, whose bodies have the given names.
@@ -73,7 +91,7 @@ impl Showing {
         for ghost in plan.ghosts(frame) {
             arrows::write_ghost(out, plan, &ghost.body, names, style);
         }
-        trails::write(out, plan, frame, names, style);
+        self.trails.write(out, plan, frame, names);
         arrows::write(out, plan, frame, names, style);
         if let Some(screen) = plan.screen(frame) {
             out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));

@@ -67,6 +67,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
 /// The names of everything in a folder of scripts that is ours.
 fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
     let mut names: BTreeSet<String> = files::of_scripts(folder)?.into_iter().collect();
+    names.extend(output::trail_files(folder)?);
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
         let Ok(name) = entry.file_name().into_string() else { continue };

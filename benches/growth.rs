@@ -1,0 +1,280 @@
+//! How time grows with each kind of thing that a scene can have many of: from the text to the script of the second frame.
+//!
+//! A table with the times at 100, 1,000 and 10,000, and the exponent p of n^p from 1,000 to 10,000: linear is 1, and more than
+//! 1.1 is too much; forces between all pairs may have 2.1. Constant costs make the exponent from 100 on too small to be
+//! told. Every time is the least of some rounds.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::cast_precision_loss,
+    reason = "a benchmark stops at the first surprise, and prints"
+)]
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use jabuka::output::{self, Folder};
+use jabuka::scene::Options;
+use jabuka::simulate::Selection;
+use jabuka::{Run, Scene};
+
+const NUMBERS: [usize; 3] = [100, 1_000, 10_000];
+const LINEAR: f64 = 1.1;
+const PAIRS: f64 = 2.1;
+
+/// A kind of thing: its name, the scene of so many of them, the exponent that is allowed.
+type Kind = (&'static str, fn(usize) -> String, f64);
+
+const KINDS: [Kind; 23] = [
+    ("bodies", |n| bodies(n, |_| String::new()), LINEAR),
+    ("bodies by repeat", |n| copies(n, "location = ['i % 100', 'i / 100', 0]"), LINEAR),
+    ("bodies by scatter", scatter, LINEAR),
+    (
+        "formula motions",
+        |n| copies(n, "motion.formula.location = ['i % 100 + sin(t)', 'i / 100', 'cos(t)']"),
+        LINEAR,
+    ),
+    ("torques", |n| bodies(n, |_| "torque = [0, 1, 0]".to_owned()), LINEAR),
+    ("keyframes", keyframes, LINEAR),
+    ("groups, each with a force", groups, LINEAR),
+    ("members of one group", group, LINEAR),
+    ("springs", springs, LINEAR),
+    ("links of a chain", chain, LINEAR),
+    ("labels at bodies", labels, LINEAR),
+    ("arrows", |n| bodies(n, |_| "velocity = [1, 0, 0]\narrows.velocity = true".to_owned()), LINEAR),
+    ("trails", |n| bodies(n, |_| "velocity = [1, 0, 0]\ntrail = true".to_owned()), LINEAR),
+    ("ghosts of bodies", |n| bodies(n, |_| "velocity = [9, 0, 0]\nghosts.every = 0.04".to_owned()), LINEAR),
+    ("ghosts with arrows", ghosts_with_arrows, LINEAR),
+    ("materials", materials, LINEAR),
+    ("lights", |n| named(n, |i| format!("[light.l{i}]\npoint.location = [{i}, 50, 9]\n")), LINEAR),
+    (
+        "views",
+        |n| named(n, |i| format!("[view.v{i}]\nlocation = [0, 5, {}]\nlook_at = [0, 0, 0]\n", 10 + i)),
+        LINEAR,
+    ),
+    (
+        "planes",
+        |n| named(n, |i| format!("[body.p{i}]\nshape.plane = {{}}\nlocation = [0, -{i}, 0]\n")),
+        LINEAR,
+    ),
+    ("parts of a compound", compound, LINEAR),
+    ("variables", variables, LINEAR),
+    (
+        "settings of defaults",
+        |n| format!("[defaults.body]\nmass = 2\n{}", bodies(n, |_| String::new())),
+        LINEAR,
+    ),
+    ("gravitation of all pairs", gravitation, PAIRS),
+];
+
+fn main() {
+    println!("{:<28}{:>12}{:>12}{:>12}   exponent", "seconds", "100", "1,000", "10,000");
+    let mut fastest: f64 = 0.0;
+    for (name, scene, most) in KINDS {
+        let times = NUMBERS.map(|n| least(rounds(n), &scene(n), to_script));
+        row(name, times, most, &mut fastest);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let written = |n: usize, layout: &str, trail: &str| {
+        let scene = Scene::parse(&film(n, layout, trail)).unwrap();
+        move |folder: &Path| write(&scene, folder)
+    };
+    for (name, layout, trail) in
+        [("frames", "self-contained", ""), ("frames with a trail, shared", "shared", "trail = true")]
+    {
+        let times = NUMBERS.map(|n| {
+            let write = written(n, layout, trail);
+            (0..3).map(|_| timed(|| write(folder.path()))).fold(f64::MAX, f64::min)
+        });
+        row(name, times, LINEAR, &mut fastest);
+    }
+    mistakes_and_includes(folder.path(), &mut fastest);
+    println!("\nmegabytes of four trails{:>16}{:>12}{:>12} frames", "100", "1,000", "10,000");
+    for layout in ["self-contained", "shared"] {
+        let size = |n: usize| {
+            let scene = Scene::parse(&four_trails(n, layout)).unwrap();
+            write(&scene, folder.path());
+            let files = fs::read_dir(folder.path()).unwrap();
+            files.map(|file| file.unwrap().metadata().unwrap().len()).sum::<u64>() as f64 / 1e6
+        };
+        let [a, b, c] = NUMBERS.map(size);
+        println!("{layout:<28}{a:12.1}{b:12.1}{c:12.1}");
+    }
+    println!("\nthe fastest growth is {fastest:.2} of what is allowed");
+}
+
+fn row(name: &str, [a, b, c]: [f64; 3], most: f64, fastest: &mut f64) {
+    let exponent = (c / b).log10();
+    let verdict = if exponent > most { format!("more than {most}") } else { String::new() };
+    println!("{name:<28}{a:12.4}{b:12.4}{c:12.4}   {exponent:.2} {verdict}");
+    *fastest = fastest.max(exponent / most);
+}
+
+/// From the text to the script of the second frame, for every camera.
+fn to_script(text: &str) {
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let frame = run.frames().nth(1).unwrap().unwrap();
+    assert!(run.script(&frame).is_ok());
+    for view in &scene.views {
+        assert!(run.seen_by(view).unwrap().script(&frame).is_ok());
+    }
+}
+
+/// What the checks of many mistakes and of two included files with many bodies take.
+fn mistakes_and_includes(folder: &Path, fastest: &mut f64) {
+    let times = NUMBERS.map(|n| {
+        let text = bodies(n, |_| "mass = 'x'".to_owned());
+        least(rounds(n), &text, |text| assert!(Scene::parse(text).is_err()))
+    });
+    row("mistakes", times, LINEAR, fastest);
+    let scene = folder.join("scene.toml");
+    fs::write(&scene, "include = ['a.toml', 'b.toml']\nsimulation.duration = 0.04\n").unwrap();
+    let times = NUMBERS.map(|n| {
+        let text = bodies(n, |_| String::new()).replace("simulation.duration = 0.04\n", "");
+        fs::write(folder.join("a.toml"), &text).unwrap();
+        fs::write(folder.join("b.toml"), text.replace("[body.b", "[body.c")).unwrap();
+        least(rounds(n), "", |_| drop(Scene::from_path_with(&scene, &Options::default()).unwrap()))
+    });
+    row("bodies in included files", times, LINEAR, fastest);
+}
+
+fn write(scene: &Scene, path: &Path) {
+    for entry in fs::read_dir(path).unwrap() {
+        fs::remove_file(entry.unwrap().path()).unwrap();
+    }
+    let run = Run::new(scene).unwrap();
+    let folder = Folder::open(path).unwrap();
+    output::write(&run, &folder, &Selection::first(scene.simulation.frames()), &|| ()).unwrap();
+}
+
+fn rounds(n: usize) -> usize {
+    if n < 10_000 { 7 } else { 3 }
+}
+
+fn least(rounds: usize, text: &str, work: impl Fn(&str)) -> f64 {
+    (0..rounds).map(|_| timed(|| work(text))).fold(f64::MAX, f64::min)
+}
+
+fn timed(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+fn each(n: usize, mut text: String, of: impl Fn(usize) -> String) -> String {
+    for i in 0..n {
+        text.push_str(&of(i));
+    }
+    text
+}
+
+fn bodies(n: usize, keys: impl Fn(usize) -> String) -> String {
+    each(n, "simulation.duration = 0.04\n".to_owned(), |i| {
+        let mut body = format!("[body.b{i}]\nshape.sphere.radius = 0.1\n");
+        let _ = writeln!(body, "location = [{}, {}, 0]\n{}", i % 100, i / 100, keys(i));
+        body
+    })
+}
+
+fn named(n: usize, of: impl Fn(usize) -> String) -> String {
+    bodies(1, |_| String::new()) + &each(n, String::new(), of)
+}
+
+fn copies(n: usize, keys: &str) -> String {
+    format!("simulation.duration = 0.04\n[body.b]\nrepeat = {n}\nshape.sphere.radius = 0.1\n{keys}\n")
+}
+
+fn scatter(n: usize) -> String {
+    let size = 2.0 * (n as f64).cbrt();
+    copies(n, "").replace(
+        &format!("repeat = {n}"),
+        &format!("repeat.scatter = {{ count = {n}, within.box.size = [{size}, {size}, {size}] }}"),
+    )
+}
+
+fn keyframes(n: usize) -> String {
+    let keys =
+        each(n, String::new(), |i| format!("{{ time = {}, location = [{i}, 0, 0] }},\n", i as f64 / 100.0));
+    format!(
+        "simulation.duration = 0.04\n[body.b]\nshape.sphere.radius = 1\nmotion.keyframes.at = [\n{keys}]\n"
+    )
+}
+
+fn groups(n: usize) -> String {
+    each(n, "simulation.duration = 0.04\n".to_owned(), |i| {
+        format!(
+            "[body.g{i}]\nrepeat = 2\nshape.sphere.radius = 0.1\nlocation = [{i}, 'i', 0]\n\
+             [force.f{i}.drag]\non = ['g{i}']\nlinear = 0.1\n"
+        )
+    })
+}
+
+fn group(n: usize) -> String {
+    copies(n, "location = ['i', 0, 0]") + "[force.f.drag]\non = ['b']\nlinear = 0.1\n"
+}
+
+fn springs(n: usize) -> String {
+    let spring = |i| format!("[force.f{i}.spring]\nbetween = ['b{i}', [0, 0, 5]]\nstiffness = 1\n");
+    bodies(n, |_| String::new()) + &each(n, String::new(), spring)
+}
+
+fn chain(n: usize) -> String {
+    let names = each(n, String::new(), |i| format!("'b{i}', "));
+    bodies(n, |_| String::new()) + &format!("[force.f.spring]\nbetween = [{names}]\nstiffness = 1\n")
+}
+
+fn labels(n: usize) -> String {
+    let label = |i| format!("[label.l{i}]\nbody = 'b{i}'\ntext = '${{b{i}.speed}} m/s'\n");
+    bodies(n, |_| String::new()) + &each(n, String::new(), label)
+}
+
+fn ghosts_with_arrows(n: usize) -> String {
+    let keys = "velocity = [9, 0, 0]\nghosts = { every = 0.04, arrows = true }\narrows.velocity = true";
+    bodies(n, |_| keys.to_owned())
+}
+
+fn materials(n: usize) -> String {
+    let material = |i| format!("[material.m{i}]\ncolor = [0.5, 0.{i}, 0.1]\n");
+    bodies(n, |i| format!("material = 'm{i}'")) + &each(n, String::new(), material)
+}
+
+fn compound(n: usize) -> String {
+    let parts = each(n, String::new(), |i| format!("{{ sphere.radius = 0.1, location = [{i}, 0, 0] }},\n"));
+    format!("simulation.duration = 0.04\n[body.b]\nshape.compound.parts = [\n{parts}]\n")
+}
+
+fn variables(n: usize) -> String {
+    let variable = |i: usize| match i % 50 {
+        0 => format!("v{i} = {i}\n"),
+        _ => format!("v{i} = 'v{} + 1'\n", i - 1),
+    };
+    bodies(1, |_| String::new()) + &each(n, "[variables]\n".to_owned(), variable)
+}
+
+fn gravitation(n: usize) -> String {
+    bodies(n, |_| "mass = 1".to_owned()).replace("0.04\n", "0.04\nsimulation.step = 0.04\n")
+        + "[force.f.gravitation]\nsoftening = 0.1\n"
+}
+
+fn film(frames: usize, layout: &str, keys: &str) -> String {
+    let duration = (frames - 1) as f64 / 25.0;
+    format!(
+        "[simulation]\nduration = {duration}\nstep = 0.04\n[output]\nlayout = '{layout}'\n[body.b]\n\
+         shape.sphere.radius = 0.1\nmotion.formula.location = ['cos(t)', 'sin(t)', 0]\n{keys}\n"
+    )
+}
+
+/// Four bodies on circles: about a radian from frame to frame would be too fast to be seen.
+fn four_trails(frames: usize, layout: &str) -> String {
+    let body = |i: usize| {
+        format!(
+            "[body.t{i}]\nshape.sphere.radius = 0.1\ntrail = true\n\
+             motion.formula.location = ['{i} + cos(3*t)', 'sin(3*t)', 't/40']\n"
+        )
+    };
+    each(4, film(frames, layout, ""), body)
+}
