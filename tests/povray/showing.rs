@@ -227,7 +227,8 @@ fn the_moments_of_a_shutter_have_their_own_past() {
         blurred.push_str(piece);
         Ok(())
     };
-    run.emitter().shutter(&frame, shutter, frames.branch().moments(shutter), put).unwrap();
+    let moments = frames.branch().moments(shutter).map(|moment| moment.map_err(Into::into));
+    run.emitter().shutter(&frame, shutter, moments, put).unwrap();
     assert!(blurred.contains("\"t = 0.210 s\"") && blurred.contains("\"t = 0.230 s\""), "{blurred}");
     let ghosts = |script: &str| script.matches("Material_").count() + script.matches("Ghost_").count();
     let (first, second) = blurred.split_once("#case (1)").unwrap();
