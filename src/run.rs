@@ -1,9 +1,10 @@
 //! A scene on its way to scripts.
 
 use crate::diagnostic::Diagnostic;
+use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::scene::{Scene, Shutter, View};
-use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Selection, Survey, survey};
+use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Selection, Survey, survey_watched};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {
@@ -14,6 +15,8 @@ pub struct Run<'a> {
     view: Option<String>,
     /// How the camera blurs what moves.
     shutter: Option<Shutter>,
+    /// Counts the interactions of pairs whenever the run is simulated.
+    effort: Effort,
 }
 
 /// A frame, and the run from there on if the camera blurs what moves.
@@ -46,7 +49,20 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Where the run leaves the numbers, or a template fails.
     pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
-        Run::surveyed(scene, survey(scene, seen)?)
+        Run::new_watched(scene, &Effort::default(), seen)
+    }
+
+    /// Like [`Run::new_seeing`]; now and later, the interactions of pairs are counted, which tells how far a long frame is.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or a template fails.
+    pub fn new_watched(
+        scene: &'a Scene,
+        effort: &Effort,
+        seen: impl FnMut(&Frame),
+    ) -> Result<Run<'a>, RunError> {
+        let run = Run::surveyed(scene, survey_watched(scene, effort, seen)?)?;
+        Ok(Run { effort: effort.clone(), ..run })
     }
 
     /// The run of a scene that somebody has looked over.
@@ -55,7 +71,8 @@ impl<'a> Run<'a> {
     /// Where a template fails.
     pub fn surveyed(scene: &'a Scene, survey: Survey) -> Result<Run<'a>, RunError> {
         let emitter = Emitter::new(scene, &scene.camera, &survey)?;
-        Ok(Run { scene, survey, emitter, view: None, shutter: scene.camera.shutter })
+        let (shutter, effort) = (scene.camera.shutter, Effort::default());
+        Ok(Run { scene, survey, emitter, view: None, shutter, effort })
     }
 
     /// The same run, seen by one of the scene's other cameras.
@@ -66,7 +83,7 @@ impl<'a> Run<'a> {
         let emitter = Emitter::new(self.scene, &view.camera, &self.survey)?;
         let survey = self.survey.clone();
         let (view, shutter) = (Some(view.name.clone()), view.camera.shutter);
-        Ok(Run { scene: self.scene, survey, emitter, view, shutter })
+        Ok(Run { scene: self.scene, survey, emitter, view, shutter, effort: self.effort.clone() })
     }
 
     /// The scene.
@@ -113,7 +130,7 @@ impl<'a> Run<'a> {
 
     /// The frames, from the initial state.
     pub fn frames(&self) -> Frames<'a> {
-        Frames::new(self.scene)
+        Frames::watched(self.scene, &self.effort)
     }
 
     /// The selected frames; the simulation ends with the last of them.

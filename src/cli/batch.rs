@@ -94,7 +94,7 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let folder = folder(arguments, &scene.name);
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
-    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
     let run = survey(&scene, &progress)?;
     progress.phase("writing");
     for (view, folder) in &cameras {

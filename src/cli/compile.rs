@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
-    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
     let run = survey(&scene, &progress)?;
     progress.phase(if arguments.check { "comparing" } else { "writing" });
     let mut result = Ok(());

@@ -1,64 +1,115 @@
 //! A progress bar for what takes long.
 
 use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::io::IsTerminal;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use jabuka::Scene;
+use jabuka::dynamics::Effort;
 use jabuka::output::OutputError;
+use jabuka::simulate::Labour;
 
 use super::{Failure, say};
 
+/// What takes longer than this gets a bar.
+const LATE: Duration = Duration::from_secs(1);
+/// How often the bar looks how far a step is.
+const LOOK: Duration = Duration::from_millis(200);
+
 /// A bar on standard error, for what takes over a second; without a terminal there is none.
-pub(super) struct Progress {
+///
+/// A step of a run may take minutes, so the bar also moves within a step: by the interactions of pairs that have been
+/// computed of those that the run will take.
+pub(super) struct Progress(Arc<Shared>);
+
+struct Shared {
     bar: ProgressBar,
     start: Instant,
-    shown: AtomicBool,
+    effort: Effort,
+    labour: Labour,
+    steps: Mutex<Steps>,
+}
+
+/// How far the steps are.
+#[derive(Default)]
+struct Steps {
+    /// How many are done.
+    done: usize,
+    /// What they and those before them have moved the bar by.
+    position: u64,
+    /// How many interactions had been computed when the last one was done.
+    before: u64,
+    /// Whether the bar is on the terminal, or never will be.
+    shown: bool,
 }
 
 impl Progress {
     /// A bar of so many steps, not yet shown.
     pub(super) fn new(steps: usize) -> Progress {
-        Progress::with(steps, "{msg:12} {wide_bar} {percent:>3} %  {eta} left")
+        Progress::with(steps as u64, Labour::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
+    }
+
+    /// A bar of a run that is simulated, and then of so many scripts.
+    pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
+        let labour = Labour::of(scene);
+        let steps = scene.simulation.frames() + scripts;
+        let length = (0..steps).map(|step| weight(labour, step)).fold(0, u64::saturating_add);
+        Progress::with(length, labour, "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
     /// A bar of so many frames that are rendered.
     pub(super) fn of_frames(frames: usize) -> Progress {
-        Progress::with(frames, "rendering    {wide_bar} {pos} of {len}  {per_sec}  {eta} left  {msg}")
+        let template = "rendering    {wide_bar} {pos} of {len}  {per_sec}  {left}  {msg}";
+        Progress::with(frames as u64, Labour::default(), template)
     }
 
-    fn with(steps: usize, template: &str) -> Progress {
-        let bar = ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::hidden());
+    fn with(length: u64, labour: Labour, template: &str) -> Progress {
+        let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
+            bar.set_style(style.with_key("left", left));
         }
-        // Without a terminal it counts as shown, and never is.
-        Progress { bar, start: Instant::now(), shown: AtomicBool::new(!std::io::stderr().is_terminal()) }
+        let steps = Mutex::new(Steps { shown: !std::io::stderr().is_terminal(), ..Steps::default() });
+        let is_watched = !steps.lock().unwrap_or_else(PoisonError::into_inner).shown;
+        let effort = Effort::default();
+        let shared = Arc::new(Shared { bar, start: Instant::now(), effort, labour, steps });
+        if is_watched {
+            let weak = Arc::downgrade(&shared);
+            std::thread::spawn(move || look(&weak));
+        }
+        Progress(shared)
+    }
+
+    /// What counts the interactions of pairs, for the run whose progress this is.
+    pub(super) fn effort(&self) -> &Effort {
+        &self.0.effort
     }
 
     /// Says what is being done now.
     pub(super) fn phase(&self, what: impl Into<Cow<'static, str>>) {
-        self.bar.set_message(what);
+        self.0.bar.set_message(what);
     }
 
     /// Says something above the bar.
     pub(super) fn above(&self, say: impl FnOnce()) {
-        self.bar.suspend(say);
+        self.0.bar.suspend(say);
     }
 
     /// One step is done.
     pub(super) fn step(&self) {
-        self.bar.inc(1);
-        let late = || self.start.elapsed() > Duration::from_secs(1);
-        if !self.shown.load(Ordering::Relaxed) && late() && !self.shown.swap(true, Ordering::Relaxed) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
+        let shared = &self.0;
+        let mut steps = shared.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        steps.position = steps.position.saturating_add(weight(shared.labour, steps.done));
+        steps.done += 1;
+        steps.before = shared.effort.done();
+        shared.show(&mut steps);
     }
 
     /// All is done: the bar goes.
     pub(super) fn finish(&self) {
-        self.bar.finish_and_clear();
+        self.0.bar.finish_and_clear();
     }
 
     /// It failed: the bar goes, and the reason is said.
@@ -66,5 +117,72 @@ impl Progress {
         self.finish();
         say::report(&error.report());
         Failure::Errors
+    }
+}
+
+impl Shared {
+    /// Moves the bar to where the work is.
+    fn show(&self, steps: &mut Steps) {
+        // A step is not done before it says so, however much has been computed for it.
+        let most = weight(self.labour, steps.done).saturating_sub(1);
+        let within = self.effort.done().saturating_sub(steps.before).min(most);
+        self.bar.set_position(steps.position.saturating_add(within));
+        if !steps.shown && self.start.elapsed() > LATE {
+            steps.shown = true;
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+    }
+}
+
+/// What a step moves the bar by: the interactions that its frame takes, or 1 where there are none.
+fn weight(labour: Labour, step: usize) -> u64 {
+    if labour.is_empty() { 1 } else { labour.of_frame(step).max(1) }
+}
+
+/// Looks now and then how far a bar is, until that is finished.
+fn look(bar: &Weak<Shared>) {
+    while let Some(shared) = bar.upgrade().filter(|shared| !shared.bar.is_finished()) {
+        shared.show(&mut shared.steps.lock().unwrap_or_else(PoisonError::into_inner));
+        shared.bar.tick();
+        drop(shared);
+        std::thread::sleep(LOOK);
+    }
+}
+
+/// The time that is left. Before anything is done, nobody knows.
+fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
+    // What cannot be written to the bar is not shown.
+    let _ = match state.pos() {
+        0 => write!(out, "time left unknown"),
+        _ => write!(out, "{:#} left", HumanDuration(state.eta())),
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_moves_within_a_step_by_what_is_computed() {
+        let text = "[body.star]\nrepeat = 200\nshape.sphere.radius = 0.1\nlocation = ['i', 0, 0]\n\
+                    [force.f.gravitation]\n[simulation]\nduration = 0.04\n";
+        let scene = Scene::parse(text).unwrap();
+        let progress = Progress::of_run(&scene, 2);
+        let shared = &progress.0;
+        let position = || {
+            shared.show(&mut shared.steps.lock().unwrap());
+            shared.bar.position()
+        };
+        assert_eq!(position(), 0);
+        let mut frames = jabuka::simulate::Frames::watched(&scene, progress.effort());
+        frames.next();
+        let first = position();
+        assert!(first > 0, "a frame is computed, and no step is done");
+        progress.step();
+        assert!(position() > first);
+        frames.next();
+        progress.step();
+        (0..2).for_each(|_| progress.step());
+        assert_eq!(position(), shared.bar.length().unwrap());
     }
 }

@@ -98,7 +98,7 @@ fn write_scripts(
     cameras: &[(Option<&View>, PathBuf)],
 ) -> Result<Vec<(Folder, String)>, Failure> {
     let frames = scene.simulation.frames();
-    let progress = Progress::new(frames + cameras.len() * selection.count_within(frames));
+    let progress = Progress::of_run(scene, cameras.len() * selection.count_within(frames));
     let mut folders = Vec::new();
     let mut run = None;
     for (view, path) in cameras {

@@ -94,7 +94,8 @@ pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure
 /// Simulates a scene once, with a step of the progress for every frame.
 pub(super) fn survey<'a>(scene: &'a Scene, progress: &Progress) -> Result<Run<'a>, Failure> {
     progress.phase("simulating");
-    Run::new_seeing(scene, |_| progress.step()).map_err(|error| progress.failed(&error.into()))
+    Run::new_watched(scene, progress.effort(), |_| progress.step())
+        .map_err(|error| progress.failed(&error.into()))
 }
 
 /// The run as a camera sees it; `None` is the main one, by which it was made.

@@ -84,7 +84,7 @@ fn write_script(arguments: &Arguments, scene: &Scene, view: Option<&View>) -> Re
     let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
     // Scripts of no scene go there: what is in that folder is no script.
     let folder = Path::new("out/.still").join(format!("{}{view_name}", scene.name));
-    let progress = Progress::new(scene.simulation.frames());
+    let progress = Progress::of_run(scene, 0);
     let run = run_arguments::survey(scene, &progress)?;
     let seen = run_arguments::seen(&run, view, &progress)?;
     let run: &Run<'_> = seen.as_ref().unwrap_or(&run);

@@ -64,6 +64,7 @@
 //! ```
 
 mod body;
+mod effort;
 mod energy;
 mod force;
 mod integrator;
@@ -76,6 +77,7 @@ mod track;
 mod world;
 
 pub use body::{BodyId, RigidBody};
+pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::{
     Anchor, ConstantForce, Coulomb, Drag, Force, Gravitation, Lorentz, Moment, Spring, UniformGravity,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::{Force, Loads, Moment, Motion, Pose, RigidBody, State};
+use super::{Effort, Force, Loads, Moment, Motion, Pose, RigidBody, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -26,6 +26,7 @@ pub struct Model {
     /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
+    effort: Effort,
 }
 
 impl Model {
@@ -99,6 +100,15 @@ impl Model {
     #[must_use]
     pub fn forces(&self) -> &[Arc<dyn Force>] {
         &self.forces
+    }
+
+    /// What counts the interactions of pairs.
+    pub(super) fn effort(&self) -> &Effort {
+        &self.effort
+    }
+
+    pub(super) fn watch(&mut self, effort: Effort) {
+        self.effort = effort;
     }
 
     /// Takes in a body; its entry in `state` is made at the same time, so that the two cannot disagree.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::{
-    Balance, BodyId, Dynamics, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model, Motion,
-    RigidBody, State,
+    Balance, BodyId, Dynamics, Effort, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model,
+    Motion, RigidBody, State,
 };
 
 /// The longest timestep where none is set, s.
@@ -127,6 +127,11 @@ impl World {
         self.ledger.close(&self.model, t, &self.state);
         self.integrator.advance(&self.model, t, dt, &mut self.state);
         self.model.place(t + dt, &mut self.state);
+    }
+
+    /// From now on, the interactions of pairs are counted there.
+    pub fn watch(&mut self, effort: &Effort) {
+        self.model.watch(effort.clone());
     }
 
     /// The number of bodies.

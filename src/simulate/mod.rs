@@ -5,6 +5,7 @@
 mod arrows;
 mod build;
 mod frame;
+mod labour;
 mod lag;
 mod moments;
 mod selection;
@@ -12,16 +13,17 @@ mod survey;
 mod track;
 
 use self::track::Track;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Effort};
 use crate::scene::Scene;
 
 pub use arrows::{axis, root, shown, surface};
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
+pub use labour::Labour;
 pub use lag::Lagging;
 pub use moments::Branch;
 pub use selection::Selection;
-pub use survey::{Bounds, Crossing, Survey, Surveyor, survey};
+pub use survey::{Bounds, Crossing, Survey, Surveyor, survey, survey_watched};
 pub use track::{Ghost, Passed, Past, Way};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.
@@ -47,12 +49,24 @@ pub struct Diverged {
 impl<'a> Frames<'a> {
     /// The frames of a scene from its initial state.
     pub fn new(scene: &'a Scene) -> Frames<'a> {
-        Frames { scene, dynamics: Box::new(world(scene)), next: 0, track: Track::new(scene) }
+        Frames::watched(scene, &Effort::default())
+    }
+
+    /// The same frames; the interactions of pairs are counted while they are made.
+    pub fn watched(scene: &'a Scene, effort: &Effort) -> Frames<'a> {
+        let mut world = world(scene);
+        world.watch(effort);
+        Frames { scene, dynamics: Box::new(world), next: 0, track: Track::new(scene) }
     }
 
     /// The same frames, which know nothing of what has been before.
     pub(crate) fn without_past(scene: &'a Scene) -> Frames<'a> {
-        Frames { track: Track::idle(), ..Frames::new(scene) }
+        Frames::new(scene).without_track()
+    }
+
+    /// The same frames, which remember nothing of what has been before.
+    fn without_track(self) -> Frames<'a> {
+        Frames { track: Track::idle(), ..self }
     }
 
     /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::arrows::{self, Largest};
 use super::{BodyFrame, Diverged, Frame, Frames, world};
-use crate::dynamics::Shape;
+use crate::dynamics::{Effort, Shape};
 use crate::scene::{Body, Scene};
 
 /// What is known of a run as a whole.
@@ -58,9 +58,21 @@ pub struct Crossing {
 ///
 /// # Errors
 /// Where the run leaves the numbers.
-pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
+pub fn survey(scene: &Scene, seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
+    survey_watched(scene, &Effort::default(), seen)
+}
+
+/// Like [`survey`]; the interactions of pairs are counted meanwhile.
+///
+/// # Errors
+/// Where the run leaves the numbers.
+pub fn survey_watched(
+    scene: &Scene,
+    effort: &Effort,
+    mut seen: impl FnMut(&Frame),
+) -> Result<Survey, Diverged> {
     let mut surveyor = Surveyor::new(scene);
-    for frame in Frames::without_past(scene) {
+    for frame in Frames::watched(scene, effort).without_track() {
         let frame = frame?;
         surveyor.see(&frame);
         seen(&frame);

@@ -64,15 +64,18 @@ impl Pairs<'_> {
 
     /// Shows every tile alone, then with each of those behind it; the flag says that it is shown for the last time.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
+        let effort = moment.model.effort();
         let mut rest = self.bodies;
         while !rest.is_empty() {
             let (head, behind) = rest.split_at(TILE.min(rest.len()));
             let mut first = self.tile(head, moment);
             see(&mut first, None, behind.is_empty());
+            effort.add(first.len() * (first.len() - 1) / 2);
             let mut others = behind.chunks(TILE).peekable();
             while let Some(other) = others.next() {
                 let mut second = self.tile(other, moment);
                 see(&mut first, Some(&mut second), others.peek().is_none());
+                effort.add(first.len() * second.len());
             }
             rest = behind;
         }

@@ -1,0 +1,105 @@
+//! How much there is to compute in a run, before it begins.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::world;
+use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
+use crate::scene::{ForceKind, Scene};
+
+/// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
+/// count. Where there are none, nothing takes long within a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Labour {
+    first: u64,
+    each: u64,
+}
+
+impl Labour {
+    /// That of a scene.
+    pub fn of(scene: &Scene) -> Labour {
+        let pairs = |kind: &ForceKind| match kind {
+            ForceKind::Gravitation { on, .. } | ForceKind::Coulomb { on, .. } => {
+                let count = on.len() as u64;
+                count.saturating_mul(count.saturating_sub(1)) / 2
+            }
+            _ => 0,
+        };
+        let pairs = scene.forces.iter().map(|force| pairs(&force.kind)).fold(0, u64::saturating_add);
+        if pairs == 0 {
+            return Labour::default();
+        }
+        let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
+        let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
+        // Each frame is told its potential energy and its forces; the first one also what the run begins with.
+        Labour { first: pairs.saturating_mul(3), each: pairs.saturating_mul(evaluations.saturating_add(2)) }
+    }
+
+    /// Those of one frame.
+    pub fn of_frame(&self, index: usize) -> u64 {
+        if index == 0 { self.first } else { self.each }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.each == 0
+    }
+}
+
+/// How often a method evaluates the forces in a step, by trying it.
+fn evaluations(method: &'static Method) -> u64 {
+    struct Counting(Arc<AtomicU64>);
+
+    impl Force for Counting {
+        fn apply(&self, _: &Moment, _: &mut Loads) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+
+        fn potential(&self, _: &Moment) -> f64 {
+            0.0
+        }
+    }
+
+    let count = Arc::new(AtomicU64::new(0));
+    let mut world = World::new();
+    world.set_integrator(method);
+    world.add(RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0));
+    world.add_force(Counting(Arc::clone(&count)));
+    // The first step may take more: a method may keep what it knows for the next.
+    world.step(1.0);
+    let before = count.load(Ordering::Relaxed);
+    world.step(1.0);
+    count.load(Ordering::Relaxed) - before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Frames;
+    use super::*;
+    use crate::dynamics::{Effort, METHODS};
+
+    #[test]
+    fn what_is_planned_is_what_is_counted_and_it_is_counted_within_an_evaluation() {
+        for method in METHODS {
+            let text = format!(
+                "simulation = {{ duration = 0.2, step = 0.02, integrator = '{}' }}\n[body.star]\nrepeat = 300\n\
+                 shape.sphere.radius = 0.1\nlocation = ['i', 'i % 7', 'i % 11']\n[force.f.gravitation]\n",
+                method.name
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let (labour, effort) = (Labour::of(&scene), Effort::default());
+            let pairs = 300 * 299 / 2;
+            let mut before = 0;
+            for (index, frame) in Frames::watched(&scene, &effort).enumerate() {
+                frame.unwrap();
+                let counted = effort.done() - before;
+                // The first step of a run may take one evaluation more.
+                let planned = labour.of_frame(index);
+                assert!(counted.abs_diff(planned) <= pairs, "{} {index}: {counted} {planned}", method.name);
+                before = effort.done();
+            }
+            assert!(before > 10 * pairs);
+        }
+        assert!(Labour::of(&Scene::parse("[body.b]\nshape.sphere.radius = 1").unwrap()).is_empty());
+    }
+}
