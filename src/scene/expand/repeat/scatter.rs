@@ -1,6 +1,6 @@
 //! Copies at random places in a volume, no two of them overlapping.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::{DQuat, DVec3};
 
@@ -40,6 +40,8 @@ enum Why {
     TooLarge,
     /// No place for it has been found among the others.
     Crowded,
+    /// So many comparisons with others have not been enough.
+    Costly(u64),
 }
 
 impl Scatter {
@@ -70,8 +72,8 @@ impl Scatter {
     ) -> Result<Vec<Place>, Full> {
         /// At the density at which balls of one size hardly find a place any more, one in a hundred tries succeeds.
         const TRIES: usize = 20_000;
-        let largest = sizes.iter().flatten().copied().fold(0.0, f64::max);
-        let mut taken = Taken { edge: 2.0 * largest + self.gap, cells: HashMap::new() };
+        let most = most_looks(sizes.len());
+        let mut taken = Taken::default();
         let mut places = Vec::with_capacity(sizes.len());
         for (placed, size) in sizes.iter().enumerate() {
             let radius = size.ok_or(Full { placed, why: Why::Endless })?;
@@ -80,9 +82,17 @@ impl Scatter {
             }
             let mut stream = stream(placed);
             let turn = if self.turned { any_turn(&mut stream) } else { DQuat::IDENTITY };
-            let free = (0..TRIES)
-                .map(|_| self.volume.point(radius, &mut stream))
-                .find(|place| taken.is_free(*place, radius + self.gap));
+            let mut free = None;
+            for _ in 0..TRIES {
+                let place = self.volume.point(radius, &mut stream);
+                if taken.is_free(place, radius + self.gap) {
+                    free = Some(place);
+                    break;
+                }
+                if taken.looks > most {
+                    return Err(Full { placed, why: Why::Costly(most) });
+                }
+            }
             let offset = free.ok_or(Full { placed, why: Why::Crowded })?;
             taken.add(offset, radius);
             places.push(Place { offset, turn });
@@ -104,6 +114,10 @@ impl Full {
             Why::Crowded => {
                 let message = format!("only {placed} of {count} copies of `{name}` find a place");
                 (message, "no more of them fit in here at random".to_owned())
+            }
+            Why::Costly(most) => {
+                let message = format!("only {placed} of {count} copies of `{name}` find a place");
+                (message, format!("the search ended after {} million comparisons", most / 1_000_000))
             }
         };
         let error = Diagnostic::error("scatter-full", message).at(span, label);
@@ -158,30 +172,110 @@ fn any_turn(stream: &mut Stream) -> DQuat {
     }
 }
 
-/// The balls that have their place, by cells of a grid that are so large that only neighbours can overlap.
+/// So many comparisons are made for a number of copies. Where balls fill a third of the volume, one copy takes some
+/// hundred.
+fn most_looks(copies: usize) -> u64 {
+    5_000_000 + 1_000 * copies as u64
+}
+
+/// The balls that have their place, those of a size together: one large ball must not make many small ones be compared
+/// with each other.
+#[derive(Default)]
 struct Taken {
-    edge: f64,
-    cells: HashMap<[i64; 3], Vec<(DVec3, f64)>>,
+    /// By the exponent of the power of two at or above their radius.
+    sizes: BTreeMap<i32, OfSize>,
+    /// How many cells and balls have been looked at.
+    looks: u64,
+}
+
+/// Balls of about one size, and where they are by the cells of a grid.
+struct OfSize {
+    /// No ball is larger, m.
+    largest: f64,
+    balls: Vec<(DVec3, f64)>,
+    cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Taken {
+    /// Whether a ball, whose radius holds the gap, overlaps none.
+    fn is_free(&mut self, place: DVec3, radius: f64) -> bool {
+        let looks = &mut self.looks;
+        self.sizes.values().all(|of_size| of_size.is_free(place, radius, looks))
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "the exponent of a double is small")]
+    fn add(&mut self, place: DVec3, radius: f64) {
+        let exponent = libm::ceil(libm::log2(radius.max(f64::MIN_POSITIVE))) as i32;
+        let new = || {
+            let largest = libm::exp2(f64::from(exponent)).max(radius);
+            OfSize { largest, balls: Vec::new(), cells: HashMap::new() }
+        };
+        let of_size = self.sizes.entry(exponent).or_insert_with(new);
+        // Rounding may have made the power of two a little too small.
+        of_size.largest = of_size.largest.max(radius);
+        let number = of_size.balls.len();
+        of_size.balls.push((place, radius));
+        of_size.cells.entry(of_size.cell(place)).or_default().push(number);
+    }
+}
+
+impl OfSize {
     #[allow(clippy::cast_possible_truncation, reason = "what is too far away saturates")]
     fn cell(&self, place: DVec3) -> [i64; 3] {
-        (place / self.edge).floor().to_array().map(|number| number as i64)
+        (place / (2.0 * self.largest)).floor().to_array().map(|number| number as i64)
     }
 
-    fn is_free(&self, place: DVec3, radius: f64) -> bool {
-        let [x, y, z] = self.cell(place);
-        let apart = |(other, size): &(DVec3, f64)| other.distance(place) >= radius + size;
-        let around = |n: i64| n.saturating_sub(1)..=n.saturating_add(1);
-        around(x).all(|x| {
-            around(y).all(|y| {
-                around(z).all(|z| self.cells.get(&[x, y, z]).is_none_or(|balls| balls.iter().all(apart)))
+    fn is_free(&self, place: DVec3, radius: f64, looks: &mut u64) -> bool {
+        let mut is_apart = |(other, size): &(DVec3, f64)| {
+            *looks += 1;
+            other.distance(place) >= radius + size
+        };
+        let reach = radius + self.largest;
+        let (low, high) = (self.cell(place - reach), self.cell(place + reach));
+        #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+        let cells: f64 =
+            low.iter().zip(high).map(|(low, high)| high.saturating_sub(*low) as f64 + 1.0).product();
+        #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+        let all = self.balls.len() as f64;
+        // A large ball reaches over more cells than there are small balls.
+        if cells > all {
+            return self.balls.iter().all(is_apart);
+        }
+        let mut visited = 0;
+        let is_free = (low[0]..=high[0]).all(|x| {
+            (low[1]..=high[1]).all(|y| {
+                (low[2]..=high[2]).all(|z| {
+                    visited += 1;
+                    let balls = self.cells.get(&[x, y, z]);
+                    balls.is_none_or(|balls| balls.iter().all(|&ball| is_apart(&self.balls[ball])))
+                })
             })
-        })
+        });
+        *looks += visited;
+        is_free
     }
+}
 
-    fn add(&mut self, place: DVec3, radius: f64) {
-        self.cells.entry(self.cell(place)).or_default().push((place, radius));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the cells are as large as the largest ball, all small balls stand in a few of them.
+    #[test]
+    fn one_large_ball_does_not_make_small_ones_be_compared_with_each_other() {
+        let looks = |count: usize| {
+            let mut taken = Taken::default();
+            taken.add(DVec3::ZERO, 1e3);
+            for i in 0..count {
+                #[allow(clippy::cast_precision_loss, reason = "there are few")]
+                let place = DVec3::new(2e3 + 0.3 * (i % 100) as f64, 0.3 * (i / 100) as f64, 0.0);
+                assert!(taken.is_free(place, 0.1));
+                taken.add(place, 0.1);
+            }
+            assert!(!taken.is_free(DVec3::new(2e3, 0.0, 0.0), 500.0));
+            taken.looks
+        };
+        let (few, many) = (looks(1_000), looks(4_000));
+        assert!(many < 5 * few, "{few} looks, then {many}");
     }
 }
