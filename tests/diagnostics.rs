@@ -188,17 +188,17 @@ fn check_soon(path: &Path) -> String {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    for _ in 0..2_000 {
-        if child.try_wait().unwrap().is_some() {
-            let output = child.wait_with_output().unwrap();
-            assert_eq!(output.status.code(), Some(1));
-            return stderr(&output);
-        }
+    let is_done = (0..2_000).any(|_| {
         std::thread::sleep(std::time::Duration::from_millis(10));
+        child.try_wait().unwrap().is_some()
+    });
+    if !is_done {
+        child.kill().unwrap();
     }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    panic!("the check of {} blocks", path.display());
+    let output = child.wait_with_output().unwrap();
+    assert!(is_done, "the check of {} blocks", path.display());
+    assert_eq!(output.status.code(), Some(1));
+    stderr(&output)
 }
 
 /// A named pipe has no end until somebody writes to it, so opening it would block for ever.
