@@ -107,7 +107,7 @@ fn main() {
 }
 
 fn row(name: &str, [a, b, c]: [f64; 3], most: f64, fastest: &mut f64) {
-    let exponent = (c / b).log10();
+    let exponent = libm::log10(c / b);
     let verdict = if exponent > most { format!("more than {most}") } else { String::new() };
     println!("{name:<28}{a:12.4}{b:12.4}{c:12.4}   {exponent:.2} {verdict}");
     *fastest = fastest.max(exponent / most);
@@ -189,7 +189,7 @@ fn copies(n: usize, keys: &str) -> String {
 }
 
 fn scatter(n: usize) -> String {
-    let size = 2.0 * (n as f64).cbrt();
+    let size = 2.0 * libm::cbrt(n as f64);
     copies(n, "").replace(
         &format!("repeat = {n}"),
         &format!("repeat.scatter = {{ count = {n}, within.box.size = [{size}, {size}, {size}] }}"),
