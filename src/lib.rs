@@ -15,6 +15,7 @@
 //! [`Run`] takes a scene through them. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
 //! what there is to choose from, and [`starter`] a scene to start from. [`surface`] has the triangles of shapes and plain looks of materials, and
 //! [`export`] tables and models, for programs that are not POV-Ray; [`preview`] shows a scene in the browser while it is written.
+//! [`sandbox`] confines the programs that jabuka starts.
 //!
 //! # A snapshot test of a scene
 //!
@@ -52,6 +53,7 @@ pub mod picture;
 pub mod preview;
 pub mod render;
 mod run;
+pub mod sandbox;
 pub mod scene;
 pub mod simulate;
 pub mod starter;

@@ -116,7 +116,8 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
 /// A job from scripts that are there.
 fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.of_scene.change_the_scene() {
-        let message = "a folder of scripts cannot be changed: `--set`, `--view`, `--templates` and `--trust` want the scene";
+        let message =
+            "a folder of scripts cannot be changed: `--set`, `--view` and `--templates` want the scene";
         return Err(Failure::Usage(message.to_owned()));
     }
     let from = &arguments.scene;
@@ -161,7 +162,8 @@ fn make(
     let cpus = arguments.cpus.map(|cpus| cpus as usize);
     let chunk = batch::chunk(settings.frames.len(), cpus.unwrap_or(1));
     let chunk = arguments.chunk.map_or(chunk, |chunk| chunk as usize);
-    let settings = Settings { chunk, limit: arguments.limit.max(1), ..settings };
+    let (limit, trust) = (arguments.limit.max(1), arguments.of_scene.trust());
+    let settings = Settings { chunk, limit, trust, ..settings };
     let requirements = Requirements {
         partition: arguments.partition.clone(),
         account: arguments.account.clone(),

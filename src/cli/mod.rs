@@ -19,6 +19,7 @@ mod products;
 mod progress;
 mod render;
 mod run_arguments;
+mod sandbox;
 mod say;
 mod scene_arguments;
 mod schema;
@@ -27,9 +28,11 @@ mod status;
 mod still;
 mod summary;
 mod templates;
+mod version;
 
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use jabuka::diagnostic::visible;
 
@@ -37,6 +40,9 @@ use jabuka::diagnostic::visible;
 #[derive(Parser)]
 #[command(version, about, max_term_width = 100)]
 struct Arguments {
+    /// With --version: the versions of POV-Ray and ffmpeg as well, and what the sandbox enforces
+    #[arg(short, long)]
+    verbose: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -60,6 +66,8 @@ enum Command {
     Schema(schema::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
+    #[command(hide = true)]
+    Sandbox(sandbox::Arguments),
 }
 
 /// How a command ends, beside success.
@@ -76,8 +84,16 @@ enum Failure {
 pub(crate) fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
+        Err(error) if error.kind() == ErrorKind::DisplayVersion && version::is_verbose() => {
+            say::result(&version::report());
+            return ExitCode::SUCCESS;
+        }
         Err(error) => return say::misused(&error),
     };
+    if arguments.verbose {
+        say::error("error: `--verbose` goes with `--version`\n");
+        return ExitCode::from(2);
+    }
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
         #[cfg(feature = "preview")]
@@ -96,6 +112,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => man::run(&arguments),
+        Command::Sandbox(arguments) => return sandbox::run(arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,8 +5,10 @@ use std::time::Duration;
 
 use jabuka::diagnostic::is_invisible;
 use jabuka::render::{Images, Job, PovRay, RenderError, Sequence};
+use jabuka::sandbox::Confinement;
 
 use super::picture_arguments::PictureArguments;
+use super::say;
 
 /// Which POV-Ray renders, and what it may do.
 #[derive(clap::Args)]
@@ -39,9 +41,13 @@ impl PovRayArguments {
         PovRay::locate(self.povray.as_deref()).map(drop)
     }
 
-    /// The POV-Ray for a folder of images.
-    pub(super) fn find(&self, images: &Images) -> Result<PovRay, RenderError> {
-        PovRay::find(self.povray.as_deref(), &images.povray_memory())
+    /// The POV-Ray for a folder of images. Says if it is less confined than it should be.
+    pub(super) fn find(&self, images: &Images, confinement: Confinement) -> Result<PovRay, RenderError> {
+        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), confinement)?;
+        if let Some(warning) = povray.warning() {
+            say::error(&format!("warning: {warning}\n"));
+        }
+        Ok(povray)
     }
 
     /// What it is to render.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use jabuka::preview::Preview;
+use jabuka::sandbox::Launcher;
 
 use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, say};
@@ -36,6 +37,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         options: arguments.of_scene.options(&[]),
         port: arguments.port,
         povray: arguments.povray.clone(),
+        launcher: Launcher::of_this_program(),
     };
     let listening = |address: &str| {
         say::result(&format!("{address}\n"));

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use jabuka::diagnostic::visible_path;
 use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
+use jabuka::sandbox::{Confinement, Launcher};
 
 use super::progress::Progress;
 use super::{Failure, render, say};
@@ -20,7 +21,9 @@ impl Products {
     pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
         let film = arguments.video.as_ref().map(|path| {
             let film = Film::new(path).map_err(|error| misnamed(&error))?;
-            let ffmpeg = film.check(None).map_err(|error| failed(&error))?;
+            let ffmpeg = film
+                .check(None, Confinement::new(Launcher::of_this_program()))
+                .map_err(|error| failed(&error))?;
             Ok((film, ffmpeg))
         });
         let sheet = arguments.contact_sheet.as_ref().map(ContactSheet::new).transpose();

@@ -131,8 +131,7 @@ fn write_scripts(
 /// Renders the scripts in a folder, as they are.
 fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
     if arguments.scene.change_the_scene() {
-        let message = "`--set`, `--templates`, `--trust` and `--view` are for scenes; the scripts of a folder are \
-                       rendered as they are";
+        let message = "`--set`, `--templates` and `--view` are for scenes; the scripts of a folder are rendered as they are";
         return Err(Failure::Usage(message.to_owned()));
     }
     let _lock = match Folder::open(&arguments.source) {
@@ -166,7 +165,9 @@ fn render_scripts(
     let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
     let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
     let images = Images::open(&images).map_err(|error| failed(&error))?;
-    let povray = arguments.povray.find(&images).map_err(|error| failed(&error))?;
+    let scene = (!arguments.source.is_dir()).then_some(arguments.source.as_path());
+    let confinement = arguments.scene.confinement(scene, &[folder, images.folder()]);
+    let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;
     let job = Job {
         jobs: arguments.jobs.map(usize::from),
         keep_going: arguments.keep_going,

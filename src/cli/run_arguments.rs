@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use jabuka::sandbox::Confinement;
 use jabuka::scene::{Override, View};
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
@@ -37,6 +38,16 @@ impl RunArguments {
     /// Whether something is said that only a scene has, not a folder of scripts.
     pub(super) fn change_the_scene(&self) -> bool {
         self.scene.change_the_scene() || !self.view.is_empty()
+    }
+
+    /// Whether the scene is trusted.
+    pub(super) fn trust(&self) -> bool {
+        self.scene.trust()
+    }
+
+    /// What POV-Ray may do for the scene; `None` stands for scripts without their scene. `folders` are those of the results.
+    pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
+        self.scene.confinement(scene, folders)
     }
 
     /// The frames that are asked for, of so many.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
 use jabuka::diagnostic::{Report, visible_path};
+use jabuka::sandbox::{Confinement, Launcher};
 use jabuka::scene::{Options, Override};
 
 use super::{Failure, say};
@@ -17,7 +18,8 @@ pub(super) struct SceneArguments {
     /// Use the templates in this folder in place of those built in: see `jabuka templates`
     #[arg(long, value_name = "DIR")]
     templates: Option<PathBuf>,
-    /// Let the scene's SDL open, write and include files, and its paths leave its folder
+    /// Let the scene's SDL open, write and include files, and its paths leave its folder. POV-Ray may then read all
+    /// files, and write in the folder of the scene and in those of the results
     #[arg(long)]
     trust: bool,
 }
@@ -49,7 +51,18 @@ impl SceneArguments {
 
     /// Whether anything is changed.
     pub(super) fn change_the_scene(&self) -> bool {
-        !self.set.is_empty() || self.templates.is_some() || self.trust
+        !self.set.is_empty() || self.templates.is_some()
+    }
+
+    /// Whether the scene is trusted.
+    pub(super) fn trust(&self) -> bool {
+        self.trust
+    }
+
+    /// What POV-Ray may do for the scene; `None` stands for scripts without their scene. `folders` are those of the results.
+    pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
+        let confinement = Confinement::new(Launcher::of_this_program());
+        if self.trust { confinement.trusting(scene, folders) } else { confinement }
     }
 }
 

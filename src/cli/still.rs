@@ -57,7 +57,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
     let images = Images::open(&folder.path().join("images")).map_err(|error| failed(&error))?;
-    let povray = arguments.povray.find(&images).map_err(|error| failed(&error))?;
+    let confinement = arguments.of_scene.confinement(Some(&arguments.scene), &[folder.path()]);
+    let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;
     let job = Job {
         // One image has all processors to itself.
         threads: std::thread::available_parallelism().map_or(1, usize::from),

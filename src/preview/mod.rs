@@ -37,6 +37,7 @@ use self::render::Renderer;
 use self::routes::Server;
 use self::session::Session;
 use crate::diagnostic::Report;
+use crate::sandbox::{Confinement, Launcher};
 use crate::scene::Options;
 
 /// What is previewed, and how.
@@ -50,6 +51,8 @@ pub struct Preview {
     pub port: Option<u16>,
     /// The program POV-Ray; none: that of the `PATH`.
     pub povray: Option<PathBuf>,
+    /// What confines POV-Ray; none: nothing does.
+    pub launcher: Option<Launcher>,
 }
 
 impl Preview {
@@ -68,8 +71,12 @@ impl Preview {
         let address = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), self.port.unwrap_or(0));
         let listener = runtime.block_on(TcpListener::bind(address))?;
         let (address, token) = (listener.local_addr()?, Token::new()?);
+        let mut confinement = Confinement::new(self.launcher);
+        if self.options.trust {
+            confinement = confinement.trusting(Some(&self.scene), &[]);
+        }
         let session = Session::new(self.scene, self.options, said);
-        let renderer = Arc::new(Renderer::new(self.povray));
+        let renderer = Arc::new(Renderer::new(self.povray, confinement));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
         // It ends with the process: a scene that takes long to be read holds nobody up.

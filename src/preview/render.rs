@@ -13,10 +13,12 @@ use crate::Run;
 use crate::diagnostic::Report;
 use crate::output::{self, Folder, OutputError};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
+use crate::sandbox::Confinement;
 
 /// Renders one frame after another.
 pub(super) struct Renderer {
     povray: Option<PathBuf>,
+    confinement: Confinement,
     one_at_a_time: Mutex<()>,
     /// What somebody waits for, or has waited for.
     wishes: Mutex<Vec<Weak<AtomicBool>>>,
@@ -59,9 +61,9 @@ impl Wanted {
 }
 
 impl Renderer {
-    /// One that takes the given POV-Ray, or that of the `PATH`.
-    pub(super) fn new(povray: Option<PathBuf>) -> Renderer {
-        Renderer { povray, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
+    /// One that takes the given POV-Ray, or that of the `PATH`, and confines it.
+    pub(super) fn new(povray: Option<PathBuf>, confinement: Confinement) -> Renderer {
+        Renderer { povray, confinement, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
     /// Ends what is being rendered: the server ends.
@@ -110,7 +112,7 @@ impl Renderer {
         let mut sequence = Sequence::open(folder.path(), None)?;
         sequence.moment = Some(time);
         let images = Images::open(&folder.path().join("images"))?;
-        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory())?;
+        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), self.confinement.clone())?;
         let quality = if fine { Quality::Final } else { Quality::Draft };
         let job = Job {
             sequence: &sequence,

@@ -2,8 +2,9 @@
 
 use std::fmt;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use super::PovRay;
 use crate::diagnostic::{Diagnostic, Report, Span};
 
 /// Why one frame could not be rendered; others can.
@@ -19,11 +20,13 @@ pub struct Fault {
     pub body: Option<String>,
     /// What is wrong.
     pub message: String,
+    /// Whether the sandbox refused a file.
+    pub outside: bool,
 }
 
 impl Fault {
-    /// The fault in what POV-Ray has said of a script.
-    pub(super) fn parse(frame: usize, script: PathBuf, said: &str) -> Fault {
+    /// The fault in what a POV-Ray has said of a script.
+    pub(super) fn parse(frame: usize, script: PathBuf, said: &str, povray: &PovRay) -> Fault {
         let name = script.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         let mut place = None;
         let mut message: Vec<&str> = Vec::new();
@@ -52,7 +55,20 @@ impl Fault {
             None => (None, text),
         };
         let body = line.and_then(|line| body_at(&source, line));
-        Fault { frame, script, line, body, message }
+        let outside = match opened(&message) {
+            Some(Opened::ToWrite) => povray.is_confined(),
+            Some(Opened::ToRead(file)) => {
+                let folder = script.parent().unwrap_or(Path::new("."));
+                povray.limits_reading() && file.is_none_or(|file| folder.join(file).exists())
+            }
+            None => false,
+        };
+        Fault { frame, script, line, body, message, outside }
+    }
+
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> &'static str {
+        if self.outside { "outside-sandbox" } else { "bad-frame" }
     }
 
     /// The fault as an error at its place in the script.
@@ -60,7 +76,14 @@ impl Fault {
         let mut report = Report::default();
         let body = self.body.as_ref().map_or_else(String::new, |body| format!(", body `{body}`"));
         let message = format!("frame {}{body}: {}", self.frame, self.message);
-        let diagnostic = Diagnostic::error("bad-frame", message);
+        let diagnostic = Diagnostic::error(self.code(), message);
+        let diagnostic = match self.outside {
+            true => diagnostic.help(
+                "POV-Ray may read the scripts, their assets and its own files, and write in a folder of its own; with \
+                 `--trust`, it may read all files, and write in the folder of the scene and in those of the results",
+            ),
+            false => diagnostic,
+        };
         let place = self.line.and_then(|line| Some((line, fs::read(&self.script).ok()?)));
         report.diagnostics.push(match place {
             None => diagnostic,
@@ -90,6 +113,29 @@ impl fmt::Display for Fault {
     }
 }
 
+/// What POV-Ray could not open.
+enum Opened<'a> {
+    /// A file to be read, if POV-Ray tells which.
+    ToRead(Option<&'a str>),
+    /// A file to be written.
+    ToWrite,
+}
+
+/// The file that a message is about, if it says that POV-Ray could not open one.
+fn opened(message: &str) -> Option<Opened<'_>> {
+    let told = message.trim_end_matches('.');
+    if let Some(file) = told.strip_prefix("Cannot open user file ") {
+        return Some(match file.strip_suffix(" (read)") {
+            Some(file) => Opened::ToRead(Some(file)),
+            None => Opened::ToWrite,
+        });
+    }
+    if let Some(file) = told.strip_prefix("Cannot open include file ") {
+        return Some(Opened::ToRead(Some(file)));
+    }
+    ["Cannot open file", "Cannot open font file"].contains(&told).then_some(Opened::ToRead(None))
+}
+
 /// The file's name and the line in what begins a message: `File: scripts/frame_0060.pov  Line: 34`.
 fn file_and_line(said: &str) -> Option<(&str, usize)> {
     let (path, line) = said.strip_prefix("File: ")?.rsplit_once("Line: ")?;
@@ -117,7 +163,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("frame_0060.pov");
         fs::write(&script, SCRIPT).unwrap();
-        let fault = Fault::parse(60, script, said);
+        let fault = Fault::parse(60, script, said, &PovRay::unconfined());
         (fault.line, fault.body, fault.message)
     }
 
@@ -140,5 +186,20 @@ mod tests {
         let (line, _, message) = fault("File: scripts/common.inc  Line: 9\nParse Error: x\n");
         assert_eq!((line, message.as_str()), (None, "in common.inc, line 9: x"));
         assert_eq!(fault("Something else.\n"), (None, None, "Something else.".to_owned()));
+    }
+
+    #[test]
+    fn files_that_cannot_be_opened_are_told_from_other_faults() {
+        let kind = |message: &str| match opened(message) {
+            None => "other".to_owned(),
+            Some(Opened::ToWrite) => "write".to_owned(),
+            Some(Opened::ToRead(file)) => format!("read {}", file.unwrap_or("?")),
+        };
+        assert_eq!(kind("Cannot open user file /a b/x.txt (write)."), "write");
+        assert_eq!(kind("Cannot open user file ../x.txt (append)."), "write");
+        assert_eq!(kind("Cannot open user file /x.txt (read)."), "read /x.txt");
+        assert_eq!(kind("Cannot open include file x.inc."), "read x.inc");
+        assert_eq!(kind("Cannot open file."), "read ?");
+        assert_eq!(kind("No matching }"), "other");
     }
 }

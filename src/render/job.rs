@@ -176,7 +176,7 @@ impl Job<'_> {
         let sequence = self.sequence;
         let scripts = sequence.scripts();
         let setup = Setup {
-            povray: self.povray.path(),
+            povray: self.povray,
             scripts: sequence.absolute(),
             options: &self.options,
             last: sequence.last,

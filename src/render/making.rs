@@ -90,7 +90,7 @@ impl<'a> Making<'a> {
         for &member in &self.groups[unit.index].members {
             let script = &sequence.scripts()[member];
             let path: PathBuf = sequence.folder().join(&script.file);
-            let fault = Fault::parse(script.frame, path, said);
+            let fault = Fault::parse(script.frame, path, said, self.job.povray);
             self.job.images.note_failure(&script.name, &fault.to_string())?;
             (self.watch)(Event::Failed(&fault));
             self.outcome.failed.push(fault);

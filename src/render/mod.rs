@@ -33,6 +33,7 @@ mod povray;
 mod process;
 mod record;
 mod sequence;
+mod started;
 mod status;
 
 pub use contact_sheet::{ContactSheet, Shot};

@@ -7,12 +7,17 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, UNIX_EPOCH};
 
 use super::RenderError;
+use super::started::Started;
+use crate::sandbox::{Confinement, Needs};
 
 /// A POV-Ray that can be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PovRay {
     path: PathBuf,
     version: String,
+    confinement: Confinement,
+    /// Why it may read all files though it should not.
+    unlimited: Option<String>,
 }
 
 /// So long may it take to tell its version.
@@ -22,24 +27,40 @@ impl PovRay {
     /// Finds POV-Ray: at the given path, or else the `povray` of the `PATH`. Asking it for its version costs 0.2 s, so
     /// the answer is kept in the file `memory`, and holds as long as the program has the same path, size and time.
     ///
+    /// The confinement is that of all its runs. A POV-Ray that cannot start where reading is limited, since its libraries
+    /// are in an unusual folder, may read all files; [`PovRay::warning`] says so.
+    ///
     /// # Errors
     /// Where there is none, or none of a version that is known.
-    pub fn find(given: Option<&Path>, memory: &Path) -> Result<PovRay, RenderError> {
+    pub fn find(
+        given: Option<&Path>,
+        memory: &Path,
+        confinement: Confinement,
+    ) -> Result<PovRay, RenderError> {
         let path = PovRay::locate(given)?;
-        let mark = mark(&path).map_err(RenderError::io(&path))?;
+        let mark = mark(&path, &confinement).map_err(RenderError::io(&path))?;
         let remembered = fs::read_to_string(memory).ok();
         let remembered = remembered.as_deref().and_then(|text| text.split_once('\n'));
         if let Some((_, version)) = remembered.filter(|(of, _)| *of == mark) {
-            return Ok(PovRay { path, version: version.trim_end().to_owned() });
+            let version = version.trim_end().to_owned();
+            return Ok(PovRay { path, version, confinement, unlimited: None });
         }
-        let said = ask(&path)?;
-        let version = version(&said).ok_or_else(|| {
-            let first = said.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-            RenderError::NotPovray(path.clone(), first.chars().take(80).collect())
-        })?;
-        // Where this cannot be kept, it is asked again the next time.
-        let _ = fs::write(memory, format!("{mark}\n{version}\n"));
-        Ok(PovRay { path, version: version.to_owned() })
+        let said = ask(&path, &confinement)?;
+        if let Some(version) = version(&said) {
+            // Where this cannot be kept, it is asked again the next time.
+            let _ = fs::write(memory, format!("{mark}\n{version}\n"));
+            let version = version.to_owned();
+            return Ok(PovRay { path, version, confinement, unlimited: None });
+        }
+        let first = said.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+        let first: String = first.chars().filter(|c| !c.is_control()).take(200).collect();
+        let reading_all = confinement.reading_all();
+        let said = if confinement.limits_reading() { ask(&path, &reading_all)? } else { String::new() };
+        let Some(version) = version(&said) else {
+            return Err(RenderError::NotPovray(path, first.chars().take(80).collect()));
+        };
+        let version = version.to_owned();
+        Ok(PovRay { path, version, confinement: reading_all, unlimited: Some(first) })
     }
 
     /// Where POV-Ray is, which is quickly told.
@@ -57,42 +78,67 @@ impl PovRay {
         &self.path
     }
 
+    /// What users should know about its confinement: that it is weaker than usual.
+    pub fn warning(&self) -> Option<String> {
+        let why = self.unlimited.as_ref()?;
+        let path = self.path.display();
+        Some(format!("`{path}` may read all files, since it does not start in the sandbox: it says `{why}`"))
+    }
+
+    /// Whether the sandbox limits where it may write.
+    pub(super) fn is_confined(&self) -> bool {
+        self.confinement.is_enforced()
+    }
+
+    /// Whether the sandbox limits what it may read.
+    pub(super) fn limits_reading(&self) -> bool {
+        self.confinement.limits_reading()
+    }
+
+    /// One that was not looked for.
+    #[cfg(test)]
+    pub(super) fn unconfined() -> PovRay {
+        let (path, version) = (PathBuf::from("povray"), "3.7".to_owned());
+        PovRay { path, version, confinement: Confinement::default(), unlimited: None }
+    }
+
+    /// The command that starts it; its arguments are to be added.
+    pub(super) fn command(&self, needs: Needs<'_>) -> Command {
+        self.confinement.command(&self.path, needs)
+    }
+
     /// Its version, as it says itself: `3.7.0.10.unofficial`.
     pub fn version(&self) -> &str {
         &self.version
     }
 }
 
-/// What tells one program from another without running it: path, size and time of change.
-fn mark(path: &Path) -> std::io::Result<String> {
+/// What tells one program from another without running it: path, size and time of change; and whether it was asked where
+/// reading is limited.
+fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
+    let limited = if confinement.limits_reading() { " confined" } else { "" };
     let metadata = fs::metadata(path)?;
     let changed = metadata.modified()?.duration_since(UNIX_EPOCH).unwrap_or_default();
-    Ok(format!("{} {} {}", path.display(), metadata.len(), changed.as_nanos()))
+    Ok(format!("{} {} {}{limited}", path.display(), metadata.len(), changed.as_nanos()))
 }
 
 /// What it says when it is asked for its version.
-fn ask(path: &Path) -> Result<String, RenderError> {
-    let mut child = Command::new(path)
-        .arg("--version")
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(RenderError::io(path))?;
+fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
+    let mut command = confinement.command(path, Needs::default());
+    command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = Started::new(&mut command).map_err(RenderError::io(path))?;
     let start = Instant::now();
-    while child.try_wait().map_err(RenderError::io(path))?.is_none() {
+    while child.exit().map_err(RenderError::io(path))?.is_none() {
         if start.elapsed() > PATIENCE {
-            // It is of no use, however this ends.
-            let _ = child.kill();
-            let _ = child.wait();
             return Err(RenderError::NotPovray(path.to_owned(), "nothing, for 20 s".to_owned()));
         }
         std::thread::sleep(Duration::from_millis(5));
     }
     let mut said = Vec::new();
-    if let Some(stderr) = child.stderr.take() {
+    let (_, _, errors) = child.pipes();
+    if let Some(errors) = errors {
         // What cannot be read, it has not said; far more than this it does not say.
-        let _ = stderr.take(1 << 16).read_to_end(&mut said);
+        let _ = errors.take(1 << 16).read_to_end(&mut said);
     }
     Ok(String::from_utf8_lossy(&said).into_owned())
 }

@@ -6,14 +6,14 @@
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
-use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use rustix::process::{Pid, Signal, kill_process_group};
-
-use super::cpu;
+use super::started::Started;
+use super::{PovRay, cpu};
+use crate::sandbox::Needs;
 
 /// A picture that POV-Ray makes: of a frame, or of one moment of a blurred one.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -32,7 +32,7 @@ pub(super) struct Unit {
 
 /// What all processes of a job have in common.
 pub(super) struct Setup<'a> {
-    pub(super) povray: &'a Path,
+    pub(super) povray: &'a PovRay,
     /// The folder of the scripts, absolute.
     pub(super) scripts: &'a Path,
     /// The options that decide on pixels.
@@ -47,7 +47,7 @@ pub(super) struct Setup<'a> {
 
 /// A running process.
 pub(super) struct Process {
-    child: Child,
+    child: Started,
     folder: PathBuf,
     units: Vec<Unit>,
     names: Names,
@@ -58,7 +58,6 @@ pub(super) struct Process {
     cpu_before: f64,
     /// The CPU time when it was last seen to grow, s, and when that was.
     alive: (f64, Instant),
-    ended: bool,
 }
 
 /// What has happened since the last look.
@@ -105,7 +104,8 @@ impl Process {
             }
             _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", units.len() - 1)),
         };
-        let mut command = launcher(setup.povray, humble);
+        let needs = Needs { read: &[setup.scripts], write: &[&folder], humble };
+        let mut command = setup.povray.command(needs);
         command
             .current_dir(&folder)
             .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
@@ -117,28 +117,16 @@ impl Process {
             .args(["+Irun.pov", "+Oimage.png"])
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(File::create(folder.join("console.txt"))?)
-            // What the terminal sends to interrupt jabuka must not reach POV-Ray, which would leave its state behind.
-            .process_group(0);
-        let child = command.spawn()?;
+            .stderr(File::create(folder.join("console.txt"))?);
+        let child = Started::new(&mut command)?;
         let now = Instant::now();
-        Ok(Process {
-            child,
-            folder,
-            units,
-            names,
-            done: 0,
-            since: now,
-            cpu_before: 0.0,
-            alive: (0.0, now),
-            ended: false,
-        })
+        Ok(Process { child, folder, units, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
 
     /// Looks what has happened.
     pub(super) fn step(&mut self) -> Step {
         // First the end, then the images: what was there before the end is not missed.
-        let exit = match self.child.try_wait() {
+        let exit = match self.child.exit() {
             Ok(exit) => exit,
             Err(error) => return self.died(format!("it cannot be watched: {error}")),
         };
@@ -158,7 +146,7 @@ impl Process {
             }
         } else {
             // To wait for its end would cost a third of a second.
-            self.end();
+            self.child.end();
             return Step::Done;
         }
         match exit {
@@ -203,11 +191,16 @@ impl Process {
     fn fate(&mut self, exit: ExitStatus) -> Step {
         let message = said(&self.folder.join("errors.txt"));
         if exit.code() == Some(1) && !message.is_empty() {
-            self.end();
+            self.child.end();
             return Step::Broken { message, left: self.units.split_off(self.done) };
         }
         let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
         let console = String::from_utf8_lossy(&console);
+        // This is no parse error to POV-Ray, though it is found while the script is parsed: of images, fonts and the like.
+        if let Some(message) = console.lines().find_map(|line| line.strip_prefix("Fatal error in parser: ")) {
+            self.child.end();
+            return Step::Broken { message: message.to_owned(), left: self.units.split_off(self.done) };
+        }
         let last = console.lines().rev().find(|line| !line.trim().is_empty());
         let why = match (exit.signal(), exit.code()) {
             (Some(signal), _) => format!("it was killed by signal {signal}"),
@@ -221,26 +214,14 @@ impl Process {
     }
 
     fn died(&mut self, why: String) -> Step {
-        self.end();
+        self.child.end();
         Step::Died { why, left: self.units.split_off(self.done.min(self.units.len())) }
-    }
-
-    /// Ends the process and all that it has started.
-    fn end(&mut self) {
-        if self.ended {
-            return;
-        }
-        self.ended = true;
-        // What has ended already cannot be killed, and that is as good.
-        let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
-        let _ = self.child.kill();
-        let _ = self.child.wait();
     }
 }
 
 impl Drop for Process {
     fn drop(&mut self) {
-        self.end();
+        self.child.end();
         // What cannot be removed now is swept by the next run.
         let _ = fs::remove_dir_all(&self.folder);
     }
@@ -254,21 +235,6 @@ impl Names {
             Names::Own(number, digits) => format!("image{number:0digits$}.png"),
         }
     }
-}
-
-/// POV-Ray's command; where the system can, it ends with jabuka, however that ends.
-fn launcher(povray: &Path, humble: bool) -> Command {
-    let mut words: Vec<&std::ffi::OsStr> = Vec::new();
-    if which::which("setpriv").is_ok() && cfg!(target_os = "linux") {
-        words.extend(["setpriv", "--pdeathsig", "KILL"].map(std::ffi::OsStr::new));
-    }
-    if humble && which::which("nice").is_ok() {
-        words.extend(["nice", "-n", "10"].map(std::ffi::OsStr::new));
-    }
-    words.push(povray.as_os_str());
-    let mut command = Command::new(words[0]);
-    command.args(&words[1..]);
-    command
 }
 
 /// The script that includes another one for each frame number.

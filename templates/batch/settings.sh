@@ -49,8 +49,8 @@ read_settings_of() {
                     wrong_setting "FRAMES is a list such as 7,13-24, not \`$value\`"
                 printf -v "$key" '%s' "$value"
                 ;;
-            BLURRED)
-                [[ $value == yes || $value == no ]] || wrong_setting "BLURRED is yes or no, not \`$value\`"
+            BLURRED | TRUST)
+                [[ $value == yes || $value == no ]] || wrong_setting "$key is yes or no, not \`$value\`"
                 printf -v "$key" '%s' "$value"
                 ;;
             JOB | OPTIONS | POVRAY | JABUKA | FFMPEG | VIDEO_OPTIONS) printf -v "$key" '%s' "$value" ;;

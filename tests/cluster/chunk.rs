@@ -329,6 +329,29 @@ fn a_scene_with_motion_blur_is_a_job_of_as_many_images_as_frames() {
     assert!(stdout(&output).starts_with("done     0 of 3\n"), "{}", stdout(&output));
 }
 
+#[test]
+fn a_script_that_writes_elsewhere_fails_where_a_node_has_jabuka() {
+    let job = Job::new(&scene(2), &SLURM);
+    let victim = tempfile::NamedTempFile::new().unwrap();
+    let script = job.read("scripts/frame_0000.pov");
+    let write = format!("#fopen F \"{}\" write\n#write (F, \"gone\")\n", victim.path().display());
+    fs::write(job.join("scripts/frame_0000.pov"), script + &write).unwrap();
+    fs::write(job.join("local.conf"), format!("JABUKA={}\n", env!("CARGO_BIN_EXE_jabuka"))).unwrap();
+    let output = job.chunk(&["0-1"]);
+    assert_eq!(output.status.code(), Some(1), "{}{}", stdout(&output), stderr(&output));
+    assert_eq!(fs::read_to_string(victim.path()).unwrap(), "");
+    let said = stdout(&output);
+    assert!(said.starts_with("sandbox: Landlock, ABI "), "{said}");
+    assert!(said.contains("Cannot open user file"), "{said}");
+    assert_eq!(job.images(), ["frame_0001.png"]);
+    // Where it is not, nothing enforces this, and that is said.
+    let output = job.command("render-chunk").arg("1").env("PATH", path_without_jabuka()).output().unwrap();
+    assert!(stdout(&output).starts_with("sandbox: Landlock"), "local.conf names it");
+    fs::remove_file(job.join("local.conf")).unwrap();
+    let output = job.command("render-chunk").arg("1").env("PATH", path_without_jabuka()).output().unwrap();
+    assert!(stdout(&output).starts_with("sandbox: none, since `jabuka` is not there"), "{}", stdout(&output));
+}
+
 fn path_without_jabuka() -> String {
     let path = std::env::var("PATH").unwrap();
     path.split(':')

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use jabuka::render::{Film, FilmError};
 
 use crate::images::{plain, sequence};
-use crate::probe::{make, try_make};
+use crate::probe::{confined, make, try_make};
 
 /// Names of files in a folder, without the images.
 fn others(folder: &Path) -> Vec<String> {
@@ -35,7 +35,7 @@ fn make_by(script: &str, cancelled: &dyn Fn() -> bool) -> Result<(), FilmError> 
     let images = sequence(folder.path(), 5, (640, 480));
     let film = Film::new(folder.path().join("film.mp4")).unwrap();
     fs::write(film.path(), "yesterday's").unwrap();
-    let ffmpeg = film.check(Some(&stand_in(folder.path(), script))).unwrap();
+    let ffmpeg = film.check(Some(&stand_in(folder.path(), script)), confined()).unwrap();
     let result = film.make(&images, 25.0, &ffmpeg, cancelled, &|_| {});
     if result.is_err() {
         assert_eq!(others(folder.path()), ["ffmpeg.sh", "film.mp4"]);
@@ -101,7 +101,7 @@ fn a_real_ffmpeg_is_stopped_too() {
     let folder = tempfile::tempdir().unwrap();
     let images = sequence(folder.path(), 1, (640, 480));
     let film = Film::new(folder.path().join("film.webm")).unwrap();
-    let ffmpeg = film.check(None).unwrap();
+    let ffmpeg = film.check(None, confined()).unwrap();
     let start = Instant::now();
     let cancelled = || start.elapsed() > Duration::from_millis(300);
     let error = film.make(&vec![images[0].clone(); 100_000], 25.0, &ffmpeg, &cancelled, &|_| {}).unwrap_err();
@@ -112,14 +112,14 @@ fn a_real_ffmpeg_is_stopped_too() {
 #[test]
 fn a_missing_ffmpeg_is_told_early_with_how_to_install_it() {
     let film = Film::new("film.mp4").unwrap();
-    let error = film.check(Some(Path::new("no/ffmpeg"))).unwrap_err();
+    let error = film.check(Some(Path::new("no/ffmpeg")), confined()).unwrap_err();
     let message = "ffmpeg, which makes films, cannot be used: `no/ffmpeg`: there is no such program";
     assert_eq!(error.to_string(), message);
     let help = error.help().unwrap();
     assert!(
         ["apt install ffmpeg", "brew install ffmpeg", "dnf install ffmpeg"].iter().all(|c| help.contains(c))
     );
-    let error = film.check(Some(Path::new("true"))).unwrap_err().to_string();
+    let error = film.check(Some(Path::new("true")), confined()).unwrap_err().to_string();
     assert!(error.ends_with("`true`: it is no ffmpeg, for it does not tell its version"), "{error}");
 }
 
@@ -136,7 +136,7 @@ fn a_path_without_ffmpeg_has_none() {
 #[test]
 #[ignore = "the test before runs it where there is no ffmpeg"]
 fn finds_no_ffmpeg() {
-    let error = Film::new("film.mp4").unwrap().check(None).unwrap_err();
+    let error = Film::new("film.mp4").unwrap().check(None, confined()).unwrap_err();
     assert!(error.to_string().ends_with("`ffmpeg`: there is no such program"), "{error}");
 }
 
@@ -148,7 +148,7 @@ fn an_ffmpeg_without_the_encoder_is_told_early() {
         fs::read_to_string(&poor).unwrap().replace("echo Encoder x", "echo \"Codec 'x' is not recognized\"");
     fs::write(&poor, script).unwrap();
     for (name, encoder) in [("film.mp4", "libx264"), ("film.webm", "libvpx-vp9"), ("film.gif", "gif")] {
-        let error = Film::new(name).unwrap().check(Some(&poor)).unwrap_err().to_string();
+        let error = Film::new(name).unwrap().check(Some(&poor), confined()).unwrap_err().to_string();
         assert!(error.ends_with(&format!("was built without the encoder `{encoder}`")), "{error}");
     }
 }

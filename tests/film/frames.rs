@@ -6,7 +6,7 @@ use std::fs;
 use jabuka::render::Film;
 
 use crate::images::{plain, sequence};
-use crate::probe::{make, pixels, stream};
+use crate::probe::{confined, make, pixels, stream};
 
 #[test]
 fn every_rate_keeps_every_frame() {
@@ -131,7 +131,7 @@ fn progress_goes_up_to_the_number_of_images() {
     let folder = tempfile::tempdir().unwrap();
     let images = sequence(folder.path(), 30, (64, 48));
     let film = Film::new(folder.path().join("new folder/film.mp4")).unwrap();
-    let ffmpeg = film.check(None).unwrap();
+    let ffmpeg = film.check(None, confined()).unwrap();
     let last = Cell::new(0);
     let progress = |frames| {
         assert!(frames > last.get());

@@ -4,11 +4,18 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use jabuka::render::{Film, FilmError};
+use jabuka::sandbox::{Confinement, Launcher};
+
+/// ffmpeg is confined in all tests, as it is by the command.
+pub(crate) fn confined() -> Confinement {
+    Confinement::new(Some(Launcher::new(env!("CARGO_BIN_EXE_jabuka"))))
+}
 
 /// Makes a film, and tells why if it cannot be made.
 pub(crate) fn try_make(path: &Path, images: &[PathBuf], rate: f64) -> Result<(), FilmError> {
     let film = Film::new(path)?;
-    let ffmpeg = film.check(None).unwrap_or_else(|error| panic!("{error}: tests/run installs it"));
+    let ffmpeg =
+        film.check(None, confined()).unwrap_or_else(|error| panic!("{error}: tests/run installs it"));
     film.make(images, rate, &ffmpeg, &|| false, &|_| {})
 }
 

@@ -82,7 +82,7 @@ fn scripts_that_nobody_can_change_are_rendered_elsewhere() {
 fn a_folder_of_images_that_is_taken_away_is_said() {
     let place = Place::new(SCENE);
     let povray = place.stand_in("rm -rf \"$(dirname \"$0\")/out/scene/images\"; exec povray \"$@\"");
-    let output = place.run(&["render", "scene.toml", "--povray", &povray]);
+    let output = place.run(&["render", "scene.toml", "--trust", "--povray", &povray]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("error[cannot-write]"), "{}", stderr(&output));
 }

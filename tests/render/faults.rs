@@ -73,7 +73,7 @@ fn a_povray_that_is_killed_is_started_again() {
         "if grep -q frame_0013 run.pov && mkdir \"$(dirname \"$0\")/once\" 2>/dev/null; then kill -9 $$; fi
         exec povray \"$@\"",
     );
-    place.succeed(&["render", "scene.toml", "--povray", &povray]);
+    place.succeed(&["render", "scene.toml", "--trust", "--povray", &povray]);
     assert!(place.path("once").exists(), "nothing was killed");
     assert_eq!(place.images().len(), 26);
     assert_tidy(&place.path("out/scene/images"));
@@ -83,7 +83,7 @@ fn a_povray_that_is_killed_is_started_again() {
 fn a_povray_that_is_killed_each_time_fails_its_frame_alone() {
     let place = Place::new(SCENE);
     let povray = place.stand_in("if grep -q frame_0013 run.pov; then kill -9 $$; fi; exec povray \"$@\"");
-    let output = place.run(&["render", "scene.toml", "--povray", &povray, "--retry", "1"]);
+    let output = place.run(&["render", "scene.toml", "--trust", "--povray", &povray, "--retry", "1"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(place.images().len(), 25);
     let said = stderr(&output);
@@ -99,7 +99,7 @@ fn a_povray_that_hangs_is_ended_and_started_again() {
         exec povray \"$@\"",
     );
     let start = Instant::now();
-    place.succeed(&["render", "scene.toml", "--povray", &povray, "--time-limit", "5"]);
+    place.succeed(&["render", "scene.toml", "--trust", "--povray", &povray, "--time-limit", "5"]);
     assert!(place.path("once").exists(), "nothing hung");
     assert!(start.elapsed() < Duration::from_secs(120), "the hanging POV-Ray was waited for");
     assert_eq!(place.images().len(), 26);
@@ -111,7 +111,17 @@ fn a_povray_that_does_nothing_at_all_is_found_out_without_a_time_limit() {
     let place = Place::new(SCENE);
     let povray = place.stand_in("sleep 1000");
     let start = Instant::now();
-    let output = place.run(&["render", "scene.toml", "--povray", &povray, "--frames", "0-1", "--retry", "0"]);
+    let output = place.run(&[
+        "render",
+        "scene.toml",
+        "--trust",
+        "--povray",
+        &povray,
+        "--frames",
+        "0-1",
+        "--retry",
+        "0",
+    ]);
     assert_eq!(output.status.code(), Some(1));
     assert!(start.elapsed() < Duration::from_secs(100));
     assert!(

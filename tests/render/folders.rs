@@ -59,7 +59,7 @@ fn two_at_once_do_not_disturb_each_other() {
     let place = Place::new(SCENE);
     place.succeed(&["compile", "scene.toml"]);
     let povray = place.stand_in("touch \"$(dirname \"$0\")/started\"; exec povray \"$@\"");
-    let mut first = place.jabuka(&["render", "out/scene", "--povray", &povray]);
+    let mut first = place.jabuka(&["render", "scene.toml", "--trust", "--povray", &povray]);
     let mut first = first.stdout(Stdio::null()).spawn().unwrap();
     while !place.path("started").exists() {
         std::thread::sleep(std::time::Duration::from_millis(2));
@@ -97,7 +97,7 @@ fn what_is_missing_is_said() {
     fails(&["render", "empty"], 1, &["error[no-scripts]", "`empty`"]);
     place.succeed(&["compile", "scene.toml", "--frames", "0-3"]);
     fails(&["render", "out/scene", "--frames", "3-5"], 1, &["error[no-scripts]", "3-5"]);
-    fails(&["render", "out/scene", "--trust"], 2, &["`--trust`"]);
+    fails(&["render", "out/scene", "--set", "a=1"], 2, &["`--set`"]);
     fails(&["render", "out/scene", "--", "+Q8\n+Q9"], 2, &["a line break"]);
     let manifest = fs::read_to_string(place.path("out/scene/manifest.json")).unwrap();
     fs::write(place.path("out/scene/manifest.json"), manifest.replace("\"complete\"", "\"writing\""))

@@ -8,6 +8,7 @@ mod faults;
 mod folders;
 mod killed;
 mod pictures;
+mod sandbox;
 mod scene;
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 #[path = "../support/mod.rs"]

@@ -145,6 +145,7 @@ pub fn settings(
         options,
         files: files(scripts)?,
         blurred,
+        trust: false,
         limit: 3600,
     })
 }

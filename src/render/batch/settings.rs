@@ -12,7 +12,7 @@ pub const SETTINGS: &str = "job.conf";
 const OWN: &str = "local.conf";
 
 /// The keys of the settings.
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "JOB",
     "FRAMES",
     "LAST_FRAME",
@@ -22,6 +22,7 @@ const KEYS: [&str; 16] = [
     "CHUNK",
     "OPTIONS",
     "BLURRED",
+    "TRUST",
     "LIMIT",
     "FILE",
     "POVRAY",
@@ -54,6 +55,8 @@ pub struct Settings {
     pub files: Vec<String>,
     /// Whether some frames are averages of several moments.
     pub blurred: bool,
+    /// Whether the scripts may read all files, and write in the job's folder: the user trusts the scene.
+    pub trust: bool,
     /// The longest that one frame may take, s.
     pub limit: u64,
 }
@@ -87,6 +90,7 @@ impl Settings {
                 ("chunk", &self.chunk.to_string()),
                 ("options", &self.options),
                 ("blurred", if self.blurred { "yes" } else { "no" }),
+                ("trust", if self.trust { "yes" } else { "no" }),
                 ("limit", &self.limit.to_string()),
                 ("files", &files.join("\n")),
             ],
@@ -208,6 +212,7 @@ pub(super) mod tests {
             options: "+W64 +H36 +A0.1 +AM1 +R3".to_owned(),
             files: vec!["common.inc".to_owned(), "assets/a b 'c'.png".to_owned()],
             blurred: false,
+            trust: false,
             limit: 3600,
         }
     }
@@ -296,7 +301,9 @@ pub(super) mod tests {
             assert!(rust.contains(said), "{rust}");
         }
         // Bash runs what stands in the index of a number that it computes with.
-        for key in ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED"] {
+        for key in
+            ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED", "TRUST"]
+        {
             fs::write(folder.path().join(OWN), format!("{key}=LINENO[$(touch PWNED)]")).unwrap();
             assert!(read_by_bash(folder.path()).unwrap_err().contains(key));
         }

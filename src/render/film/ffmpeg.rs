@@ -2,23 +2,24 @@
 
 use std::collections::VecDeque;
 use std::ffi::OsString;
-use std::io::{self, BufRead, BufReader, Read, Write};
-use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{ChildStdin, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use rustix::process::{Pid, Signal, kill_process_group};
-
+use super::super::started::Started;
 use super::{FilmError, Format};
+use crate::sandbox::{Confinement, Needs};
 
 /// An ffmpeg that is there and can make a film of some format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ffmpeg {
     program: PathBuf,
     version: String,
+    confinement: Confinement,
 }
 
 /// How a run of ffmpeg has ended.
@@ -35,31 +36,33 @@ pub(super) struct End {
 
 impl Ffmpeg {
     /// Looks for a program, or for `ffmpeg` where the shell would, and asks it for the encoder of a format.
-    pub(super) fn find(program: Option<&Path>, format: Format) -> Result<Ffmpeg, FilmError> {
+    pub(super) fn find(
+        program: Option<&Path>,
+        format: Format,
+        confinement: Confinement,
+    ) -> Result<Ffmpeg, FilmError> {
         let program = program.unwrap_or(Path::new("ffmpeg"));
+        let unusable = |why: String| FilmError::NoFfmpeg(program.to_owned(), why);
+        if which::which(program).is_err() {
+            return Err(unusable("there is no such program".to_owned()));
+        }
         let ask = |arguments: &[&str]| {
-            let output =
-                Command::new(program).args(arguments).stdin(Stdio::null()).output().map_err(|error| {
-                    let why = match error.kind() {
-                        io::ErrorKind::NotFound => "there is no such program".to_owned(),
-                        _ => error.to_string(),
-                    };
-                    FilmError::NoFfmpeg(program.to_owned(), why)
-                })?;
+            let mut command = confinement.command(program, Needs::default());
+            let output = command.args(arguments).stdin(Stdio::null()).output();
+            let output = output.map_err(|error| unusable(error.to_string()))?;
             Ok(String::from_utf8_lossy(&output.stdout).into_owned())
         };
         let answer = ask(&["-version"])?;
         let version = answer.strip_prefix("ffmpeg version ").and_then(|rest| rest.split_whitespace().next());
         let Some(version) = version else {
-            let why = "it is no ffmpeg, for it does not tell its version".to_owned();
-            return Err(FilmError::NoFfmpeg(program.to_owned(), why));
+            return Err(unusable("it is no ffmpeg, for it does not tell its version".to_owned()));
         };
         let encoder = format.encoder();
         let answer = ask(&["-hide_banner", "-loglevel", "error", "-h", &format!("encoder={encoder}")])?;
         if !answer.starts_with("Encoder ") {
             return Err(FilmError::NoEncoder(program.to_owned(), encoder));
         }
-        Ok(Ffmpeg { program: program.to_owned(), version: version.to_owned() })
+        Ok(Ffmpeg { program: program.to_owned(), version: version.to_owned(), confinement })
     }
 
     /// Its path, or its name where that was enough to find it.
@@ -72,7 +75,7 @@ impl Ffmpeg {
         &self.version
     }
 
-    /// Runs it. `feed` writes to its standard input, on a thread of its own; `progress` is told how many frames it has
+    /// Runs it, so that it writes the file `film` and nothing else. `feed` writes to its standard input, on a thread of its own; `progress` is told how many frames it has
     /// written.
     ///
     /// # Errors
@@ -80,11 +83,13 @@ impl Ffmpeg {
     pub(super) fn run(
         &self,
         arguments: &[OsString],
+        film: &Path,
         feed: impl FnOnce(&mut dyn Write, &AtomicBool) -> Result<(), FilmError> + Send,
         cancelled: &dyn Fn() -> bool,
         progress: &dyn Fn(usize),
     ) -> Result<End, FilmError> {
-        let mut command = Command::new(&self.program);
+        let needs = Needs { write: &[film], ..Needs::default() };
+        let mut command = self.confinement.command(&self.program, needs);
         command
             .args(["-hide_banner", "-loglevel", "error", "-nostats", "-xerror", "-progress", "pipe:1"])
             .args(arguments)
@@ -95,28 +100,25 @@ impl Ffmpeg {
             .env("LC_ALL", "C")
             // Either would put what nobody has asked for into the messages or into the folder.
             .env_remove("AV_LOG_FORCE_COLOR")
-            .env_remove("FFREPORT")
-            // What the terminal sends to interrupt jabuka must not reach ffmpeg, which would end a film too early.
-            .process_group(0);
-        let spawned = command.spawn();
-        let child = spawned.map_err(|error| FilmError::NoFfmpeg(self.program.clone(), error.to_string()))?;
-        let mut running = Running { child, exit: None };
-        let (input, output, errors) =
-            (running.child.stdin.take(), running.child.stdout.take(), running.child.stderr.take());
+            .env_remove("FFREPORT");
+        let started = Started::new(&mut command);
+        let mut running =
+            started.map_err(|error| FilmError::NoFfmpeg(self.program.clone(), error.to_string()))?;
+        let (input, output, errors) = running.pipes();
         let (stop, frames) = (AtomicBool::new(false), AtomicUsize::new(0));
+        let mut shown = 0;
         thread::scope(|scope| {
             let feeder =
                 scope.spawn(|| input.map_or(Ok(()), |mut input: ChildStdin| feed(&mut input, &stop)));
             scope.spawn(|| output.map(|output| count(output, &frames)));
             let said = scope.spawn(|| errors.map(last_lines).unwrap_or_default());
-            let mut shown = 0;
             let stopped = loop {
                 let now = frames.load(Ordering::Relaxed);
                 if now != shown {
                     progress(now);
                     shown = now;
                 }
-                if running.has_ended() {
+                if running.exit().is_ok_and(|exit| exit.is_some()) {
                     break false;
                 }
                 let has_failed = feeder.is_finished() && stop.load(Ordering::Relaxed);
@@ -136,39 +138,14 @@ impl Ffmpeg {
             let said = said.join().unwrap_or_default();
             Ok(End { success: exit.is_some_and(|exit| exit.success()), how: how(exit), said, frames: 0 })
         })
-        .map(|end| End { frames: frames.load(Ordering::Relaxed), ..end })
-    }
-}
-
-/// A process that is ended when nobody wants it any more.
-struct Running {
-    child: Child,
-    exit: Option<ExitStatus>,
-}
-
-impl Running {
-    fn has_ended(&mut self) -> bool {
-        if self.exit.is_none() {
-            self.exit = self.child.try_wait().ok().flatten();
-        }
-        self.exit.is_some()
-    }
-
-    /// Ends it, if it has not ended, with all that it has started: `ffmpeg` may be a script that runs another.
-    fn end(&mut self) -> Option<ExitStatus> {
-        if self.exit.is_none() {
-            // What has ended already cannot be killed, and that is as good.
-            let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
-            let _ = self.child.kill();
-            self.exit = self.child.wait().ok();
-        }
-        self.exit
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.end();
+        .map(|end| {
+            // The last of them may have been counted after the last look.
+            let frames = frames.load(Ordering::Relaxed);
+            if frames != shown {
+                progress(frames);
+            }
+            End { frames, ..end }
+        })
     }
 }
 

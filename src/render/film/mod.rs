@@ -38,6 +38,7 @@ pub use format::Format;
 pub(super) use target::Target;
 
 use super::picture::{self, Picture, Size};
+use crate::sandbox::Confinement;
 
 /// A film that is to be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,12 +85,12 @@ impl Film {
     }
 
     /// Finds what makes the film, so that a lack of it is known before anything is rendered: a program, or `ffmpeg` where the
-    /// shell would find it.
+    /// shell would find it. The confinement is that of all its runs.
     ///
     /// # Errors
     /// Where it is not there, or cannot make this format.
-    pub fn check(&self, ffmpeg: Option<&Path>) -> Result<Ffmpeg, FilmError> {
-        Ffmpeg::find(ffmpeg, self.format)
+    pub fn check(&self, ffmpeg: Option<&Path>, confinement: Confinement) -> Result<Ffmpeg, FilmError> {
+        Ffmpeg::find(ffmpeg, self.format, confinement)
     }
 
     /// Whether a film can have this rate, in frames per second.
@@ -140,7 +141,7 @@ impl Film {
             }
             Ok(())
         };
-        let end = ffmpeg.run(&arguments, feed, cancelled, progress)?;
+        let end = ffmpeg.run(&arguments, target.temporary(), feed, cancelled, progress)?;
         self.judge(end, images.len())?;
         target.finish()
     }

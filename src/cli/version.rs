@@ -1,0 +1,43 @@
+//! `jabuka --version --verbose`: what is there to render with.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use jabuka::sandbox;
+
+/// Whether more than the version is asked for. clap stops at `--version`, so the arguments after it are not parsed.
+pub(super) fn is_verbose() -> bool {
+    std::env::args_os().skip(1).any(|argument| {
+        let argument = argument.to_string_lossy();
+        argument == "--verbose"
+            || (argument.starts_with('-') && !argument.starts_with("--") && argument.contains('v'))
+    })
+}
+
+/// The versions of jabuka, POV-Ray and ffmpeg, and what the sandbox enforces.
+pub(super) fn report() -> String {
+    format!(
+        "jabuka   {}\nPOV-Ray  {}\nffmpeg   {}\nsandbox  {}\n",
+        env!("CARGO_PKG_VERSION"),
+        found("povray", "--version", "POV-Ray "),
+        found("ffmpeg", "-version", "ffmpeg version "),
+        sandbox::enforced()
+    )
+}
+
+/// The version of a program, which it says after some words, and where it is.
+fn found(name: &str, option: &str, before: &str) -> String {
+    let Ok(path) = which::which(name) else { return format!("not found: no `{name}` on the PATH") };
+    match ask(&path, option, before) {
+        Some(version) => format!("{version} ({})", path.display()),
+        None => format!("unknown: `{} {option}` does not tell its version", path.display()),
+    }
+}
+
+fn ask(path: &Path, option: &str, before: &str) -> Option<String> {
+    let output = Command::new(path).arg(option).stdin(Stdio::null()).output().ok()?;
+    let said = [output.stdout, output.stderr].concat();
+    let said = String::from_utf8_lossy(&said);
+    let version = said.lines().find_map(|line| line.strip_prefix(before)?.split_whitespace().next())?;
+    Some(version.to_owned())
+}

@@ -1,0 +1,102 @@
+//! The rules as Linux takes them, by Landlock, and what this kernel can enforce.
+
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use landlock::{
+    ABI, Access, AccessFs, AccessNet, BitFlags, LandlockStatus, PathBeneath, PathFd, Ruleset, RulesetAttr,
+    RulesetCreatedAttr, RulesetError, Scope, make_bitflags,
+};
+
+use super::LaunchError;
+
+/// The newest rules that jabuka was tested with. An older kernel enforces those that it knows.
+const NEWEST: ABI = ABI::V7;
+
+/// Restricts this thread, and all that it starts, to reading and writing these paths. What is to be read need not exist.
+/// TCP, signals to others and abstract sockets are refused altogether.
+///
+/// # Errors
+/// Where the kernel refuses the rules, or a path to write does not exist.
+pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
+    // A program makes no devices, no links and no pipes: jabuka reads what it leaves behind.
+    let written = AccessFs::from_all(NEWEST)
+        & !make_bitflags!(AccessFs::{Execute | MakeChar | MakeBlock | MakeSock | MakeFifo | MakeSym | IoctlDev});
+    let refused = |error: RulesetError| LaunchError::Refused(error.to_string());
+    let ruleset = Ruleset::default()
+        .handle_access(AccessFs::from_all(NEWEST))
+        .and_then(|ruleset| ruleset.handle_access(AccessNet::from_all(NEWEST)))
+        .and_then(|ruleset| ruleset.scope(Scope::from_all(NEWEST)))
+        .and_then(Ruleset::create)
+        .map_err(refused)?;
+    // A missing path needs no rule: nothing is there to be read.
+    let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST)).ok());
+    let writing: Result<Vec<_>, LaunchError> = write
+        .iter()
+        .map(|path| beneath(path, written).map_err(|why| LaunchError::Write(path.clone(), why)))
+        .collect();
+    // Scripts throw away what others say by this file.
+    let null = beneath(Path::new("/dev/null"), written).ok();
+    let rules = reading.chain(writing?).chain(null).map(Ok::<_, RulesetError>);
+    ruleset.add_rules(rules).and_then(landlock::RulesetCreated::restrict_self).map_err(refused)?;
+    Ok(())
+}
+
+/// The rule for a file, or a folder with all that is below it.
+fn beneath(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd>, String> {
+    let opened = PathFd::new(path).map_err(|error| error.to_string())?;
+    let access = if path.is_dir() { access } else { access & AccessFs::from_file(NEWEST) };
+    Ok(PathBeneath::new(opened, access))
+}
+
+/// What this kernel enforces, in a few words: for people and for logs.
+pub fn enforced() -> String {
+    // The crate tells it only to a thread that has restricted itself. This one does nothing else.
+    let ask = || {
+        let ruleset = Ruleset::default().handle_access(AccessFs::MakeBlock).ok()?.create().ok()?;
+        ruleset.restrict_self().ok().map(|status| status.landlock)
+    };
+    match thread::spawn(ask).join().ok().flatten() {
+        Some(LandlockStatus::Available { effective_abi, kernel_abi }) => {
+            let number = kernel_abi.map_or_else(|| effective_abi.to_string(), |abi| abi.to_string());
+            let lacking = lacking(effective_abi);
+            let lacking = if lacking.is_empty() {
+                String::new()
+            } else {
+                format!("; this kernel cannot forbid {}", lacking.join(", nor "))
+            };
+            format!("Landlock, ABI {number}{lacking}")
+        }
+        Some(LandlockStatus::NotEnabled) => {
+            "none: Landlock is switched off on this machine (see the kernel's option `lsm=`)".to_owned()
+        }
+        Some(LandlockStatus::NotImplemented) => {
+            "none: this kernel has no Landlock, which came with Linux 5.13".to_owned()
+        }
+        None => "none: the kernel refuses Landlock".to_owned(),
+    }
+}
+
+/// What the rules of an older kernel do not cover.
+fn lacking(abi: ABI) -> Vec<&'static str> {
+    let mut lacking = Vec::new();
+    if abi < ABI::V3 {
+        lacking.push("to empty files of others");
+    }
+    if abi < ABI::V4 {
+        lacking.push("network connections");
+    }
+    lacking
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_old_kernel_cannot_forbid_is_known() {
+        assert_eq!(lacking(ABI::V2), ["to empty files of others", "network connections"]);
+        assert_eq!(lacking(ABI::V3), ["network connections"]);
+        assert_eq!(lacking(ABI::V7), [""; 0]);
+    }
+}

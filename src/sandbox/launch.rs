@@ -1,0 +1,117 @@
+//! What the launcher does before it becomes the program.
+
+use std::ffi::OsString;
+use std::fmt;
+use std::io;
+use std::os::unix::process::CommandExt;
+use std::path::PathBuf;
+use std::process::Command;
+
+use super::{landlock, readable};
+
+/// A program that is to be started in the sandbox.
+#[derive(Clone, Debug, Default)]
+pub struct Launch {
+    /// The program: a path, or a name that is looked for in the `PATH`.
+    pub program: PathBuf,
+    /// Its arguments.
+    pub arguments: Vec<OsString>,
+    /// What it may read and run, beside what every program may: files, or folders with all that is below them.
+    pub read: Vec<PathBuf>,
+    /// What it may read and write. Files must exist. The first folder also takes its temporary files.
+    pub write: Vec<PathBuf>,
+    /// The process that must be its parent: where that has ended, the program does not start.
+    pub parent: Option<i32>,
+    /// How far it lets other processes go first, as `nice` counts.
+    pub nice: Option<i32>,
+}
+
+/// Why a program was not started.
+#[derive(Debug)]
+pub enum LaunchError {
+    /// There is no such program.
+    NotFound(PathBuf),
+    /// The parent has ended.
+    Orphan,
+    /// The kernel refuses the rules.
+    Refused(String),
+    /// A path that is to be written does not exist or cannot be opened.
+    Write(PathBuf, String),
+    /// The system does not start the program.
+    Start(PathBuf, io::Error),
+}
+
+impl LaunchError {
+    /// The exit code that shells use for it.
+    pub fn code(&self) -> u8 {
+        match self {
+            LaunchError::NotFound(_) => 127,
+            _ => 126,
+        }
+    }
+}
+
+impl Launch {
+    /// Confines this process, and becomes the program. From then on, the program ends when the thread that started this
+    /// process ends. Returns only if it fails.
+    pub fn run(&self) -> LaunchError {
+        if let Some(error) = self.follow_parent() {
+            return error;
+        }
+        if let Some(nice) = self.nice {
+            // A system that refuses this only shares its processors differently.
+            let _ = rustix::process::nice(nice);
+        }
+        let Ok(program) = which::which(&self.program) else {
+            return LaunchError::NotFound(self.program.clone());
+        };
+        let mut read = self.read.clone();
+        read.extend(readable::by_all());
+        read.extend(readable::by(&program, &self.arguments));
+        if let Err(error) = landlock::restrict(&read, &self.write) {
+            return error;
+        }
+        let mut command = Command::new(&program);
+        command.args(&self.arguments);
+        if let Some(folder) = self.write.iter().find(|path| path.is_dir()) {
+            for variable in ["TMPDIR", "POV_TEMP_DIR"] {
+                command.env(variable, std::path::absolute(folder).unwrap_or_else(|_| folder.clone()));
+            }
+        }
+        let error = command.exec();
+        LaunchError::Start(program, error)
+    }
+
+    /// Ties this process to its parent: the system ends it when the parent's thread ends.
+    #[cfg(target_os = "linux")]
+    fn follow_parent(&self) -> Option<LaunchError> {
+        use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
+        if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
+            return Some(LaunchError::Refused(error.to_string()));
+        }
+        // A parent that ended before this line sent no signal.
+        let parent = getppid().map(Pid::as_raw_pid);
+        (self.parent.is_some() && self.parent != parent).then_some(LaunchError::Orphan)
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn follow_parent(&self) -> Option<LaunchError> {
+        None
+    }
+}
+
+impl fmt::Display for LaunchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LaunchError::NotFound(program) => write!(f, "there is no program `{}`", program.display()),
+            LaunchError::Orphan => f.write_str("the process that wanted the program has ended"),
+            LaunchError::Refused(why) => write!(f, "the sandbox cannot be made: {why}"),
+            LaunchError::Write(path, why) => {
+                write!(f, "`{}` cannot be opened to the sandbox: {why}", path.display())
+            }
+            LaunchError::Start(program, error) => write!(f, "cannot start `{}`: {error}", program.display()),
+        }
+    }
+}
+
+impl std::error::Error for LaunchError {}

@@ -1,0 +1,160 @@
+//! What every program may read: the system's folders, and the files of the program itself.
+//!
+//! Other folders hold what belongs to people: their homes, `/tmp`, `/srv`, `/mnt`, `/media`, `/data`. None of them is here.
+
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+
+/// Programs, libraries and what they are configured by, on all distributions.
+const SYSTEM: &[&str] = &[
+    "/usr",
+    "/bin",
+    "/sbin",
+    "/lib",
+    "/lib32",
+    "/lib64",
+    "/libx32",
+    "/opt",
+    // Nix, Guix, Homebrew on Linux, snaps.
+    "/nix/store",
+    "/gnu/store",
+    "/run/current-system",
+    "/home/linuxbrew/.linuxbrew",
+    "/snap",
+    // Of /etc only what programs start with; it also holds keys and passwords.
+    "/etc/alternatives",
+    "/etc/fonts",
+    "/etc/group",
+    "/etc/ld.so.cache",
+    "/etc/ld.so.conf",
+    "/etc/ld.so.conf.d",
+    "/etc/ld.so.preload",
+    "/etc/locale.alias",
+    "/etc/localtime",
+    "/etc/nsswitch.conf",
+    "/etc/passwd",
+    "/etc/povray",
+    "/etc/static",
+    "/var/cache/fontconfig",
+    "/dev/full",
+    "/dev/null",
+    "/dev/random",
+    "/dev/tty",
+    "/dev/urandom",
+    "/dev/zero",
+    // Number of processors and free memory. A process finds itself below its own number.
+    "/proc/cpuinfo",
+    "/proc/filesystems",
+    "/proc/meminfo",
+    "/proc/self",
+    "/proc/stat",
+    "/proc/sys",
+    "/sys/devices/system/cpu",
+    "/sys/devices/system/node",
+    "/sys/fs/cgroup",
+];
+
+/// What lies beside the folder `bin` of a program that was installed outside of the system's folders.
+const INSTALLED: &[&str] = &["lib", "lib32", "lib64", "libexec", "etc/povray"];
+
+/// What all programs may read.
+pub(super) fn by_all() -> impl Iterator<Item = PathBuf> {
+    SYSTEM.iter().map(PathBuf::from)
+}
+
+/// What a program may read beside: its own folder, its libraries, its configuration, and the folders and settings that its
+/// arguments name.
+pub(super) fn by(program: &Path, arguments: &[OsString]) -> Vec<PathBuf> {
+    let home = std::env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
+    let canonical = program.canonicalize().unwrap_or_else(|_| program.to_owned());
+    let mut paths = vec![canonical.clone()];
+    paths.extend(canonical.parent().filter(|folder| is_narrow(folder, home.as_deref())).map(Path::to_owned));
+    paths.extend(installed_with(&canonical));
+    if let Some(libraries) = std::env::var_os("LD_LIBRARY_PATH") {
+        let folders = std::env::split_paths(&libraries);
+        paths.extend(folders.filter(|folder| is_narrow(folder, home.as_deref())));
+    }
+    paths.extend(home.map(|home| home.join(".povray")));
+    paths.extend(std::env::var_os("POVINI").map(PathBuf::from));
+    paths.extend(arguments.iter().filter_map(|argument| named(argument)));
+    paths
+}
+
+/// Whether a folder is not one that holds everything of somebody: a home, what homes are in, or the folder of all
+/// temporary files.
+fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
+    let temporary = std::env::temp_dir();
+    let broad = [Some(Path::new("/tmp")), Some(Path::new("/var/tmp")), Some(temporary.as_path()), home];
+    let resolved = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    folder.is_absolute()
+        && !broad.into_iter().flatten().any(|broad| {
+            broad.starts_with(&resolved)
+                || broad.canonicalize().is_ok_and(|broad| broad.starts_with(&resolved))
+        })
+}
+
+/// What was installed together with a program in a folder `bin`.
+fn installed_with(program: &Path) -> Vec<PathBuf> {
+    let folder = program.parent().filter(|folder| folder.file_name() == Some(OsStr::new("bin")));
+    let Some(root) = folder.and_then(Path::parent) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> = INSTALLED.iter().map(|name| root.join(name)).collect();
+    let shared = fs::read_dir(root.join("share")).into_iter().flatten().flatten();
+    paths.extend(
+        shared.filter(|entry| entry.file_name().as_bytes().starts_with(b"povray")).map(|entry| entry.path()),
+    );
+    paths
+}
+
+/// The folder of includes, or the file of settings, that an argument of POV-Ray's names with its whole path.
+fn named(argument: &OsStr) -> Option<PathBuf> {
+    let bytes = argument.as_bytes();
+    let library = [&b"+L"[..], b"-L", b"Library_Path="].iter().find_map(|start| bytes.strip_prefix(*start));
+    let settings = bytes.ends_with(b".ini").then_some(bytes);
+    let path = Path::new(OsStr::from_bytes(library.or(settings)?));
+    path.is_absolute().then(|| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_brings_its_own_files_and_not_a_whole_home() {
+        let place = tempfile::tempdir().unwrap();
+        let root = place.path().canonicalize().unwrap();
+        for name in ["bin/povray", "share/povray-3.7/x.inc", "share/keyrings/secret"] {
+            let path = root.join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "").unwrap();
+        }
+        let paths = by(&root.join("bin/povray"), &[]);
+        let has = |name: &str| paths.contains(&root.join(name));
+        assert!(has("bin/povray") && has("bin") && has("lib") && has("share/povray-3.7"), "{paths:?}");
+        assert!(!has("share") && !has("share/keyrings") && !has(""), "{paths:?}");
+
+        let home = Path::new("/home/me");
+        for (folder, narrow) in [
+            ("/home/me/bin", true),
+            ("/home/me", false),
+            ("/home", false),
+            ("/", false),
+            ("/tmp", false),
+            ("lib", false),
+        ] {
+            assert_eq!(is_narrow(Path::new(folder), Some(home)), narrow, "{folder}");
+        }
+    }
+
+    #[test]
+    fn arguments_name_folders_and_settings_by_whole_paths() {
+        let path = |argument: &str| named(OsStr::new(argument));
+        assert_eq!(path("+L/opt/x"), Some(PathBuf::from("/opt/x")));
+        assert_eq!(path("Library_Path=/y z"), Some(PathBuf::from("/y z")));
+        assert_eq!(path("/etc/a.ini"), Some(PathBuf::from("/etc/a.ini")));
+        for argument in ["+Lscripts", "a.ini", "+O/x.png", "file:/x", "+W64"] {
+            assert_eq!(path(argument), None, "{argument}");
+        }
+    }
+}
