@@ -67,9 +67,10 @@ fn snippet<'a>(
     let line = sources.position(labels[0].span.source, window.start).line;
     let annotations = labels.iter().enumerate().map(|(i, label)| {
         let kind = if i == 0 && first_is_primary { AnnotationKind::Primary } else { AnnotationKind::Context };
-        let end = label.span.end.clamp(label.span.start, window.end);
+        let start = boundary(&source.text, label.span.start);
+        let end = boundary(&source.text, label.span.end).clamp(start, window.end.max(start));
         let text = (!label.text.is_empty()).then_some(label.text.as_str());
-        kind.span(label.span.start - window.start..end - window.start).label(text)
+        kind.span(start - window.start..end - window.start).label(text)
     });
     Snippet::source(&source.text[window.clone()])
         .path(visible(&source.name))
@@ -80,7 +81,7 @@ fn snippet<'a>(
 /// The lines that the labels touch, as a range of bytes: a thousand errors in a long file cost a thousand
 /// short texts, not a thousand files.
 fn window(labels: &[Label], text: &str) -> Range<usize> {
-    let start = labels.iter().map(|l| l.span.start).min().unwrap_or(0).min(text.len());
+    let start = labels.iter().map(|l| boundary(text, l.span.start)).min().unwrap_or(0);
     // A label that spans many lines is shown by its first ones.
     let end = labels.iter().map(|l| first_lines_end(l, text)).max().unwrap_or(0).max(start);
     let start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -90,9 +91,15 @@ fn window(labels: &[Label], text: &str) -> Range<usize> {
 
 fn first_lines_end(label: &Label, text: &str) -> usize {
     const LINES: usize = 4;
-    let end = label.span.end.min(text.len());
-    let start = label.span.start.min(end);
+    let end = boundary(text, label.span.end);
+    let start = boundary(text, label.span.start).min(end);
     text[start..end].match_indices('\n').nth(LINES - 1).map_or(end, |(newline, _)| start + newline)
+}
+
+/// The start of the character that a byte belongs to, or the end of the text.
+fn boundary(text: &str, byte: usize) -> usize {
+    let byte = byte.min(text.len());
+    (0..=byte).rev().find(|&byte| text.is_char_boundary(byte)).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -161,5 +168,16 @@ mod tests {
         let text = report.to_text(false);
         assert_eq!(text.matches("error[test]").count(), MOST_OF_A_LINE);
         assert!(text.ends_with("… and 3 more in line 1 of scene.toml\n\n"), "{text}");
+    }
+
+    #[test]
+    fn a_place_within_a_character_or_behind_the_text_is_shown_all_the_same() {
+        let mut sources = Sources::default();
+        let id = sources.add("scene.toml", "π = 1\nü");
+        for (start, end) in [(1, 1), (1, 2), (0, 1), (8, 99), (99, 120), (3, 1)] {
+            let error = Diagnostic::error("test", "wrong").at(Span::new(id, start..end), "here");
+            let report = Report { sources: sources.clone(), diagnostics: vec![error] };
+            assert!(report.to_text(false).contains("scene.toml:"), "{start}..{end}");
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
 //! | a run in the background, its frames on disk | `run`, `recording` |
+//! | a panic in either, as an error on the page | `panicked` |
 //! | what the page is told of it | `describe`, `shown`, `samples` |
 //! | the server, who may ask it, and why there is no answer | `routes`, `access`, `failed` |
 //! | a frame by POV-Ray | `render` |
@@ -13,6 +14,7 @@ mod access;
 mod describe;
 mod failed;
 mod page;
+mod panicked;
 mod recording;
 mod render;
 mod routes;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use super::panicked::caught;
 use super::recording::Recording;
 use crate::diagnostic::{Diagnostic, Report};
 use crate::output::OutputError;
@@ -58,7 +59,7 @@ pub(super) struct Progress {
     /// Whether all is known of it.
     settled: bool,
     /// Why it ended early.
-    problem: Option<String>,
+    pub(super) problem: Option<String>,
     warnings: Option<String>,
 }
 
@@ -82,7 +83,7 @@ impl Simulation {
         });
         let own = Arc::clone(&run);
         thread::Builder::new().name("run".to_owned()).spawn(move || {
-            let outcome = own.simulate(&pulse);
+            let outcome = caught("simulating", || own.simulate(&pulse));
             // Nobody else sets it.
             let _ = own.outcome.set(outcome);
             pulse();

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -11,16 +11,21 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use tokio::sync::watch;
 
+use super::panicked::caught;
 use super::run::{Progress, RunId, Simulation, no_room};
 use super::watch::{INTERVAL, Watched};
 use crate::Scene;
 use crate::diagnostic::Report;
 use crate::scene::{Options, Override};
 
+/// Reads a scene from its file.
+type Reader = dyn Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync;
+
 /// What is previewed. All pages that are open see the same.
 pub(super) struct Session {
     path: PathBuf,
     pub(super) options: Options,
+    reader: Box<Reader>,
     inner: Mutex<Inner>,
     next: AtomicU64,
     /// Counts whatever changes.
@@ -83,8 +88,19 @@ impl Session {
         options: Options,
         said: impl Fn(&Report) + Send + Sync + 'static,
     ) -> Arc<Session> {
+        Session::with_reader(path, options, said, |path, options| Scene::from_path_with(path, options))
+    }
+
+    /// A session whose scene is read by the given function.
+    fn with_reader(
+        path: PathBuf,
+        options: Options,
+        said: impl Fn(&Report) + Send + Sync + 'static,
+        reader: impl Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync + 'static,
+    ) -> Arc<Session> {
         let (inner, next) = (Mutex::default(), AtomicU64::new(1));
-        Arc::new(Session { path, options, inner, next, pulse: watch::Sender::new(0), said: Box::new(said) })
+        let (reader, pulse, said) = (Box::new(reader), watch::Sender::new(0), Box::new(said));
+        Arc::new(Session { path, options, reader, inner, next, pulse, said })
     }
 
     /// Reads the scene, and again whenever one of its files changes, until somebody asks to stop.
@@ -147,7 +163,7 @@ impl Session {
                 }
                 inner.generation
             };
-            let scene = Scene::from_path_with(&self.path, &self.options_of(&variant))?;
+            let scene = self.scene(&self.options_of(&variant))?;
             let run = self.begin(scene).map_err(|error| no_room(&error))?;
             let mut inner = self.lock();
             let other = inner.variant(&variant);
@@ -177,10 +193,15 @@ impl Session {
         options
     }
 
+    /// The scene, as its files are now. A panic is an error like any other: the next save is read.
+    fn scene(&self, options: &Options) -> Result<Scene, Report> {
+        caught("reading the scene", || (self.reader)(&self.path, options))
+    }
+
     /// Reads the scene; tells whether it should be read once more, since it may have changed meanwhile.
     fn read(self: &Arc<Session>, watched: &mut Watched) -> bool {
         *watched = Watched::new(&watched.files());
-        let read = Scene::from_path_with(&self.path, &self.options);
+        let read = self.scene(&self.options);
         let report = read.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
         watched.add(report.sources.files());
         match read {
@@ -242,5 +263,63 @@ impl Session {
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Follow;
+
+    /// A session whose reading panics at the word `panic`, and whose run panics at the word `lost`.
+    fn fragile(path: PathBuf) -> Arc<Session> {
+        let read = |path: &Path, options: &Options| {
+            let mut scene = Scene::from_path_with(path, options)?;
+            match scene.title.as_deref() {
+                Some("panic") => panic!("cannot read π"),
+                Some("lost") => {
+                    scene.camera.motion.follow = Some(Follow { body: 7, distance: None, lag: None });
+                }
+                _ => {}
+            }
+            Ok(scene)
+        };
+        Session::with_reader(path, Options::default(), |_| {}, read)
+    }
+
+    #[test]
+    fn after_a_panic_the_next_save_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let save = |title: &str| {
+            let text = format!("title = '{title}'\n[body.ball]\nshape.sphere.radius = 1\n");
+            std::fs::write(&path, text).unwrap();
+        };
+        let (session, stop) = (fragile(path.clone()), AtomicBool::new(false));
+        let wait = |is_so: &dyn Fn(&State) -> bool| {
+            while !is_so(&session.state()) {
+                thread::sleep(Duration::from_millis(1));
+            }
+        };
+        let of_run = |state: &State| state.runs.values().find_map(|run| run.problem.clone());
+        save("panic");
+        let problems = thread::scope(|scope| {
+            scope.spawn(|| session.follow(&stop));
+            wait(&|state| state.problem.is_some());
+            let of_reading = session.state().problem;
+            save("good");
+            wait(&|state| state.problem.is_none() && state.current.is_some());
+            save("lost");
+            wait(&|state| of_run(state).is_some());
+            let of_simulating = of_run(&session.state());
+            save("good again");
+            wait(&|state| of_run(state).is_none());
+            stop.store(true, Ordering::Relaxed);
+            [of_reading, of_simulating].map(Option::unwrap_or_default)
+        });
+        let expected = ["reading the scene: cannot read π", "simulating: index out of bounds"];
+        for (problem, expected) in problems.iter().zip(expected) {
+            assert!(problem.contains(&format!("jabuka failed while {expected}")), "{problem}");
+        }
     }
 }

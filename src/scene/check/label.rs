@@ -177,7 +177,7 @@ impl Reader<'_, '_, '_> {
         let mut dotted = Vec::new();
         for (at, _) in formula.match_indices('.') {
             let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            let begin = formula[..at].rfind(|c| !is_part(c)).map_or(0, |before| before + 1);
+            let begin = formula[..at].trim_end_matches(is_part).len();
             let rest = &formula[at + 1..];
             let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
             let (body, measure) = (&formula[begin..at], &formula[at + 1..end]);
@@ -307,3 +307,6 @@ fn format_of(text: &str) -> Option<Format> {
     let decimals = digits.strip_prefix('.')?.parse::<usize>().ok().filter(|decimals| *decimals <= 12)?;
     Some(if scientific { Format::Scientific(decimals) } else { Format::Decimals(decimals) })
 }
+
+#[cfg(test)]
+mod tests;

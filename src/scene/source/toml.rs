@@ -26,7 +26,8 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     let mut last_line = None;
     for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
         // What comes second on a line is mostly a consequence of what comes first.
-        let line = error.span().map(|range| text[..range.start].rfind('\n'));
+        let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
+        let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
         if line.is_none() || line != last_line {
             diagnostics.push(syntax::diagnose(error, text, source));
         }

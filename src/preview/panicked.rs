@@ -1,0 +1,25 @@
+//! Turns a panic, which is a mistake in jabuka, into an error that the page can show.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use crate::diagnostic::{Diagnostic, Report};
+
+/// Does a piece of work. If it panics, the report says so, and the thread goes on.
+///
+/// What the work leaves half done must not be used again, or it must be fit for use at any moment.
+pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -> Result<T, Report> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let message = format!("jabuka failed while {doing}: {}", message_of(&*panic));
+        let help = "this is a mistake in jabuka: please report it with the scene and with what the terminal shows; \
+            the scene is read again when you change it";
+        let error = Diagnostic::error("internal-error", message).help(help);
+        Err(Report { diagnostics: vec![error], ..Report::default() })
+    })
+}
+
+/// The message of a panic.
+fn message_of(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason is known")
+}

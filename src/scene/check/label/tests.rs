@@ -1,0 +1,52 @@
+//! Labels of any letters.
+
+use proptest::prelude::*;
+
+use crate::Scene;
+use crate::diagnostic::Report;
+
+/// What is said of a scene whose only label is this text.
+fn said_of(label: &str) -> Report {
+    let scene = format!(
+        "[variables]\n'K' = 1\n[body.b]\nshape.sphere.radius = 1\n[label.note]\ntext = {}\n",
+        serde_json::Value::from(label)
+    );
+    match Scene::parse(&scene) {
+        Ok(scene) => scene.warnings,
+        Err(report) => report,
+    }
+}
+
+#[test]
+fn a_letter_of_several_bytes_before_a_measure_is_an_error_at_its_place() {
+    for (text, letter, column) in
+        [("${2·b.speed}", '·', 12), ("${−b.y}", '−', 11), ("e ${2*b.x×b.x}", '×', 18)]
+    {
+        let report = said_of(text);
+        let [error] = report.diagnostics.as_slice() else { panic!("{text}: {report}") };
+        assert_eq!(error.message, format!("`{letter}` is no part of a formula"), "{text}");
+        let span = error.span().unwrap();
+        assert_eq!(report.sources.position(span.source, span.start).column, column, "{text}: {report}");
+    }
+}
+
+/// A piece of a label, which most of the time is one that means something.
+fn piece() -> impl Strategy<Value = String> {
+    const KNOWN: [&str; 29] = [
+        "${", "}", "{", "$", "b", "b.", ".", "b.speed", "b.é", "t", ":.2", ":", ":.2e", "K.x", "2", "·", "−",
+        "×", "²", "é", "\u{301}", "🙂", "_", "(", "\"", "\\", "\n", "1e", "1e999",
+    ];
+    prop_oneof![9 => prop::sample::select(&KNOWN[..]).prop_map(str::to_owned), 1 => any::<String>()]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_label_panics(before in piece(), inner in prop::collection::vec(piece(), 0..6), after in piece()) {
+        // The report is rendered, too: it cuts the text at the places of the errors.
+        for text in [format!("{before}${{{}}}{after}", inner.concat()), inner.concat()] {
+            said_of(&text).to_text(true);
+        }
+    }
+}
