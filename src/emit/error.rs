@@ -12,6 +12,13 @@ pub enum EmitError {
         /// The time, s.
         time: f64,
     },
+    /// The camera moves to where POV-Ray cannot tell it from the point that it looks at.
+    Blind {
+        /// The time, s.
+        time: f64,
+    },
+    /// POV-Ray cannot tell apart what the scene shows; the report says what, and where in the scene.
+    Indistinct(Report),
     /// A template fails; the report says where.
     Template(Report),
 }
@@ -69,7 +76,10 @@ impl std::fmt::Display for EmitError {
             EmitError::OutOfRange { what, time } => {
                 write!(f, "at t = {time} s {what} is at a place that is no number in POV-Ray's units")
             }
-            EmitError::Template(report) => report.fmt(f),
+            EmitError::Blind { time } => {
+                write!(f, "at t = {time} s POV-Ray cannot tell the camera from the point that it looks at")
+            }
+            EmitError::Template(report) | EmitError::Indistinct(report) => report.fmt(f),
         }
     }
 }

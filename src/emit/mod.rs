@@ -4,6 +4,7 @@
 //! any frame into its script, in any order and from several threads at once.
 
 mod bodies;
+mod distinct;
 mod error;
 mod materials;
 mod meshes;
@@ -57,11 +58,12 @@ impl Emitter {
     /// Prepares everything that the scripts of a scene have in common.
     ///
     /// # Errors
-    /// Where a template fails.
+    /// Where a template fails, or POV-Ray could not tell a body, or the camera and what it looks at, apart.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let plan = Plan::new(scene, camera, survey);
         let unit = Unit::of(scene, &plan);
+        distinct::check(scene, camera, &plan, unit.length)?;
         let stage = StageText::new(&plan, unit.length);
         let style = Style { unit: unit.length, digits: scene.povray.digits };
         let materials = materials::texts(scene);
@@ -115,6 +117,11 @@ impl Emitter {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
             return Err(out_of_range(what));
+        }
+        if self.plan.camera_moves()
+            && !distinct::sees(&self.plan.camera(frame), self.unit.length, self.digits)
+        {
+            return Err(EmitError::Blind { time: frame.time });
         }
         let mut bodies_sdl = String::new();
         let written = self.block.write(&mut bodies_sdl, frame);

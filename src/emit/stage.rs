@@ -45,6 +45,8 @@ pub(super) struct CameraText {
     width: Option<f64>,
     /// Whether it looks straight up or down, where «up» needs another meaning.
     vertical: bool,
+    /// Whether its pictures are so wide that their width is the unit of what it sees, and not their height.
+    wide: bool,
     /// The diameter of the lens, if it has one.
     aperture: Option<f64>,
     /// The point that is sharp.
@@ -120,6 +122,7 @@ impl CameraText {
             angle,
             width,
             vertical: camera.is_vertical(),
+            wide: camera.is_wide(),
             aperture: camera.blur().map(|blur| blur.aperture / unit),
             focus: camera.focus().map(|focus| (focus / unit).to_array()),
             blur_samples: camera.blur().map(|blur| blur.samples),

@@ -1,6 +1,6 @@
 //! The length of one unit of POV-Ray's.
 
-use crate::picture::{Plan, decimal_step, rounded_outward};
+use crate::picture::{Lens, Plan, decimal_step, rounded_outward};
 use crate::scene::Scene;
 use crate::simulate::Bounds;
 
@@ -21,7 +21,8 @@ impl Unit {
     /// The unit that the scene gives, or one in which POV-Ray can draw it.
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Unit {
         let thinnest = thinnest(scene);
-        let length = scene.povray.unit.unwrap_or_else(|| unit(reach(plan), thinnest.map(|(_, half)| half)));
+        let length =
+            scene.povray.unit.unwrap_or_else(|| unit(reach(plan).metres, thinnest.map(|(_, half)| half)));
         let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
         Unit { length, too_thin }
     }
@@ -34,11 +35,30 @@ fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     halves.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
-fn reach(plan: &Plan) -> f64 {
+/// How far a scene reaches.
+pub(super) struct Reach {
+    /// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
+    pub(super) metres: f64,
+    /// Whether the camera is the reason, and not the bodies.
+    pub(super) by_camera: bool,
+}
+
+/// How far a scene reaches.
+pub(super) fn reach(plan: &Plan) -> Reach {
+    /// POV-Ray takes rounding for an error where parallel rays see more than some hundred of its units.
+    const PARALLEL: f64 = 300.0;
     let Bounds { min, max } = rounded_outward(plan.stage().scenery.bounds);
-    let points = [min, max, plan.placed().location(), plan.placed().look_at()];
-    points.into_iter().map(|point| point.abs().max_element()).fold((max - min).length(), f64::max)
+    let farthest = |points: [glam::DVec3; 2], least: f64| {
+        points.into_iter().map(|point| point.abs().max_element()).fold(least, f64::max)
+    };
+    let bodies = farthest([min, max], (max - min).length());
+    let placed = plan.placed();
+    let sight = match placed.lens() {
+        Lens::Perspective { .. } => 0.0,
+        Lens::Orthographic { width } => PARALLEL * width * placed.height_to_width().max(1.0),
+    };
+    let camera = farthest([placed.location(), placed.look_at()], sight);
+    Reach { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
 }
 
 /// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.

@@ -46,13 +46,14 @@ impl OutputError {
             OutputError::Locked(_) => "folder-locked",
             OutputError::Io(..) => "cannot-write",
             OutputError::Diverged(_) => "diverged",
+            OutputError::Emit(EmitError::Indistinct(_)) => "indistinct",
             OutputError::Emit(_) => "cannot-emit",
         }
     }
 
     /// The error as a diagnostic; that of a template with its place.
     pub fn report(&self) -> Report {
-        if let OutputError::Emit(EmitError::Template(report)) = self {
+        if let OutputError::Emit(EmitError::Template(report) | EmitError::Indistinct(report)) = self {
             return report.clone();
         }
         let diagnostic = Diagnostic::error(self.code(), self.to_string());

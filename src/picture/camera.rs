@@ -111,6 +111,17 @@ impl Placed {
         sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
     }
 
+    /// The height of its pictures, as a multiple of their width.
+    pub fn height_to_width(&self) -> f64 {
+        f64::from(self.output.height) / f64::from(self.output.width)
+    }
+
+    /// Whether its pictures are so wide that POV-Ray, which measures in their height, takes rounding for an error.
+    pub fn is_wide(&self) -> bool {
+        const WIDE: u32 = 100;
+        self.output.width > WIDE * self.output.height
+    }
+
     /// How many pixels a ball is wide whose centre is so far from the camera, m.
     pub(super) fn pixels(&self, radius: f64, distance: f64) -> f64 {
         let width = f64::from(self.output.width);
@@ -123,7 +134,7 @@ impl Placed {
     }
 
     /// The width of what is seen at a distance, m.
-    pub(super) fn width_at(&self, distance: f64) -> f64 {
+    pub(crate) fn width_at(&self, distance: f64) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => 2.0 * distance * Field::new(angle, self.output).horizontal,
             Lens::Orthographic { width } => width,

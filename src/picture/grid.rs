@@ -92,7 +92,8 @@ impl Ruled {
             low.z -= (lacking / 2.0).ceil();
             high.z += (lacking / 2.0).ceil();
         }
-        if (high - low).max_element() > MOST_LINES {
+        // No number is as large as one that is none.
+        if !((high - low).max_element() <= MOST_LINES) {
             return false;
         }
         let radius = 0.22 * scenery.stroke;
@@ -107,15 +108,11 @@ impl Ruled {
         // The lines through 0 are the axes.
         let width = |number: f64| if number == 0.0 { 2.2 * radius } else { radius };
         let mut put = |from: DVec3, to: DVec3, radius: f64| self.grid.lines.push(Line { from, to, radius });
-        let mut a = a0;
-        while a <= a1 {
+        for a in marks(a0, a1, 1.0) {
             put(corner(a, b0), corner(a, b1), width(a));
-            a += 1.0;
         }
-        let mut b = b0;
-        while b <= b1 {
+        for b in marks(b0, b1, 1.0) {
             put(corner(a0, b), corner(a1, b), width(b));
-            b += 1.0;
         }
         let (front, top, name) = match plane {
             GridPlane::Ground => (b1, b0, "z"),
@@ -140,10 +137,8 @@ impl Ruled {
         let every = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
         let every = every.into_iter().find(|every| (high - low) / every <= MOST_NUMBERS).unwrap_or(100.0);
         let (unit, _) = prefixed(spacing);
-        let mut number = (low / every).ceil() * every;
-        while number <= high {
+        for number in marks((low / every).ceil() * every, high, every) {
             self.numbers.push((value(number * spacing / unit), at(number), beside));
-            number += every;
         }
     }
 
@@ -186,11 +181,32 @@ impl Ruled {
     }
 }
 
+/// The marks from `low` to `high`. They are counted: far from 0, the sum of a number and 1 is that number.
+fn marks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what is too large is cut")]
+    let last = ((high - low) / step).min(MOST_LINES) as u32;
+    (0..=last).map(move |number| low + f64::from(number) * step).filter(move |mark| *mark <= high)
+}
+
 /// The color of the lines of a grid: seen, and no more than that.
 fn line_color(scene: &Scene) -> Color {
     match scene.environment.preset {
         _ if scene.environment.is_dark() => Color([0.34, 0.38, 0.43]),
         Preset::Paper | Preset::Studio => Color([0.70, 0.75, 0.80]),
         _ => Color([0.36, 0.40, 0.46]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_end_also_where_one_more_makes_no_difference() {
+        assert_eq!(marks(-1.0, 2.0, 1.0).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0]);
+        assert_eq!(marks(0.0, 5.0, 2.0).collect::<Vec<_>>(), [0.0, 2.0, 4.0]);
+        assert!(marks(1e16, 1e16 + 2.0, 1.0).count() <= 3);
+        assert!(marks(1e300, 2e300, 1.0).count() <= 402);
+        assert_eq!(marks(f64::NAN, 1.0, 1.0).count(), 0);
     }
 }

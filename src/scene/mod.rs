@@ -18,6 +18,7 @@ mod mesh;
 mod model;
 pub mod motion;
 mod palette;
+mod places;
 mod preset;
 pub mod sdl;
 mod showing;
@@ -38,6 +39,7 @@ pub use look::{
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
+pub use places::Places;
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Trail};
 pub use source::Override;
@@ -86,6 +88,8 @@ pub struct Scene {
     pub output: Output,
     /// A digest (SHA-256, in hexadecimal) of all texts and meshes that the scene was read from.
     pub digest: String,
+    /// Where the text says what a run may show to be wrong; the texts are those of `warnings`.
+    pub places: Places,
     /// What was noticed and is no error.
     pub warnings: Report,
 }

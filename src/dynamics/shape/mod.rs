@@ -219,6 +219,12 @@ impl Shape {
         })
     }
 
+    /// The farthest that the shape reaches along one of its own axes, m; none for a plane.
+    pub fn extent(&self) -> Option<f64> {
+        let reach = |axis: DVec3| self.support(DQuat::IDENTITY, axis);
+        Some(reach(DVec3::X)?.max(reach(DVec3::Y)?).max(reach(DVec3::Z)?))
+    }
+
     /// The same shape, so many times larger. A plane stays as it is.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Shape {

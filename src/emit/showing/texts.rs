@@ -34,17 +34,17 @@ pub(super) fn write(out: &mut String, text: &Text<'_>, style: Style) {
 /// Appends the scale bar and its number.
 pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: Style) {
     let y = height(bar.y, short);
-    let (from, to, thickness) = (short(bar.from), short(bar.to), short(bar.thickness));
+    let (from, to, thickness) = (short(bar.from), short(bar.to), length(bar.thickness));
     let ink = color(bar.color, style);
     out.push_str(&format!("Bar(<{from}, {y}, 0>, {to}, {thickness}, {ink}) // scale bar\n"));
-    label(out, number, &format!("{y} + {}", short(bar.above)), style);
+    label(out, number, &format!("{y} + {}", length(bar.above)), style);
 }
 
 fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
     // POV-Ray knows no text without a letter.
     let said = if text.says.trim().is_empty() { "-" } else { &text.says };
     let said = text::string(said);
-    let (x, height, align) = (short(text.x), short(text.height), short(text.align));
+    let (x, height, align) = (short(text.x), length(text.height), short(text.align));
     let (ink, name) = (color(text.color, style), text::comment(text.name));
     out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
 }
@@ -62,5 +62,15 @@ fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
 fn short(place: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, (place * 1e5).round() / 1e5, 6);
+    out
+}
+
+/// A length on the screen. In a picture that is very wide, texts are far smaller than the picture's width.
+fn length(length: f64) -> String {
+    if length >= 1e-3 {
+        return short(length);
+    }
+    let mut out = String::new();
+    number::write(&mut out, length, 4);
     out
 }

@@ -35,7 +35,7 @@ pub(super) use self::view::View;
 use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
-use super::{Include, Options, PovRay, Scene};
+use super::{Include, Options, Places, PovRay, Scene};
 use crate::diagnostic::{Diagnostic, Report, Severity, Sources, Span};
 
 /// What a scene is made from.
@@ -243,6 +243,11 @@ fn build(
         forces,
         materials,
         povray,
+        places: Places {
+            bodies: root.named("body").into_iter().map(|(_, span, _)| span).collect(),
+            camera: root.key_span("camera"),
+            unit: root.table("povray").span("unit"),
+        },
         warnings: Report::default(),
     }
 }

@@ -36,7 +36,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             .also(&["rotate", "turntable"]),
         Key::new(
             "angle",
-            Timed(Bound::Between(0.0, 180.0)),
+            Timed(Bound::From(0.001, 179.999)),
             "The horizontal field of view, in perspective; a number, or a formula of `t`",
         )
             .unit("degrees")

@@ -70,8 +70,6 @@ pub enum Bound {
     Positive,
     /// Zero or greater.
     NonNegative,
-    /// Greater than the first, less than the second.
-    Between(f64, f64),
     /// From the first to the second, both included.
     From(f64, f64),
 }
@@ -92,7 +90,6 @@ impl Bound {
             Bound::Any => true,
             Bound::Positive => number > 0.0,
             Bound::NonNegative => number >= 0.0,
-            Bound::Between(low, high) => low < number && number < high,
             Bound::From(low, high) => low <= number && number <= high,
         }
     }
@@ -103,7 +100,6 @@ impl Bound {
             Bound::Any => String::new(),
             Bound::Positive => " greater than 0".to_owned(),
             Bound::NonNegative => " of at least 0".to_owned(),
-            Bound::Between(low, high) => format!(" between {low} and {high}"),
             Bound::From(low, high) => format!(" from {low} to {high}"),
         }
     }

@@ -181,7 +181,6 @@ fn number(bound: Bound) -> Map<String, Value> {
         Bound::Any => json!({}),
         Bound::Positive => json!({ "exclusiveMinimum": 0 }),
         Bound::NonNegative => json!({ "minimum": 0 }),
-        Bound::Between(low, high) => json!({ "exclusiveMinimum": low, "exclusiveMaximum": high }),
         Bound::From(low, high) => json!({ "minimum": low, "maximum": high }),
     });
     number.insert("type".to_owned(), json!(["number", "string"]));

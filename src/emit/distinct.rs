@@ -1,0 +1,125 @@
+//! What POV-Ray cannot tell apart: it would refuse the script, or draw nothing.
+//!
+//! POV-Ray's parser takes everything below 10⁻¹⁰ of its units for nothing, and its tracer takes places for the same that
+//! are less than a step of single precision apart. Both are errors here, before a script is written.
+
+use super::EmitError;
+use super::unit::{Reach, reach};
+use crate::diagnostic::{Diagnostic, Report, Span};
+use crate::picture::{Placed, Plan, number};
+use crate::scene::{Camera, Scene};
+
+/// A step of single precision, relative to the number.
+const STEP: f64 = 1.0 / 16_777_216.0;
+
+/// What is smaller is nothing to POV-Ray's parser, in its units; its own limit is 10⁻¹⁰.
+const NOTHING: f64 = 1e-8;
+
+/// How many of POV-Ray's units a scene may reach, from the first to the second.
+const UNITS: [f64; 2] = [1e-3, 1e9];
+
+/// Checks that POV-Ray can tell apart what a camera of the scene sees, in units of so many metres.
+///
+/// # Errors
+/// [`EmitError::Indistinct`], at the body, the camera, or the unit.
+pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> Result<(), EmitError> {
+    let reach = reach(plan);
+    let error = unit_of(scene, &reach, unit)
+        .or_else(|| body(scene, &reach, unit))
+        .or_else(|| sight(scene, camera, plan.placed(), unit));
+    let Some(error) = error else { return Ok(()) };
+    let sources = scene.warnings.sources.clone();
+    Err(EmitError::Indistinct(Report { sources, diagnostics: vec![error] }))
+}
+
+/// Whether a camera that moves and what it looks at are different points to POV-Ray.
+pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
+    let [from, to] = [camera.location(), camera.look_at()].map(|point| point / unit);
+    let farthest = from.abs().max_element().max(to.abs().max_element());
+    let written = |number: f64| {
+        let mut text = String::new();
+        number::write(&mut text, number, digits);
+        text
+    };
+    from.distance(to) > NOTHING.max(STEP * farthest)
+        && from.to_array().map(written) != to.to_array().map(written)
+}
+
+fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
+    let error = Diagnostic::error("indistinct", message);
+    match place {
+        Some(place) => error.at(place, label),
+        None => error,
+    }
+}
+
+/// That the unit that the scene gives is too large or too small for it.
+fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
+    scene.povray.unit?;
+    let units = reach.metres / unit;
+    if (UNITS[0]..UNITS[1]).contains(&units) {
+        return None;
+    }
+    let message = format!("POV-Ray cannot draw a scene that is {units:.0e} of its units large");
+    let label = format!("the scene reaches {}", metres(reach.metres));
+    let help = format!("leave `unit` out, or take one near {:.0e}", reach.metres / 100.0);
+    Some(indistinct(message, scene.places.unit, &label).help(help))
+}
+
+/// That a body is a point to POV-Ray, or thinner than nothing. The smallest one is named.
+fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
+    let bodies = scene.bodies.iter().enumerate();
+    let too_small = bodies.filter_map(|(id, body)| {
+        let shape = body.drawn();
+        let half = shape.half_thickness()?;
+        let extent = shape.extent()?;
+        let is_point = extent < STEP * reach.metres;
+        (is_point || half / unit < NOTHING).then_some((id, if is_point { extent } else { half }, is_point))
+    });
+    let (id, size, is_point) = too_small.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let name = &scene.bodies[id].name;
+    let what = if is_point { "large" } else { "thick" };
+    let message = format!("POV-Ray cannot tell `{name}` from nothing: it is too small for the whole scene");
+    let label = format!("it is {} {what}", metres(2.0 * size));
+    let mut error = indistinct(message, scene.places.bodies.get(id).copied(), &label);
+    let far = format!("the scene reaches {} from the origin", metres(reach.metres));
+    if let Some(camera) = scene.places.camera.filter(|_| reach.by_camera) {
+        error = error.at(camera, format!("with what this camera sees, {far}"));
+    }
+    let help =
+        format!("{far}; draw the body larger by `look.scale`, or bring everything nearer to the origin");
+    Some(error.help(help))
+}
+
+/// That the camera has no direction, or sees nothing of any size.
+fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<Diagnostic> {
+    let distance = placed.location().distance(placed.look_at());
+    let place = scene.places.camera;
+    if !sees(placed, unit, scene.povray.digits) {
+        let message = "POV-Ray cannot tell the camera from the point that it looks at";
+        let label = format!("they are {} apart", metres(distance));
+        let help = "move them apart, or bring everything nearer to the origin";
+        let place = place.or_else(|| scene.places.bodies.first().copied());
+        return Some(indistinct(message.to_owned(), place, &label).help(help));
+    }
+    let width = placed.width_at(distance);
+    let screen = placed.screen().axes().map(|axis| axis.length() / unit);
+    let flat = screen.iter().any(|axis| *axis < NOTHING) && crate::picture::has_texts(scene);
+    if width / unit > 1e3 * NOTHING && !flat {
+        return None;
+    }
+    let message = "POV-Ray cannot tell what the camera sees from a point";
+    let label = format!("it sees {}", metres(width));
+    let help = match camera.blur {
+        Some(_) => "take a wider `angle` or `width`, or move `focus` away from the camera",
+        None => "take a wider `angle` or `width`",
+    };
+    Some(indistinct(message.to_owned(), place, &label).help(help))
+}
+
+/// A length with two digits.
+fn metres(length: f64) -> String {
+    let mut text = String::new();
+    number::write(&mut text, length, 2);
+    text + " m"
+}

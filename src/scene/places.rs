@@ -1,0 +1,14 @@
+//! Where in its text a scene says things that only a run shows to be wrong.
+
+use crate::diagnostic::Span;
+
+/// Where in its text a scene names its bodies, and what else errors of a run point at.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    /// The name of each body, in the order of [`Scene::bodies`](super::Scene::bodies).
+    pub bodies: Vec<Span>,
+    /// The table of the main camera, if there is one.
+    pub camera: Option<Span>,
+    /// The value of `povray.unit`, if there is one.
+    pub unit: Option<Span>,
+}
