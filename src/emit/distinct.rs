@@ -24,6 +24,10 @@ const UNITS: [f64; 2] = [1e-3, 1e9];
 /// [`EmitError::Indistinct`], at the body, the camera, or the unit.
 pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> Result<(), EmitError> {
     let reach = reach(plan);
+    if !(reach.metres / unit).is_finite() || reach.metres == f64::INFINITY {
+        // Which body is there is said when its frame is written.
+        return Ok(());
+    }
     let error = unit_of(scene, &reach, unit)
         .or_else(|| body(scene, &reach, unit))
         .or_else(|| sight(scene, camera, plan.placed(), unit));
@@ -73,7 +77,7 @@ fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
         let shape = body.drawn();
         let half = shape.half_thickness()?;
         let extent = shape.extent()?;
-        let is_point = extent < STEP * reach.metres;
+        let is_point = 2.0 * extent < STEP * reach.metres;
         (is_point || half / unit < NOTHING).then_some((id, if is_point { extent } else { half }, is_point))
     });
     let (id, size, is_point) = too_small.min_by(|a, b| a.1.total_cmp(&b.1))?;

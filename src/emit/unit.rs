@@ -21,8 +21,9 @@ impl Unit {
     /// The unit that the scene gives, or one in which POV-Ray can draw it.
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Unit {
         let thinnest = thinnest(scene);
-        let length =
-            scene.povray.unit.unwrap_or_else(|| unit(reach(plan).metres, thinnest.map(|(_, half)| half)));
+        // POV-Ray takes rounding for an error where parallel rays see more than some hundred of its units.
+        let reach = reach(plan).metres.max(300.0 * parallel(plan));
+        let length = scene.povray.unit.unwrap_or_else(|| unit(reach, thinnest.map(|(_, half)| half)));
         let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
         Unit { length, too_thin }
     }
@@ -45,20 +46,22 @@ pub(super) struct Reach {
 
 /// How far a scene reaches.
 pub(super) fn reach(plan: &Plan) -> Reach {
-    /// POV-Ray takes rounding for an error where parallel rays see more than some hundred of its units.
-    const PARALLEL: f64 = 300.0;
     let Bounds { min, max } = rounded_outward(plan.stage().scenery.bounds);
     let farthest = |points: [glam::DVec3; 2], least: f64| {
         points.into_iter().map(|point| point.abs().max_element()).fold(least, f64::max)
     };
     let bodies = farthest([min, max], (max - min).length());
     let placed = plan.placed();
-    let sight = match placed.lens() {
-        Lens::Perspective { .. } => 0.0,
-        Lens::Orthographic { width } => PARALLEL * width * placed.height_to_width().max(1.0),
-    };
-    let camera = farthest([placed.location(), placed.look_at()], sight);
+    let camera = farthest([placed.location(), placed.look_at()], parallel(plan));
     Reach { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
+}
+
+/// The larger edge of what parallel rays see, m; 0 in perspective.
+fn parallel(plan: &Plan) -> f64 {
+    match plan.placed().lens() {
+        Lens::Perspective { .. } => 0.0,
+        Lens::Orthographic { width } => width * plan.placed().height_to_width().max(1.0),
+    }
 }
 
 /// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.

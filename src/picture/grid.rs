@@ -92,8 +92,8 @@ impl Ruled {
             low.z -= (lacking / 2.0).ceil();
             high.z += (lacking / 2.0).ceil();
         }
-        // No number is as large as one that is none.
-        if !((high - low).max_element() <= MOST_LINES) {
+        let lines = (high - low).max_element();
+        if lines.is_nan() || lines > MOST_LINES {
             return false;
         }
         let radius = 0.22 * scenery.stroke;

@@ -5,6 +5,7 @@
 
 mod assets;
 mod every_script;
+mod extremes;
 mod hostile;
 mod image;
 mod layouts;
