@@ -11,6 +11,11 @@ fn the_page_of_keys_is_up_to_date() {
 }
 
 #[test]
+fn the_page_of_sdl_without_trust_is_up_to_date() {
+    is_up_to_date("sdl-without-trust.md", &jabuka::scene::sdl::reference());
+}
+
+#[test]
 fn the_examples_of_the_page_of_keys_are_scenes() {
     let page = jabuka::scene::grammar::reference();
     let examples: Vec<&str> =

@@ -1,15 +1,16 @@
-//! What a script reads beside itself: the files that it includes, and the assets of its scene.
+//! What a script reads beside itself: the files that it and its include files name, and the assets of its scene.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
+use super::files::ASSETS;
 use super::record::{Files, Record};
 use super::{RenderError, Script, Sequence};
-use crate::emit::is_trail_file;
-use crate::scene::sdl::{Include, includes};
+use crate::emit::{COMMON, is_trail_file};
+use crate::scene::sdl::{FileKind, files};
 
 /// The record that the image of each script would get now, but for the length of the image.
 ///
@@ -37,29 +38,95 @@ pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Resu
     pairs.par_iter().map(record).collect()
 }
 
-/// The files that a script reads, but for those that come with POV-Ray: these belong to its version.
+/// The files that a script reads, apart from those that come with POV-Ray: these belong to its version.
+///
+/// They are in the order of the lists of jobs for clusters, so that a job's records are the same: what all scripts
+/// share, the assets by their names, and then whatever else is read.
 fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, RenderError> {
-    let path = sequence.folder().join(&script.file);
+    let folder = sequence.absolute();
+    let path = folder.join(&script.file);
     let bytes = fs::read(&path).map_err(RenderError::io(&path))?;
-    let mut files = Vec::new();
-    add_included(sequence.folder(), &bytes, &mut files);
-    files.extend(sequence.assets.iter().filter(|asset| !files.contains(asset)).cloned().collect::<Vec<_>>());
-    Ok(files)
+    let mut read = Vec::new();
+    add_read(folder, &bytes, &mut read);
+    // Files that are included may read others.
+    let mut next = 0;
+    while let Some((kind, path)) = read.get(next).cloned() {
+        next += 1;
+        if kind == FileKind::Include {
+            let bytes = fs::read(&path).map_err(RenderError::io(&path))?;
+            add_read(folder, &bytes, &mut read);
+        }
+    }
+    let mut paths: Vec<PathBuf> = read.into_iter().map(|(_, path)| path).collect();
+    paths.extend(sequence.assets.iter().cloned());
+    let mut known = HashSet::new();
+    paths.retain(|path| known.insert(path.clone()));
+    let (common, assets) = (folder.join(COMMON), folder.join(ASSETS));
+    paths.sort_by_cached_key(|path| {
+        let class = if *path == common { 0 } else { 2 - usize::from(path.starts_with(&assets)) };
+        (class, (class == 1).then(|| path.as_os_str().to_owned()))
+    });
+    Ok(paths)
 }
 
-/// Adds the files that a text includes, and those that these include.
-fn add_included(folder: &Path, text: &[u8], files: &mut Vec<PathBuf>) {
-    for include in includes(&String::from_utf8_lossy(text)) {
-        let Include::Literal(name) = include else { continue };
-        // The name says what is in it, and stands in the script.
-        if is_trail_file(&name) {
-            continue;
+/// Adds the files that a text names and that are there: beside the scripts, among the assets, or at an absolute path.
+fn add_read(folder: &Path, text: &[u8], read: &mut Vec<(FileKind, PathBuf)>) {
+    for file in files(&String::from_utf8_lossy(text)) {
+        // The name of a trail's file says what is in it, and stands in the script.
+        let Some(name) = file.literal.filter(|name| !is_trail_file(name)) else { continue };
+        let found = candidates(name, file.kind).into_iter().find_map(|name| {
+            [folder.join(&name), folder.join(ASSETS).join(&name)].into_iter().find(|path| path.is_file())
+        });
+        if let Some(path) = found {
+            let file = (file.kind, path);
+            if !read.contains(&file) {
+                read.push(file);
+            }
         }
-        let path =
-            [folder.join(&name), folder.join("assets").join(&name)].into_iter().find(|path| path.is_file());
-        let Some(path) = path.filter(|path| !files.contains(path)) else { continue };
-        let text = fs::read(&path).unwrap_or_default();
-        files.push(path);
-        add_included(folder, &text, files);
+    }
+}
+
+/// The names under which POV-Ray looks for a file: it adds the usual endings to a name that has none.
+fn candidates(name: &str, kind: FileKind) -> Vec<String> {
+    let endings: &[&str] = match kind {
+        _ if Path::new(name).extension().is_some() => &[],
+        FileKind::Include => &["inc", "INC"],
+        FileKind::Font => &["ttf", "TTF", "ttc", "TTC"],
+        FileKind::Image => &[
+            "png", "PNG", "gif", "GIF", "jpg", "JPG", "jpeg", "JPEG", "tga", "TGA", "tif", "TIF", "tiff",
+            "TIFF", "bmp", "BMP", "iff", "IFF", "ppm", "PPM", "pgm", "PGM", "pot", "POT", "exr", "EXR",
+            "hdr", "HDR", "df3", "DF3",
+        ],
+        FileKind::Data => &[],
+    };
+    std::iter::once(name.to_owned()).chain(endings.iter().map(|ending| format!("{name}.{ending}"))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_listed_as_jobs_list_them_and_then_what_else_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().canonicalize().unwrap().join(name);
+        fs::create_dir(path(ASSETS)).unwrap();
+        for (name, text) in [
+            ("frame_0000.pov", "#include \"z.inc\" #include \"common.inc\" #include \"mine.inc\""),
+            ("common.inc", "include \"a-b\" #include Computed"),
+            ("mine.inc", "pigment { image_map { png \"sky\" } } text { ttf \"timrom.ttf\" \"a\" 1, 0 }"),
+            ("sky.png", ""),
+            ("assets/z.inc", "#include \"z.inc\" #include \"mine.inc\""),
+            ("assets/a-b.inc", "#include \"missing.inc\" // #include \"unread.inc\""),
+            ("unread.inc", ""),
+        ] {
+            fs::write(path(name), text).unwrap();
+        }
+        let sequence = Sequence::open(folder.path(), None).unwrap();
+        let files = files_of(&sequence, &sequence.scripts()[0]).unwrap();
+        let listed = super::super::files::of_scripts(folder.path()).unwrap();
+        assert_eq!(listed, ["common.inc", "assets/a-b.inc", "assets/z.inc"]);
+        let all = [listed, vec!["mine.inc".to_owned(), "sky.png".to_owned()]].concat();
+        assert_eq!(files, all.iter().map(|name| path(name)).collect::<Vec<_>>());
     }
 }

@@ -90,6 +90,28 @@ fn other_options_another_povray_and_other_includes_make_other_images() {
     assert_eq!(render(&["--", "+Q8"]), "2", "the include stands in common.inc");
 }
 
+/// What an include file reads may lie elsewhere, and be read without a `#`, in a file that another one includes.
+#[test]
+fn an_image_follows_whatever_its_include_files_read() {
+    let place = Place::new("");
+    let file = |name: &str| place.path(name).display().to_string();
+    let scene = format!("povray.sdl = '#include \"{}\"'\n{SCENE}", file("first.inc"));
+    fs::write(place.path("scene.toml"), scene).unwrap();
+    fs::write(place.path("first.inc"), format!("include \"{}\"\n", file("second"))).unwrap();
+    let second = format!("#declare Sky = pigment {{ image_map {{ ppm \"{}\" }} }}\n", file("sky.ppm"));
+    fs::write(place.path("second.inc"), &second).unwrap();
+    fs::write(place.path("sky.ppm"), b"P6 1 1 255\nabc").unwrap();
+    let render = || {
+        let said = stdout(&place.succeed(&["render", "scene.toml", "--frames", "0", "--trust"]));
+        said.lines().last().unwrap().split(' ').filter(|word| !word.is_empty()).nth(1).unwrap().to_owned()
+    };
+    assert_eq!([render(), render()], ["1", "0"]);
+    fs::write(place.path("sky.ppm"), b"P6 1 1 255\nabd").unwrap();
+    assert_eq!([render(), render()], ["1", "0"], "an image that an include file reads");
+    fs::write(place.path("second.inc"), second + "// more\n").unwrap();
+    assert_eq!([render(), render()], ["1", "0"], "a file that an include file includes");
+}
+
 #[test]
 fn images_of_frames_that_are_no_more_go() {
     let place = Place::new(SCENE);

@@ -76,7 +76,7 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
 
 /// A path that stays in the folder that it starts from, as plain as it can be written: empty if it is that folder;
 /// `None` for every other.
-fn below(name: &str) -> Option<String> {
+pub(super) fn below(name: &str) -> Option<String> {
     let mut parts = Vec::new();
     for part in Path::new(name).components() {
         match part {

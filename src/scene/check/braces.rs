@@ -1,7 +1,7 @@
 //! Raw SDL whose braces do not match: POV-Ray would complain far from the cause, in the text around it.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::sdl::{Piece, Pieces};
+use crate::scene::sdl::{Token, Tokens};
 
 /// The error of a text whose braces do not match, if they do not.
 pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
@@ -16,9 +16,9 @@ pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
 
 /// How many braces are open at the end; an error where one is closed too many. Strings and comments do not count.
 fn depth(text: &str) -> Result<usize, ()> {
-    Pieces::of(text).try_fold(0usize, |open, piece| match piece {
-        Piece::Character('{') => Ok(open + 1),
-        Piece::Character('}') => open.checked_sub(1).ok_or(()),
+    Tokens::of(text).try_fold(0usize, |open, (token, _)| match token {
+        Token::Symbol('{') => Ok(open + 1),
+        Token::Symbol('}') => open.checked_sub(1).ok_or(()),
         _ => Ok(open),
     })
 }

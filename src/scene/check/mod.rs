@@ -66,6 +66,8 @@ struct Context<'a> {
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
     meshes: mesh::Meshes,
+    /// The files that SDL may name.
+    assets: sdl::Assets,
     diagnostics: Vec<Diagnostic>,
     /// The texts that the scene is read from.
     sources: Sources,
@@ -87,6 +89,7 @@ impl Context<'_> {
             told: HashSet::new(),
             comparisons: 0,
             meshes: mesh::Meshes::default(),
+            assets: sdl::Assets::default(),
             diagnostics: Vec::new(),
             sources: Sources::default(),
             recordings: trajectory::Recordings::new(),
@@ -176,6 +179,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
         meshes: mesh::Meshes::default(),
+        assets: sdl::Assets::of(&root, input.folder, options.trust),
         diagnostics: found,
         sources,
         recordings: trajectory::Recordings::new(),

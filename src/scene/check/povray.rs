@@ -3,53 +3,11 @@
 use std::path::{Component, Path};
 
 use super::view::View;
-use super::{Context, asset, sdl, suggest};
+use super::{Context, asset, suggest};
 use crate::diagnostic::Diagnostic;
+use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay};
-
-/// The include files that come with POV-Ray 3.7.
-const STANDARD: &[&str] = &[
-    "arrays.inc",
-    "chars.inc",
-    "colors.inc",
-    "consts.inc",
-    "debug.inc",
-    "finish.inc",
-    "functions.inc",
-    "glass.inc",
-    "glass_old.inc",
-    "golds.inc",
-    "ior.inc",
-    "logo.inc",
-    "makegrass.inc",
-    "math.inc",
-    "meshmaker.inc",
-    "metals.inc",
-    "rad_def.inc",
-    "rand.inc",
-    "screen.inc",
-    "shapes.inc",
-    "shapes2.inc",
-    "shapes3.inc",
-    "shapes_old.inc",
-    "shapesq.inc",
-    "skies.inc",
-    "stage1.inc",
-    "stars.inc",
-    "stdcam.inc",
-    "stdinc.inc",
-    "stoneold.inc",
-    "stones.inc",
-    "stones1.inc",
-    "stones2.inc",
-    "strings.inc",
-    "sunpos.inc",
-    "textures.inc",
-    "transforms.inc",
-    "woodmaps.inc",
-    "woods.inc",
-];
 
 /// The largest include file that goes into every script.
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
@@ -68,7 +26,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
     }
 }
 
-/// An include file: one of POV-Ray's own, or one found beside the scene.
+/// An include file: one of POV-Ray's own, or one found beside the scene, whose text is not checked here.
 pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Include, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
@@ -87,16 +45,19 @@ pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result
     if let Some(path) = folder.map(|folder| folder.join(name)).filter(|path| path.exists()) {
         return include_text(node, name, &path, folder, trust);
     }
-    if !STANDARD.contains(&name) && !trust {
-        let label = suggest::nearest(name, STANDARD.iter().copied())
+    if !INCLUDES.contains(&name) && !trust {
+        let label = suggest::nearest(name, INCLUDES.iter().copied())
             .map_or_else(|| "no such file".to_owned(), |near| format!("did you mean `{near}`?"));
         let message = format!("the include file `{name}` is neither POV-Ray's own nor beside the scene");
         return Err(Diagnostic::error("missing-include", message)
             .at(node.span, label)
             .help("with `--trust`, POV-Ray is left to find it"));
     }
-    if sdl::WRITING_INCLUDES.contains(&name) && !trust {
-        return Err(sdl::untrusted(name, node.span));
+    if WRITING_INCLUDES.contains(&name) && !trust {
+        let message = format!("the SDL reaches for files: the macros of `{name}` write them");
+        return Err(
+            error("untrusted-sdl", message).help("if you know this scene and trust it, say `--trust`")
+        );
     }
     Ok(Include::Standard(name.to_owned()))
 }
@@ -125,8 +86,5 @@ fn include_text(
         }
         _ => cannot_read(e),
     })?;
-    match sdl::first_file_access(&text) {
-        Some(what) if !trust => Err(sdl::untrusted(&what, node.span)),
-        _ => Ok(Include::Text { name: name.to_owned(), text }),
-    }
+    Ok(Include::Text { name: name.to_owned(), text })
 }

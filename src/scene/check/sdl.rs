@@ -1,115 +1,175 @@
-//! Raw SDL, and what it may do without being trusted.
+//! Raw SDL, and what it may do without `--trust`.
 //!
 //! POV-Ray does what a script says: it opens, overwrites and includes any file that its user can. So raw SDL in a
 //! scene is code, and a scene from somewhere else must not get to run what reaches for files.
 
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::{Context, asset, braces};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::expand::place;
 use crate::scene::grammar::Kind;
-use crate::scene::sdl::{Include, after_comment, includes};
-use crate::scene::source::Node;
+use crate::scene::sdl::{FileKind, Refusal, Where, Why, files, refusals};
+use crate::scene::source::{Node, Table, Value, file};
 
-/// Directives that open, read, write or include a file, after a `#`.
-const DIRECTIVES: [&str; 5] = ["fopen", "fclose", "read", "write", "include"];
-/// Macros of POV-Ray's own include files that write a file; those that begin so, too.
-const MACROS: [&str; 6] =
-    ["Parse_String", "ARRAYS_WriteDF3", "HF_", "HFCreate_", "BuildWriteMesh2", "MakeGrass"];
-/// POV-Ray's own include files that consist of such macros.
-pub(super) const WRITING_INCLUDES: [&str; 2] = ["makegrass.inc", "meshmaker.inc"];
+/// The largest asset that is read as SDL.
+const MAX_BYTES: u64 = 64 << 20;
 
-/// Raw SDL that a scene may contain.
-pub(super) fn read(node: &Node, trust: bool) -> Result<&str, Diagnostic> {
-    let text = node.as_str().ok_or_else(|| super::read::wrong_type(node, &Kind::Sdl))?;
-    if text.contains('\0') {
-        return Err(Diagnostic::error("untrusted-sdl", "the SDL contains a NUL character").at(node.span, ""));
+/// The endings of assets that are SDL, wherever they are included from.
+const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
+
+/// The files that the SDL of an untrusted scene may name.
+#[derive(Default)]
+pub(super) struct Assets {
+    /// The names by which SDL calls them, and where they are.
+    files: Vec<(String, PathBuf)>,
+    /// Those that have been read as SDL.
+    read: HashSet<String>,
+}
+
+impl Assets {
+    /// The assets that the scene lists. What is wrong with the list is reported elsewhere.
+    pub(super) fn of(root: &Table, folder: Option<&Path>, trust: bool) -> Assets {
+        let povray = root.get("povray").and_then(|entry| entry.node.as_table());
+        let list = povray.and_then(|povray| povray.get("assets")).map(|entry| &entry.node.value);
+        let items = match list {
+            Some(Value::Array(items)) => items.as_slice(),
+            _ => &[],
+        };
+        let assets = items.iter().filter_map(|item| asset::asset(item, folder, trust).ok());
+        Assets { files: assets.map(|asset| (asset.name, asset.path)).collect(), read: HashSet::new() }
     }
-    match first_file_access(text) {
-        Some(what) if !trust => Err(untrusted(&what, node.span)),
-        _ => super::braces::unbalanced(text, node.span).map_or(Ok(text), Err),
+
+    fn path(&self, name: &str) -> Option<&Path> {
+        let name = asset::below(name)?;
+        self.files.iter().find(|(known, _)| *known == name).map(|(_, path)| path.as_path())
     }
 }
 
-/// That a text reaches for files.
-pub(super) fn untrusted(what: &str, span: Span) -> Diagnostic {
-    Diagnostic::error("untrusted-sdl", format!("the SDL reaches for files: `{what}`"))
-        .at(span, "")
-        .help("if you know this scene and trust it, say `--trust`")
+/// Reports what is wrong with the SDL in a value of the scene.
+pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
+    let Some(text) = node.as_str() else {
+        return context.diagnostics.push(super::read::wrong_type(node, &Kind::Sdl(place)));
+    };
+    if context.trust {
+        context.diagnostics.extend(braces::unbalanced(text, node.span));
+        context.diagnostics.extend(computed_name(text, node.span));
+        return;
+    }
+    let (refused, includes) = refusals(text, place, |name| context.assets.path(name).is_some());
+    for refusal in &refused {
+        let raw = context.sources.get(node.span.source).text.get(node.span.start..node.span.end);
+        let at = place::in_string(raw.unwrap_or_default(), text, &refusal.range, node.span);
+        context.diagnostics.push(diagnostic(refusal, at));
+    }
+    if refused.is_empty() {
+        context.diagnostics.extend(braces::unbalanced(text, node.span));
+    }
+    for name in includes {
+        included(name, node.span, context);
+    }
 }
 
-/// The warning of a text that includes a file whose name only POV-Ray will know, if it does.
-pub(super) fn computed_include(text: &str, span: Span) -> Option<Diagnostic> {
-    let message = "the name of a file that the SDL includes is computed";
+/// Reports what is wrong with the text of an include file, which `span` of the scene names.
+pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
+    if context.trust {
+        context.diagnostics.extend(computed_name(text, span));
+        return;
+    }
+    let (refused, includes) = refusals(text, Where::Top, |name| context.assets.path(name).is_some());
+    if !refused.is_empty() {
+        let source = context.sources.add(name, text);
+        let errors = refused.iter().map(|refusal| {
+            let Range { start, end } = refusal.range;
+            diagnostic(refusal, Span { source, start, end }).at(span, "the file is named here")
+        });
+        context.diagnostics.extend(errors);
+    }
+    for name in includes {
+        included(name, span, context);
+    }
+}
+
+/// Reports what is wrong with an asset that the scene lists, if it is SDL by its ending.
+pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
+    let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
+    if ending.is_some_and(|ending| ENDINGS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
+        included(name, span, context);
+    }
+}
+
+/// Reads an asset as SDL, once, and reports what is wrong with it.
+fn included(name: &str, span: Span, context: &mut Context<'_>) {
+    let Some(path) = context.assets.path(name).map(Path::to_owned) else { return };
+    if context.trust || !context.assets.read.insert(asset::below(name).unwrap_or_default()) {
+        return;
+    }
+    match file::read(&path, MAX_BYTES) {
+        // Old include files are in other encodings; what differs are letters in comments and strings.
+        Ok(bytes) => check_include(name, &String::from_utf8_lossy(&bytes), span, context),
+        Err(error) => {
+            let code = match error.kind() {
+                std::io::ErrorKind::FileTooLarge => "file-too-large",
+                _ => "missing-asset",
+            };
+            let message = format!("cannot read `{name}`: {error}");
+            context.diagnostics.push(Diagnostic::error(code, message).at(span, ""));
+        }
+    }
+}
+
+/// The warning of a text that reads a file whose name only POV-Ray will know, if it does.
+fn computed_name(text: &str, span: Span) -> Option<Diagnostic> {
+    let is_computed = files(text).any(|file| file.literal.is_none() && file.kind != FileKind::Font);
+    let message = "the name of a file that the SDL reads is computed";
     let warning = Diagnostic::warning("computed-include", message).at(span, "");
-    let help = "when that file changes, nothing tells that images are out of date";
-    includes(text).contains(&Include::Computed).then(|| warning.help(help))
+    is_computed.then(|| warning.help("when that file changes, nothing tells that images are out of date"))
 }
 
-/// The first word of the text that opens, reads, writes or includes a file. Words in comments and strings count:
-/// better one refusal too many than a way around it.
-pub(super) fn first_file_access(text: &str) -> Option<String> {
-    let directive = text.match_indices('#').find_map(|(at, _)| {
-        let rest = after_blanks(&text[at + 1..]);
-        if rest.is_empty() {
-            // The word of this directive would be the first one of whatever text comes next.
-            return Some((at, "#".to_owned()));
+const TRUST: &str = "if you know this scene and trust it, say `--trust`";
+
+fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
+    let error =
+        |message: String, label: &str| Diagnostic::error("untrusted-sdl", message).at(at, label.to_owned());
+    let unbalanced = |message: String| Diagnostic::error("unbalanced-sdl", message).at(at, "");
+    match &refusal.why {
+        Why::Word(word) => error(format!("the SDL reaches for files: `{word}`"), "").help(TRUST),
+        Why::Macro(name) => {
+            error(format!("the SDL reaches for files: the macro `{name}` writes one"), "").help(TRUST)
         }
-        DIRECTIVES.into_iter().find(|word| word_at(rest) == *word).map(|word| (at, format!("#{word}")))
-    });
-    let macro_call =
-        MACROS.into_iter().filter_map(|name| text.find(name).map(|at| (at, name.to_owned()))).min();
-    directive.into_iter().chain(macro_call).min().map(|(_, what)| what)
-}
-
-/// What follows white space and comments: POV-Ray allows both between `#` and its word.
-fn after_blanks(mut text: &str) -> &str {
-    loop {
-        text = text.trim_start_matches(|c: char| c.is_whitespace() || c.is_control());
-        if let Some(comment) = text.strip_prefix("//") {
-            text = comment.split_once(['\n', '\r']).map_or("", |(_, rest)| rest);
-        } else if let Some(comment) = text.strip_prefix("/*") {
-            // Comments nest; to look behind every `*/` would be longer and no safer than to look behind the last
-            // of those that close here.
-            text = after_comment(comment);
-        } else {
-            return text;
+        Why::WritingInclude(name) => {
+            error(format!("the SDL reaches for files: the macros of `{name}` write them"), "").help(TRUST)
         }
-    }
-}
-
-fn word_at(text: &str) -> &str {
-    let end = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len());
-    &text[..end]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_way_to_a_file_is_found() {
-        for text in [
-            "#fopen F \"x\" write",
-            "#write(F, 1)",
-            "#  include \"x\"",
-            "#\n\tread (F, A)",
-            "#/* a /* b */ c */include \"x\"",
-            "# // a\n include \"x\"",
-            "a # b #fopen",
-            "Parse_String(\"x\")",
-            "HF_Square(f, 0, 0, 1, 1, \"x\", 0, 1)",
-            "/* #include */",
-            "#",
-            "sphere { } # ",
-            "# // x",
-            "# /* x",
-        ] {
-            assert!(first_file_access(text).is_some(), "{text:?}");
+        Why::Computed(word) => {
+            let message = format!("the name of the file that `{word}` reads is computed");
+            error(message, "needs a plain string").help(match word.as_str() {
+                "include" => "write the name between quotes directly behind it: `#include \"parts.inc\"`; or say `--trust`",
+                "ttf" => "write the name between quotes directly behind it: `ttf \"timrom.ttf\"`; or say `--trust`",
+                _ => "write the name between quotes, directly where it belongs: `image_map { png \"wood.png\" }`; or say `--trust`",
+            })
         }
-    }
-
-    #[test]
-    fn other_words_pass() {
-        for text in ["", "#declare A = 1;", "texture { T_Chrome_4C }", "#included", "read write include"] {
-            assert_eq!(first_file_access(text), None, "{text:?}");
+        Why::Unlisted(name) => {
+            let message = format!("`{}` is neither an asset of the scene nor a file of POV-Ray's", name.escape_debug());
+            error(message, "").help(
+                "list it in `povray.assets`, with a path that starts from the scene's folder; or, if you trust this scene, \
+                 say `--trust`",
+            )
         }
+        Why::InnerInclude => error("`#include` cannot stand in a macro, a body or a material".to_owned(), "").help(
+            "move it to `sdl` or `include` of [povray]; or, if you know this scene and trust it, say `--trust`",
+        ),
+        Why::Hash => error("this `#` has no directive directly behind it".to_owned(), "").help(TRUST),
+        Why::NoHash(word) => {
+            error(format!("the directive `{word}` needs a `#` before it"), "")
+                .help(format!("write `#{word}`"))
+        }
+        Why::Open(what) => unbalanced(match *what {
+            "comment" | "string" => format!("the SDL opens a {what} that it does not close"),
+            directive => format!("this `#{directive}` has no `#end` in the same text"),
+        }),
+        Why::Stray(word) => unbalanced(format!("this `#{word}` belongs to no directive in the same text")),
+        Why::Nul => error("the SDL contains a NUL character".to_owned(), ""),
     }
 }

@@ -152,20 +152,18 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         Kind::Direction(_) => keep_all(read::direction::<3>(node), context),
         Kind::Color => keep_all(read::color(node), context),
         Kind::Identifier => keep(read::identifier(node), context),
-        Kind::Sdl => match sdl::read(node, context.trust) {
-            Ok(text) => context.diagnostics.extend(sdl::computed_include(text, node.span)),
-            Err(error) => context.diagnostics.push(error),
-        },
+        Kind::Sdl(place) => sdl::check(node, *place, context),
         Kind::Include if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
         Kind::Include => match super::povray::include(node, context.folder, context.trust) {
-            Ok(Include::Text { text, .. }) => {
-                context.diagnostics.extend(sdl::computed_include(&text, node.span));
-            }
+            Ok(Include::Text { name, text }) => sdl::check_include(&name, &text, node.span, context),
             Ok(Include::Standard(_)) => {}
             Err(error) => context.diagnostics.push(error),
         },
         Kind::Asset if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
-        Kind::Asset => keep(super::asset::asset(node, context.folder, context.trust), context),
+        Kind::Asset => match super::asset::asset(node, context.folder, context.trust) {
+            Ok(asset) => sdl::check_asset(&asset.name, node.span, context),
+            Err(error) => context.diagnostics.push(error),
+        },
         Kind::Choice(words) => choice(node, kind, &words(), entry, context),
         Kind::Reference(collection) => reference(node, kind, *collection, context),
         Kind::List { of, .. } => match read::list(node, kind) {

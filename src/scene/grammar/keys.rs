@@ -16,6 +16,7 @@ use super::shapes::SHAPE;
 use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
+use crate::scene::sdl::Where;
 use crate::scene::{Finish, Layout, MATERIALS, Preset};
 
 pub(super) const ANY: Kind = Number(Bound::Any);
@@ -242,14 +243,14 @@ static BODY_LOOK: TableSpec = TableSpec {
             .also(&["size", "magnification", "enlarge"]),
         Key::new(
             "sdl_before",
-            Sdl,
+            Sdl(Where::Inside),
             "POV-Ray's own words at the end of its object, before the matrix that places it: they move with the body",
         )
         .default("none")
         .also(&["sdl", "pre_sdl"]),
         Key::new(
             "sdl_after",
-            Sdl,
+            Sdl(Where::Inside),
             "POV-Ray's own words after that matrix: they stay where they are in the world",
         )
         .default("none")
@@ -296,7 +297,7 @@ static MATERIAL: TableSpec = TableSpec {
             .default("from `color` and `finish`"),
         Key::new(
             "sdl",
-            Sdl,
+            Sdl(Where::Inside),
             "POV-Ray's own words, to stand inside an object: `texture { … }`, `interior { … }`",
         )
         .default("from `color` and `finish`"),
@@ -366,7 +367,7 @@ static POVRAY: TableSpec = TableSpec {
         )
         .default("[]")
         .also(&["files", "images", "textures", "maps"]),
-        Key::new("sdl", Sdl, "POV-Ray's own words, to stand in every script before the bodies")
+        Key::new("sdl", Sdl(Where::Top), "POV-Ray's own words, to stand in every script before the bodies")
             .default("none"),
         Key::new(
             "templates",

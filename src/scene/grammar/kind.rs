@@ -1,6 +1,7 @@
 //! What the value of a key may be.
 
 use super::TableSpec;
+use crate::scene::sdl::Where;
 use crate::scene::source::Value;
 
 /// What the value of a key may be.
@@ -26,8 +27,8 @@ pub enum Kind {
     Direction(usize),
     /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
     Color,
-    /// POV-Ray's own language, as it is.
-    Sdl,
+    /// POV-Ray's own language, as it is, and where it stands in the script.
+    Sdl(Where),
     /// A name that POV-Ray knows: letters, digits and underscores.
     Identifier,
     /// The name of an include file.
@@ -146,7 +147,7 @@ impl Kind {
     pub fn takes(&self, value: &Value) -> bool {
         match self {
             Kind::Text
-            | Kind::Sdl
+            | Kind::Sdl(_)
             | Kind::Identifier
             | Kind::Include
             | Kind::Asset
@@ -192,7 +193,7 @@ impl Kind {
             Kind::Color => {
                 "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name of CSS)".to_owned()
             }
-            Kind::Sdl => "a string of POV-Ray's scene description language".to_owned(),
+            Kind::Sdl(_) => "a string of POV-Ray's scene description language".to_owned(),
             Kind::Identifier => {
                 "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
             }

@@ -113,7 +113,7 @@ fn property(key: &Key, whole: Whole) -> Value {
 fn default_value(key: &Key) -> Option<Value> {
     match &key.kind {
         Kind::Choice(words) => words().into_iter().find(|word| *word == key.default).map(Value::from),
-        Kind::Text | Kind::Sdl => None,
+        Kind::Text | Kind::Sdl(_) => None,
         _ => serde_json::from_str(key.default).ok(),
     }
 }
@@ -125,7 +125,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             let library: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
             object(json!({ "anyOf": [{ "type": "string", "enum": library }, { "type": "string" }] }))
         }
-        Kind::Text | Kind::Sdl | Kind::Reference(_) => object(json!({ "type": "string" })),
+        Kind::Text | Kind::Sdl(_) | Kind::Reference(_) => object(json!({ "type": "string" })),
         Kind::Boolean => object(json!({ "type": "boolean" })),
         Kind::Number(bound) => number(*bound),
         Kind::Integer(low, high) => {

@@ -3,6 +3,7 @@
 use super::Kind::{Asset, Boolean, Either, List, Number, Numbers, Sdl, Table};
 use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};
 use super::{Bound, Key, Rule, TableSpec};
+use crate::scene::sdl::Where;
 
 const SPHERE: Key = Key::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
 const BOX: Key =
@@ -112,7 +113,7 @@ static SDL: TableSpec = TableSpec {
     keys: &[
         Key::new(
             "object",
-            Sdl,
+            Sdl(Where::Inside),
             "One object in POV-Ray's own words, lengths in metres, its centre of mass at the origin; without \
              `material` it has the textures that it brings along, and is black without any",
         )

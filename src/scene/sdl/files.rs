@@ -1,0 +1,165 @@
+//! The names of files in SDL.
+
+use std::ops::Range;
+
+use super::standard::FONT_MACROS;
+use super::tokens::{Token, Tokens};
+use super::words::{FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS};
+
+/// What a file is read as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FileKind {
+    /// SDL: `#include`.
+    Include,
+    /// An image or a density: `image_map`, `height_field`, `df3` and their like.
+    Image,
+    /// A font: `ttf`, or a macro that takes one.
+    Font,
+    /// Anything else: `#fopen`, `load_file`, `file_exists`.
+    Data,
+}
+
+/// The name of a file in SDL.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileName<'a> {
+    /// What the file is read as.
+    pub kind: FileKind,
+    /// The name as it stands between its quotes; `None` if it is computed, so that only POV-Ray knows it.
+    pub literal: Option<&'a str>,
+    /// Where it stands: the string with its quotes, or else the word that reads the file.
+    pub range: Range<usize>,
+}
+
+/// The files that a text reads, in the order of the text, also in places that POV-Ray would not come to.
+pub fn files(text: &str) -> impl Iterator<Item = FileName<'_>> {
+    let mut tokens = Tokens::of(text);
+    let mut before = None;
+    std::iter::from_fn(move || {
+        loop {
+            let (token, range) = tokens.next()?;
+            let file = file(token, &range, before, tokens.clone());
+            before = Some(token);
+            if file.is_some() {
+                return file;
+            }
+        }
+    })
+}
+
+/// The file that a token reads, given the token before it and those after it.
+pub(super) fn file<'a>(
+    token: Token<'a>,
+    range: &Range<usize>,
+    before: Option<Token<'a>>,
+    mut after: Tokens<'a>,
+) -> Option<FileName<'a>> {
+    let Token::Word(word) = token else { return None };
+    let unknown = |kind| Some(FileName { kind, literal: None, range: range.clone() });
+    match word {
+        "include" => Some(named(FileKind::Include, range, after)),
+        "ttf" => Some(named(FileKind::Font, range, after)),
+        "load_file" => Some(named(FileKind::Data, range, after)),
+        "fopen" => {
+            // The identifier of the file.
+            after.next();
+            Some(named(FileKind::Data, range, after))
+        }
+        // `charset sys` is an encoding.
+        "sys" if before == Some(Token::Word("charset")) => None,
+        _ if FILE_TYPES.contains(&word) => Some(named(FileKind::Image, range, after)),
+        _ if IMAGE_BLOCKS.contains(&word) => match opens(&mut after, '{').then(|| after.clone().next()) {
+            // The type of the file follows, and then its name; or the image is computed.
+            Some(Some((Token::Word(next), _))) if next == "function" || FILE_TYPES.contains(&next) => None,
+            Some(_) => Some(named(FileKind::Image, range, after)),
+            None => unknown(FileKind::Image),
+        },
+        _ if word == FILE_EXISTS || FONT_MACROS.contains(&word) => {
+            let kind = if word == FILE_EXISTS { FileKind::Data } else { FileKind::Font };
+            match opens(&mut after, '(') {
+                true => Some(named(kind, range, after)),
+                false => unknown(kind),
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Whether the next token is this bracket.
+fn opens(after: &mut Tokens<'_>, bracket: char) -> bool {
+    matches!(after.next(), Some((Token::Symbol(symbol), _)) if symbol == bracket)
+}
+
+/// The name that stands next, if it is a plain string; else the place of the word that reads the file.
+fn named<'a>(kind: FileKind, word: &Range<usize>, mut after: Tokens<'a>) -> FileName<'a> {
+    match after.next() {
+        // What a backslash means in the name of a file differs between systems.
+        Some((Token::Text(name), range)) if !name.contains('\\') => {
+            FileName { kind, literal: Some(name), range }
+        }
+        _ => FileName { kind, literal: None, range: word.clone() },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(text: &str) -> Vec<(FileKind, Option<&str>)> {
+        files(text).map(|file| (file.kind, file.literal)).collect()
+    }
+
+    #[test]
+    fn every_file_is_found() {
+        use FileKind::{Data, Font, Image, Include};
+        for (text, expected) in [
+            ("#include \"a.inc\"", (Include, Some("a.inc"))),
+            ("include \"a.inc\"", (Include, Some("a.inc"))),
+            ("#  include // a comment\n \"é.inc\"", (Include, Some("é.inc"))),
+            ("#/* a /* b */ c */include/**/\"a.inc\" // #include \"b.inc\"", (Include, Some("a.inc"))),
+            ("#declare Text = \"#include \\\"b.inc\\\"\"; #include \"a.inc\"", (Include, Some("a.inc"))),
+            ("#if (0)\r#include \"a.inc\"\r#end", (Include, Some("a.inc"))),
+            ("#\u{1}include \"a.inc\"", (Include, Some("a.inc"))),
+            ("pigment { image_map { png \"a.png\" } }", (Image, Some("a.png"))),
+            ("normal { bump_map { \"a.png\" } }", (Image, Some("a.png"))),
+            ("height_field{/**/sys\"a\"}", (Image, Some("a"))),
+            ("density_file df3 \"a.df3\"", (Image, Some("a.df3"))),
+            ("text { ttf \"timrom.ttf\" \"a\" 1, 0 }", (Font, Some("timrom.ttf"))),
+            ("Text_Width(\"timrom.ttf\", \"a\", 1, 0)", (Font, Some("timrom.ttf"))),
+            ("#fopen F \"a.txt\" read", (Data, Some("a.txt"))),
+            ("#if (file_exists(\"a.txt\")) #end", (Data, Some("a.txt"))),
+            ("photons { load_file \"a\" }", (Data, Some("a"))),
+            ("#include Name", (Include, None)),
+            ("#include", (Include, None)),
+            ("#include concat(\"a\")", (Include, None)),
+            ("#include \"a\\\\b.inc\"", (Include, None)),
+            ("image_map { png Name }", (Image, None)),
+            ("image_map { Name }", (Image, None)),
+            ("image_map { concat(\"a\", \"b\") }", (Image, None)),
+            ("image_map Name", (Image, None)),
+            ("image_map { #if (1) Name #end }", (Image, None)),
+            ("ttf Font", (Font, None)),
+            ("Text_Width(Font)", (Font, None)),
+            ("Text_Width", (Font, None)),
+        ] {
+            assert_eq!(names(text), [expected], "{text:?}");
+        }
+        let several = "#include \"a.inc\" #include concat(\"a\", \".inc\") #include \"b/c.inc\"";
+        assert_eq!(names(several), [(Include, Some("a.inc")), (Include, None), (Include, Some("b/c.inc"))]);
+    }
+
+    #[test]
+    fn other_words_read_no_file() {
+        for text in [
+            "",
+            "#included \"a.inc\"",
+            "#",
+            "\"#include",
+            "/* #include",
+            "global_settings { charset sys }",
+            "image_map { function 9, 9 { pigment { bozo } } }",
+            "#debug \"include\"",
+        ] {
+            assert_eq!(names(text), [], "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! What SDL may do without `--trust`.
+//!
+//! POV-Ray opens, overwrites and includes any file that its user can, and it does so in surprising places: `include`
+//! works without its `#`, and a macro may end between a `#` and its word. So the filter does not look for what is
+//! dangerous. It cuts a text into POV-Ray's own tokens and lets pass what it knows:
+//!
+//! - reserved words that touch no file, and all identifiers but those of macros that write files;
+//! - directives, each directly behind its `#`, each `#if` or `#macro` with an `#end` of its own in the same text;
+//! - where the name of a file belongs, a plain string with the name of a file that the scene lists as an asset, or that
+//!   comes with POV-Ray. A name that is computed could be that of any file.
+//!
+//! `#include` may not stand in a macro: POV-Ray finds the end of a macro by its position, also in the file that is
+//! included, and may go on reading in the middle of a comment.
+
+use std::ops::Range;
+
+use super::files::{FileKind, FileName, file};
+use super::standard::{WRITING_MACROS, is_standard, is_writing};
+use super::tokens::{Token, Tokens, Unclosed};
+use super::words::{DIRECTIVES, OTHERS, REFUSED};
+
+/// Where a text stands in the script.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Where {
+    /// Before the bodies, or in a file that is included there.
+    Top,
+    /// In a body or a material, which may be the text of a macro.
+    Inside,
+}
+
+/// Something that SDL may not do without `--trust`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// Where it stands in the text, bytes.
+    pub range: Range<usize>,
+    /// Why it is refused.
+    pub why: Why,
+}
+
+/// Why SDL is refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// A word that opens, reads or writes files.
+    Word(String),
+    /// A macro of POV-Ray's include files that writes files.
+    Macro(String),
+    /// The name of a file behind this word is computed.
+    Computed(String),
+    /// A file of this name is neither an asset nor one of POV-Ray's own.
+    Unlisted(String),
+    /// An include file of POV-Ray's that serves to write files.
+    WritingInclude(String),
+    /// `#include` in a macro, a body or a material.
+    InnerInclude,
+    /// A `#` without a directive behind it.
+    Hash,
+    /// A directive without `#` before it.
+    NoHash(String),
+    /// A comment, string or directive, by its first word, that is not closed.
+    Open(&'static str),
+    /// `#end`, `#else` or their like without the directive that it belongs to.
+    Stray(String),
+    /// A NUL character.
+    Nul,
+}
+
+/// The most refusals that are reported of one text.
+const MAX_REFUSALS: usize = 8;
+
+/// What a text may not do without `--trust`, in the order of the text, and the names of the assets that it includes.
+/// `is_asset` tells the names of the scene's assets.
+pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (Vec<Refusal>, Vec<&str>) {
+    let mut filter = Filter { place, is_asset, open: Vec::new(), refusals: Vec::new(), includes: Vec::new() };
+    if let Some(at) = text.find('\0') {
+        filter.refuse(at..at + 1, Why::Nul);
+    }
+    let mut tokens = Tokens::of(text);
+    let (mut before, mut end) = (None, 0..0);
+    while let Some((token, range)) = tokens.next() {
+        filter.token(token, &range, before, &tokens);
+        if filter.refusals.len() >= MAX_REFUSALS {
+            return (filter.refusals, filter.includes);
+        }
+        (before, end) = (Some(token), range);
+    }
+    if before == Some(Token::Symbol('#')) {
+        filter.refuse(end, Why::Hash);
+    }
+    match tokens.unclosed() {
+        Some(Unclosed::Comment(range)) => filter.refuse(range.clone(), Why::Open("comment")),
+        Some(Unclosed::Text(range)) => filter.refuse(range.clone(), Why::Open("string")),
+        None => {}
+    }
+    for (word, range) in std::mem::take(&mut filter.open) {
+        filter.refuse(range, Why::Open(word));
+    }
+    filter.refusals.sort_by_key(|refusal| refusal.range.start);
+    (filter.refusals, filter.includes)
+}
+
+struct Filter<'a, F> {
+    place: Where,
+    is_asset: F,
+    /// The directives that wait for their `#end`.
+    open: Vec<(&'static str, Range<usize>)>,
+    refusals: Vec<Refusal>,
+    includes: Vec<&'a str>,
+}
+
+/// Directives that end with an `#end`.
+const OPENING: [&str; 7] = ["for", "if", "ifdef", "ifndef", "macro", "switch", "while"];
+/// Directives that stand in one of those.
+const INNER: [&str; 5] = ["break", "case", "else", "elseif", "range"];
+
+impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
+    fn refuse(&mut self, range: Range<usize>, why: Why) {
+        self.refusals.push(Refusal { range, why });
+    }
+
+    fn token(
+        &mut self,
+        token: Token<'a>,
+        range: &Range<usize>,
+        before: Option<Token<'a>>,
+        after: &Tokens<'a>,
+    ) {
+        let behind_hash = before == Some(Token::Symbol('#'));
+        let Token::Word(word) = token else {
+            if behind_hash {
+                self.refuse(range.clone(), Why::Hash);
+            }
+            return;
+        };
+        let is = |words: &[&str]| words.binary_search(&word).is_ok();
+        if is(&REFUSED) {
+            return self.refuse(range.clone(), Why::Word(word.to_owned()));
+        }
+        if WRITING_MACROS.contains(&word) {
+            return self.refuse(range.clone(), Why::Macro(word.to_owned()));
+        }
+        match (behind_hash, is(&DIRECTIVES)) {
+            (true, true) => self.directive(word, range),
+            (true, false) => return self.refuse(range.clone(), Why::Hash),
+            (false, true) if !is(&OTHERS) => {
+                return self.refuse(range.clone(), Why::NoHash(word.to_owned()));
+            }
+            (false, _) => {}
+        }
+        if let Some(name) = file(token, range, before, after.clone()) {
+            self.file(word, name);
+        }
+    }
+
+    fn directive(&mut self, word: &str, range: &Range<usize>) {
+        if let Some(opening) = OPENING.into_iter().find(|opening| *opening == word) {
+            self.open.push((opening, range.clone()));
+        } else if (word == "end" && self.open.pop().is_none())
+            || (INNER.contains(&word) && self.open.is_empty())
+        {
+            self.refuse(range.clone(), Why::Stray(word.to_owned()));
+        } else if word == "include"
+            && (self.place == Where::Inside || self.open.iter().any(|(word, _)| *word == "macro"))
+        {
+            self.refuse(range.clone(), Why::InnerInclude);
+        }
+    }
+
+    fn file(&mut self, word: &str, name: FileName<'a>) {
+        let why = match name.literal {
+            None => Why::Computed(word.to_owned()),
+            Some(literal) if (self.is_asset)(literal) => {
+                if name.kind == FileKind::Include {
+                    self.includes.push(literal);
+                }
+                return;
+            }
+            Some(literal) if is_writing(literal) => Why::WritingInclude(literal.to_owned()),
+            Some(literal) if is_standard(literal) => return,
+            Some(literal) => Why::Unlisted(literal.to_owned()),
+        };
+        self.refuse(name.range, why);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::words::{FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, reserved_words};
+    use super::*;
+
+    fn first(text: &str) -> Option<Why> {
+        let is_asset = |name: &str| ["wood.png", "parts.inc"].contains(&name);
+        refusals(text, Where::Top, is_asset).0.into_iter().next().map(|refusal| refusal.why)
+    }
+
+    #[test]
+    fn what_touches_files_is_refused() {
+        let word = |word: &str| Why::Word(word.to_owned());
+        let unlisted = |name: &str| Why::Unlisted(name.to_owned());
+        let computed = |word: &str| Why::Computed(word.to_owned());
+        for (text, why) in [
+            ("#fopen F \"x\" write", word("fopen")),
+            ("#write(F, 1)", word("write")),
+            ("#\n\tread (F, A)", word("read")),
+            ("photons { save_file \"/x\" }", word("save_file")),
+            ("photons { load_file \"wood.png\" }", word("load_file")),
+            ("include \"evil.inc\"", Why::NoHash("include".to_owned())),
+            ("1einclude \"evil.inc\"", Why::NoHash("include".to_owned())),
+            ("// a\rinclude \"evil.inc\"", Why::NoHash("include".to_owned())),
+            ("#include \"evil.inc\"", unlisted("evil.inc")),
+            ("#  /* /* */ */ include // a\n \"/etc/passwd\"", unlisted("/etc/passwd")),
+            ("#macro A() # #end A() include \"x\"", Why::Hash),
+            ("#macro A() \"x\" #end #include A()", computed("include")),
+            ("#macro A() #include \"parts.inc\" #end", Why::InnerInclude),
+            ("#include concat(\"a\", \"b\")", computed("include")),
+            ("#include", computed("include")),
+            ("#include \"meshmaker.inc\"", Why::WritingInclude("meshmaker.inc".to_owned())),
+            ("#include \"makegrass\"", Why::WritingInclude("makegrass".to_owned())),
+            ("pigment { image_map { png \"/abs/path\" } }", unlisted("/abs/path")),
+            ("pigment { image_map { \"../x.png\" } }", unlisted("../x.png")),
+            ("pigment { image_map { png Name } }", computed("png")),
+            ("pigment { image_map { concat(\"/\", \"x\") } }", computed("image_map")),
+            ("pigment { image_map { #if (1) png \"wood.png\" #end } }", computed("image_map")),
+            ("#macro A() image_map #end", computed("image_map")),
+            ("#macro A() png #end image_map { A() Name }", computed("png")),
+            ("density_file df3 Name", computed("df3")),
+            ("text { ttf \"/etc/passwd\" \"a\" 1, 0 }", unlisted("/etc/passwd")),
+            ("Text_Width(Font, \"a\", 1, 0)", computed("Text_Width")),
+            ("Text_Width(\"/etc/passwd\", \"a\", 1, 0)", unlisted("/etc/passwd")),
+            ("#if (file_exists(\"/etc/passwd\")) #end", unlisted("/etc/passwd")),
+            ("Parse_String(\"x\")", Why::Macro("Parse_String".to_owned())),
+            ("HF_Square(f, 0, 0, 1, 1, \"x\", 0, 1)", Why::Macro("HF_Square".to_owned())),
+            ("sphere { } # ", Why::Hash),
+            ("# // x", Why::Hash),
+            ("# sphere { }", Why::Hash),
+            ("# /* x", Why::Hash),
+            ("a /* x", Why::Open("comment")),
+            ("a \" x", Why::Open("string")),
+            ("#if (1)", Why::Open("if")),
+            ("#macro A() #if (1) #end", Why::Open("macro")),
+            ("#if (1) #end #end", Why::Stray("end".to_owned())),
+            ("#else", Why::Stray("else".to_owned())),
+            ("end", Why::NoHash("end".to_owned())),
+            ("a\0b", Why::Nul),
+        ] {
+            assert_eq!(first(text), Some(why), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_touches_no_file_passes() {
+        for text in [
+            "",
+            "#declare A = 1;",
+            "texture { T_Chrome_4C }",
+            "#declare Include = \"#include\"; // #include",
+            "#include \"parts.inc\" #include \"colors.inc\" #include \"shapes\"",
+            "pigment { image_map { png \"wood.png\" once } }",
+            "normal { bump_map { \"bumpmap_.png\" } }",
+            "pigment { image_map { function 9, 9 { pigment { bozo } } } }",
+            "text { ttf \"timrom.ttf\", \"any text: /etc/passwd\", 1, 0 }",
+            "Circle_Text(\"cyrvetic.ttf\", \"a\", 1, 0, 1, 1, 1, 1, 0)",
+            "global_settings { charset sys }",
+            "#macro A(B) #for (I, 0, 9) #if (I = 3) #break #else sphere { I*x, B } #end #end #end",
+            "#switch (1) #case (0) #range (1, 2) #break #else #end",
+            "#if (version < 3.7) #version 3.7; #end",
+            "cylinder { 0, y, 1 open }",
+            "#debug concat(\"a\", str(1, 0, 0), \"\\n\")",
+        ] {
+            assert_eq!(first(text), None, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn an_include_belongs_to_the_top() {
+        let (refused, _) = refusals("#include \"colors.inc\"", Where::Inside, |_| false);
+        assert_eq!(refused[0].why, Why::InnerInclude);
+        let (refused, includes) = refusals("#include \"a\" #include \"b\"", Where::Top, |name| name == "b");
+        assert_eq!((refused.len(), includes), (1, vec!["b"]));
+    }
+
+    #[test]
+    fn a_refusal_has_a_place_and_there_are_not_too_many() {
+        let (refused, _) = refusals("é { fopen } ", Where::Top, |_| false);
+        assert_eq!(refused, [Refusal { range: 5..10, why: Why::Word("fopen".to_owned()) }]);
+        assert_eq!(refusals(&"fopen ".repeat(100), Where::Top, |_| false).0.len(), MAX_REFUSALS);
+    }
+
+    #[test]
+    fn the_words_are_sorted_and_each_has_one_place() {
+        let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED, &OTHERS];
+        for list in lists {
+            assert!(list.is_sorted_by(|a, b| a < b), "{list:?}");
+        }
+        assert_eq!(reserved_words().len(), 498);
+        let mut all: Vec<&str> = lists.concat();
+        all.push(FILE_EXISTS);
+        all.sort_unstable();
+        let twice: Vec<_> = all.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+        assert_eq!(twice, ["default", "version"]);
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn every_text_is_judged_and_places_are_on_bounds_of_characters(
+            words in proptest::collection::vec(
+                proptest::sample::select(vec![
+                    "#", "include", "\"", "\"a.inc\"", "/*", "*/", "//", "\n", "image_map", "{", "}", "png", "macro",
+                    "end", "if", "fopen", "é", "\0", "1e", "(", ")", "HF_Square", "ttf", " ", "\\", "\u{10ffff}", "x",
+                ]),
+                0..40,
+            )
+        ) {
+            let text = words.concat();
+            for place in [Where::Top, Where::Inside] {
+                for refusal in refusals(&text, place, |name| name == "a.inc").0 {
+                    assert!(text.get(refusal.range.clone()).is_some(), "{text:?} at {refusal:?}");
+                }
+            }
+        }
+    }
+}
