@@ -16,9 +16,11 @@ use support::{jabuka, stderr};
 const INCLUDES: &str = "/usr/share/povray-3.7/include";
 const EXAMPLES: &str = "/usr/share/doc/povray/examples";
 
-/// Scenes whose SDL would overwrite, include or read files of their user: what the error names, the table with the SDL, and
-/// files beside the scene.
-const HOSTILE: [(&str, &str, &[(&str, &str)]); 13] = [
+/// A scene: what the error names, the table with the SDL, and files beside the scene.
+type Hostile = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+/// Scenes whose SDL would overwrite, include or read files of their user.
+const HOSTILE: [Hostile; 13] = [
     ("`include`", "[povray]\nsdl = '''\n  include \"VICTIM\"\n'''", &[]),
     ("`#`", "[povray]\nsdl = '#macro A() # #end A() include \"VICTIM\"'", &[]),
     ("`save_file`", "[povray]\nsdl = 'global_settings { photons { count 9 save_file \"VICTIM\" } }'", &[]),
@@ -107,7 +109,7 @@ fn pieces(text: &str) -> Vec<&str> {
         for (token, range) in tokens.by_ref() {
             match token {
                 Token::Word("if" | "ifdef" | "ifndef" | "while" | "for" | "switch" | "macro") if hash => {
-                    directives += 1
+                    directives += 1;
                 }
                 Token::Word("end") if hash => directives -= 1,
                 Token::Symbol('{') => braces += 1,

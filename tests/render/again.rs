@@ -100,13 +100,13 @@ fn an_image_follows_whatever_its_include_files_read() {
     fs::write(place.path("first.inc"), format!("include \"{}\"\n", file("second"))).unwrap();
     let second = format!("#declare Sky = pigment {{ image_map {{ ppm \"{}\" }} }}\n", file("sky.ppm"));
     fs::write(place.path("second.inc"), &second).unwrap();
-    fs::write(place.path("sky.ppm"), b"P6 1 1 255\nabc").unwrap();
+    fs::write(place.path("sky.ppm"), b"P6\n1 1\n255\nabc").unwrap();
     let render = || {
         let said = stdout(&place.succeed(&["render", "scene.toml", "--frames", "0", "--trust"]));
         said.lines().last().unwrap().split(' ').filter(|word| !word.is_empty()).nth(1).unwrap().to_owned()
     };
     assert_eq!([render(), render()], ["1", "0"]);
-    fs::write(place.path("sky.ppm"), b"P6 1 1 255\nabd").unwrap();
+    fs::write(place.path("sky.ppm"), b"P6\n1 1\n255\nabd").unwrap();
     assert_eq!([render(), render()], ["1", "0"], "an image that an include file reads");
     fs::write(place.path("second.inc"), second + "// more\n").unwrap();
     assert_eq!([render(), render()], ["1", "0"], "a file that an include file includes");

@@ -3,7 +3,7 @@
 //! POV-Ray does what a script says: it opens, overwrites and includes any file that its user can. So raw SDL in a
 //! scene is code, and a scene from somewhere else must not get to run what reaches for files.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 #[derive(Default)]
 pub(super) struct Assets {
     /// The names by which SDL calls them, and where they are.
-    files: Vec<(String, PathBuf)>,
+    files: HashMap<String, PathBuf>,
     /// Those that have been read as SDL.
     read: HashSet<String>,
 }
@@ -43,8 +43,7 @@ impl Assets {
     }
 
     fn path(&self, name: &str) -> Option<&Path> {
-        let name = asset::below(name)?;
-        self.files.iter().find(|(known, _)| *known == name).map(|(_, path)| path.as_path())
+        self.files.get(&asset::below(name)?).map(PathBuf::as_path)
     }
 }
 
@@ -131,45 +130,47 @@ fn computed_name(text: &str, span: Span) -> Option<Diagnostic> {
 const TRUST: &str = "if you know this scene and trust it, say `--trust`";
 
 fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
-    let error =
+    let untrusted =
         |message: String, label: &str| Diagnostic::error("untrusted-sdl", message).at(at, label.to_owned());
     let unbalanced = |message: String| Diagnostic::error("unbalanced-sdl", message).at(at, "");
     match &refusal.why {
-        Why::Word(word) => error(format!("the SDL reaches for files: `{word}`"), "").help(TRUST),
+        Why::Word(word) => untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST),
         Why::Macro(name) => {
-            error(format!("the SDL reaches for files: the macro `{name}` writes one"), "").help(TRUST)
+            untrusted(format!("the SDL reaches for files: the macro `{name}` writes one"), "").help(TRUST)
         }
         Why::WritingInclude(name) => {
-            error(format!("the SDL reaches for files: the macros of `{name}` write them"), "").help(TRUST)
+            untrusted(format!("the SDL reaches for files: the macros of `{name}` write them"), "").help(TRUST)
         }
         Why::Computed(word) => {
             let message = format!("the name of the file that `{word}` reads is computed");
-            error(message, "needs a plain string").help(match word.as_str() {
-                "include" => "write the name between quotes directly behind it: `#include \"parts.inc\"`; or say `--trust`",
-                "ttf" => "write the name between quotes directly behind it: `ttf \"timrom.ttf\"`; or say `--trust`",
-                _ => "write the name between quotes, directly where it belongs: `image_map { png \"wood.png\" }`; or say `--trust`",
-            })
+            let example = match word.as_str() {
+                "include" => "#include \"parts.inc\"",
+                "ttf" => "ttf \"timrom.ttf\"",
+                _ => "image_map { png \"wood.png\" }",
+            };
+            let help =
+                format!("write it between quotes, directly where it belongs: `{example}`; or say `--trust`");
+            untrusted(message, "needs a plain string").help(help)
         }
         Why::Unlisted(name) => {
-            let message = format!("`{}` is neither an asset of the scene nor a file of POV-Ray's", name.escape_debug());
-            error(message, "").help(
-                "list it in `povray.assets`, with a path that starts from the scene's folder; or, if you trust this scene, \
-                 say `--trust`",
-            )
+            let name = name.escape_debug();
+            let message = format!("`{name}` is neither an asset of the scene nor a file of POV-Ray's");
+            let help = "list it in `povray.assets`, by its path from the scene's folder";
+            untrusted(message, "").help(format!("{help}; or, {TRUST}"))
         }
-        Why::InnerInclude => error("`#include` cannot stand in a macro, a body or a material".to_owned(), "").help(
-            "move it to `sdl` or `include` of [povray]; or, if you know this scene and trust it, say `--trust`",
-        ),
-        Why::Hash => error("this `#` has no directive directly behind it".to_owned(), "").help(TRUST),
-        Why::NoHash(word) => {
-            error(format!("the directive `{word}` needs a `#` before it"), "")
-                .help(format!("write `#{word}`"))
+        Why::InnerInclude => {
+            let message = "`#include` cannot stand in a macro, a body or a material";
+            let help = "move it to `sdl` or `include` of [povray]";
+            untrusted(message.to_owned(), "").help(format!("{help}; or, {TRUST}"))
         }
+        Why::Hash => untrusted("this `#` has no directive directly behind it".to_owned(), "").help(TRUST),
+        Why::NoHash(word) => untrusted(format!("the directive `{word}` needs a `#` before it"), "")
+            .help(format!("write `#{word}`")),
         Why::Open(what) => unbalanced(match *what {
             "comment" | "string" => format!("the SDL opens a {what} that it does not close"),
             directive => format!("this `#{directive}` has no `#end` in the same text"),
         }),
         Why::Stray(word) => unbalanced(format!("this `#{word}` belongs to no directive in the same text")),
-        Why::Nul => error("the SDL contains a NUL character".to_owned(), ""),
+        Why::Nul => untrusted("the SDL contains a NUL character".to_owned(), ""),
     }
 }

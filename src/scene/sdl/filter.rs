@@ -70,7 +70,8 @@ const MAX_REFUSALS: usize = 8;
 /// What a text may not do without `--trust`, in the order of the text, and the names of the assets that it includes.
 /// `is_asset` tells the names of the scene's assets.
 pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (Vec<Refusal>, Vec<&str>) {
-    let mut filter = Filter { place, is_asset, open: Vec::new(), refusals: Vec::new(), includes: Vec::new() };
+    let mut filter =
+        Filter { place, is_asset, open: Vec::new(), macros: 0, refusals: Vec::new(), includes: Vec::new() };
     if let Some(at) = text.find('\0') {
         filter.refuse(at..at + 1, Why::Nul);
     }
@@ -91,7 +92,7 @@ pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (V
         Some(Unclosed::Text(range)) => filter.refuse(range.clone(), Why::Open("string")),
         None => {}
     }
-    for (word, range) in std::mem::take(&mut filter.open) {
+    for (word, range) in std::mem::take(&mut filter.open).into_iter().take(MAX_REFUSALS) {
         filter.refuse(range, Why::Open(word));
     }
     filter.refusals.sort_by_key(|refusal| refusal.range.start);
@@ -103,6 +104,8 @@ struct Filter<'a, F> {
     is_asset: F,
     /// The directives that wait for their `#end`.
     open: Vec<(&'static str, Range<usize>)>,
+    /// How many of them are macros.
+    macros: usize,
     refusals: Vec<Refusal>,
     includes: Vec<&'a str>,
 }
@@ -154,13 +157,15 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
     fn directive(&mut self, word: &str, range: &Range<usize>) {
         if let Some(opening) = OPENING.into_iter().find(|opening| *opening == word) {
             self.open.push((opening, range.clone()));
-        } else if (word == "end" && self.open.pop().is_none())
-            || (INNER.contains(&word) && self.open.is_empty())
-        {
+            self.macros += usize::from(word == "macro");
+        } else if word == "end" {
+            match self.open.pop() {
+                Some((opening, _)) => self.macros -= usize::from(opening == "macro"),
+                None => self.refuse(range.clone(), Why::Stray(word.to_owned())),
+            }
+        } else if INNER.contains(&word) && self.open.is_empty() {
             self.refuse(range.clone(), Why::Stray(word.to_owned()));
-        } else if word == "include"
-            && (self.place == Where::Inside || self.open.iter().any(|(word, _)| *word == "macro"))
-        {
+        } else if word == "include" && (self.place == Where::Inside || self.macros > 0) {
             self.refuse(range.clone(), Why::InnerInclude);
         }
     }
