@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Diagnostic, Label, Report, Severity, Sources};
+use super::{Diagnostic, Edit, Label, Report, Severity, Sources, Span};
 
 /// One diagnostic as an editor wants it: the first place is its own, the others are related.
 #[derive(Serialize)]
@@ -17,6 +17,9 @@ pub struct Entry<'a> {
     #[serde(flatten)]
     place: Option<Place<'a>>,
     related: Vec<Place<'a>>,
+    /// The pieces of text that mend it, if that is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fix: Vec<Replacement<'a>>,
 }
 
 impl Entry<'_> {
@@ -26,15 +29,29 @@ impl Entry<'_> {
     }
 }
 
-/// A range of a text: lines and columns from 1, columns in characters, the end exclusive.
 #[derive(Serialize)]
 struct Place<'a> {
+    #[serde(flatten)]
+    range: Range<'a>,
+    label: &'a str,
+}
+
+/// A text that belongs in the place of a range.
+#[derive(Serialize)]
+struct Replacement<'a> {
+    #[serde(flatten)]
+    range: Range<'a>,
+    text: &'a str,
+}
+
+/// A range of a text: lines and columns from 1, columns in characters, the end exclusive.
+#[derive(Serialize)]
+struct Range<'a> {
     file: &'a str,
     line: usize,
     column: usize,
     end_line: usize,
     end_column: usize,
-    label: &'a str,
 }
 
 pub(super) fn entries<'a>(report: &'a Report) -> Vec<Entry<'a>> {
@@ -49,19 +66,32 @@ pub(super) fn entries<'a>(report: &'a Report) -> Vec<Entry<'a>> {
         help: diagnostic.help.as_deref(),
         place: diagnostic.labels.first().map(|label| place(label, &report.sources)),
         related: diagnostic.labels.iter().skip(1).map(|label| place(label, &report.sources)).collect(),
+        fix: diagnostic
+            .fix
+            .iter()
+            .flat_map(|fix| &fix.edits)
+            .map(|edit| replacement(edit, &report.sources))
+            .collect(),
     };
     report.diagnostics.iter().map(entry).collect()
 }
 
 fn place<'a>(label: &'a Label, sources: &'a Sources) -> Place<'a> {
-    let start = sources.position(label.span.source, label.span.start);
-    let end = sources.position(label.span.source, label.span.end);
-    Place {
-        file: &sources.get(label.span.source).name,
+    Place { range: range(label.span, sources), label: &label.text }
+}
+
+fn replacement<'a>(edit: &'a Edit, sources: &'a Sources) -> Replacement<'a> {
+    Replacement { range: range(edit.span, sources), text: &edit.text }
+}
+
+fn range(span: Span, sources: &Sources) -> Range<'_> {
+    let start = sources.position(span.source, span.start);
+    let end = sources.position(span.source, span.end);
+    Range {
+        file: &sources.get(span.source).name,
         line: start.line,
         column: start.column,
         end_line: end.line,
         end_column: end.column,
-        label: &label.text,
     }
 }

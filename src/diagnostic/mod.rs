@@ -1,11 +1,13 @@
 //! What jabuka has to say about a scene or a run: errors and warnings, each at its place.
 
+mod fix;
 mod json;
 mod nearest;
 mod source;
 mod text;
 mod visible;
 
+pub use fix::{Edit, Fix};
 pub use json::Entry;
 pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
@@ -40,8 +42,10 @@ pub struct Diagnostic {
     pub message: String,
     /// The places: first the one that is wrong, then those that it has to do with.
     pub labels: Vec<Label>,
-    /// How to mend it; may be empty.
+    /// How to mend it, in words.
     pub help: Option<String>,
+    /// How to mend it, as text to replace.
+    pub fix: Option<Fix>,
 }
 
 impl Diagnostic {
@@ -53,6 +57,7 @@ impl Diagnostic {
             message: visible(&message.into()),
             labels: Vec::new(),
             help: None,
+            fix: None,
         }
     }
 
@@ -72,6 +77,20 @@ impl Diagnostic {
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(visible(&help.into()));
+        self
+    }
+
+    /// Adds a piece of text that belongs at a place; several are applied together.
+    #[must_use]
+    pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.fix.get_or_insert_default().edits.push(Edit { span, text: text.into() });
+        self
+    }
+
+    /// Says that a label shows the fix already.
+    #[must_use]
+    pub fn fix_is_said(mut self) -> Diagnostic {
+        self.fix.iter_mut().for_each(|fix| fix.is_said = true);
         self
     }
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
-use super::{Diagnostic, Label, Report, Severity, SourceId, Sources, is_invisible, visible};
+use super::{Diagnostic, Edit, Label, Report, Severity, SourceId, Sources, is_invisible, visible};
 
 /// So many diagnostics are shown of one line; each shows the line, which may be very long.
 const MOST_OF_A_LINE: usize = 50;
@@ -54,7 +54,30 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     if let Some(help) = &diagnostic.help {
         group = group.element(Level::HELP.message(help));
     }
-    vec![group]
+    let mut groups = vec![group];
+    if let Some(fix) = diagnostic.fix.as_ref().filter(|fix| !fix.is_said && !fix.edits.is_empty()) {
+        groups.push(
+            Group::with_title(Level::HELP.secondary_title("write it so"))
+                .element(patches(&fix.edits, sources)),
+        );
+    }
+    groups
+}
+
+/// The lines of a fix, as they are and as they should be. All edits of a fix are in one text.
+fn patches<'a>(edits: &'a [Edit], sources: &'a Sources) -> Snippet<'a, Patch<'a>> {
+    let source = sources.get(edits[0].span.source);
+    let text = &source.text;
+    let start = edits.iter().map(|edit| edit.span.start).min().unwrap_or(0);
+    let end = edits.iter().map(|edit| edit.span.end).max().unwrap_or(0);
+    let start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
+    let patch =
+        |edit: &'a Edit| Patch::new(edit.span.start - start..edit.span.end - start, edit.text.as_str());
+    Snippet::source(&text[start..end])
+        .path(&source.name)
+        .line_start(sources.position(edits[0].span.source, start).line)
+        .patches(edits.iter().map(patch).collect::<Vec<_>>())
 }
 
 fn snippet<'a>(

@@ -24,6 +24,7 @@ pub mod sdl;
 mod showing;
 pub mod source;
 pub mod timed;
+mod units;
 
 use std::path::{Path, PathBuf};
 

@@ -13,6 +13,7 @@ use super::view::View;
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::dynamics::Key;
 use crate::scene::source::file;
+use crate::scene::units;
 
 /// What columns are called.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -244,18 +245,17 @@ impl Reader<'_> {
         called(name).or_else(|| if name == "t" { called("time") } else { None })
     }
 
-    fn column(&mut self, header: &StringRecord, start: usize, name: &str, units: Units) -> Option<Column> {
+    fn column(&mut self, header: &StringRecord, start: usize, name: &str, of: &str) -> Option<Column> {
         let Some((i, unit)) = self.find(header, name) else {
             self.missing(header, start, name);
             return None;
         };
         let factor =
-            units.iter().find(|(known, _)| *known == unit || unit.is_empty()).map(|(_, factor)| *factor);
+            if unit.is_empty() || of == RATIO && unit == "1" { Some(1.0) } else { units::factor(&unit, of) };
         if factor.is_none() {
             let at = self.field(start, i);
             self.error("csv-unit", format!("the unit `{unit}` is not known here"), at);
-            let known: Vec<&str> =
-                units.iter().map(|(unit, _)| *unit).filter(|unit| !unit.is_empty()).collect();
+            let known = units::usual(of);
             if let Some(wrong) = self.wrong.last_mut() {
                 wrong.help = Some(match known.as_slice() {
                     [] => "this column has no unit".to_owned(),
@@ -272,13 +272,13 @@ impl Reader<'_> {
         header: &StringRecord,
         start: usize,
         names: &[String],
-        units: Units,
+        of: &str,
         needed: bool,
     ) -> Option<Vec<Column>> {
         if !needed && names.iter().all(|name| self.find(header, name).is_none()) {
             return None;
         }
-        let found: Vec<_> = names.iter().map(|name| self.column(header, start, name, units)).collect();
+        let found: Vec<_> = names.iter().map(|name| self.column(header, start, name, of)).collect();
         found.into_iter().collect()
     }
 
@@ -394,12 +394,9 @@ fn delimiter(text: &str) -> u8 {
     best
 }
 
-/// Units, and what they are in those of SI; where none is given, the first.
-type Units = &'static [(&'static str, f64)];
-const TIME: Units =
-    &[("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("min", 60.0), ("h", 3600.0), ("d", 86400.0)];
-const LENGTH: Units =
-    &[("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("km", 1e3), ("um", 1e-6), ("µm", 1e-6), ("nm", 1e-9)];
-const VELOCITY: Units = &[("m/s", 1.0), ("mm/s", 1e-3), ("cm/s", 1e-2), ("km/s", 1e3), ("km/h", 1.0 / 3.6)];
-const TURNING: Units = &[("rad/s", 1.0), ("1/s", 1.0), ("deg/s", std::f64::consts::PI / 180.0)];
-const RATIO: Units = &[("", 1.0), ("1", 1.0)];
+/// The quantities of columns: by the scene language's unit for them, empty for one without a unit.
+const TIME: &str = "s";
+const LENGTH: &str = "m";
+const VELOCITY: &str = "m/s";
+const TURNING: &str = "rad/s";
+const RATIO: &str = "";

@@ -6,6 +6,7 @@
 
 mod defaults;
 mod groups;
+mod habits;
 mod include;
 mod merge;
 pub(super) mod place;
@@ -53,6 +54,8 @@ pub(super) fn expand(
         is_default: false,
         variable_spans: HashMap::new(),
         told: HashSet::new(),
+        unit: "",
+        of_bodies: Vec::new(),
         diagnostics,
     };
     if let Some(entry) = root.get_mut("seed") {
@@ -73,6 +76,7 @@ pub(super) fn expand(
         expander.repeat(bodies, spec);
     }
     expander.table(root, &SCENE);
+    expander.report_of_bodies(root);
     Expansion { groups: expander.groups, of_defaults: expander.of_defaults }
 }
 
@@ -109,6 +113,10 @@ struct Expander<'a> {
     variable_spans: HashMap<String, Span>,
     /// The formulas of which it has been said what is wrong: in all copies it is the same one.
     told: HashSet<Span>,
+    /// The unit of the key that is looked at; empty where there is none.
+    unit: &'static str,
+    /// The formulas that ask where bodies are.
+    of_bodies: Vec<habits::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
@@ -116,7 +124,10 @@ impl Expander<'_> {
     fn table(&mut self, table: &mut Table, spec: &'static TableSpec) {
         for entry in &mut table.entries {
             if let Some(key) = spec.key(&entry.name.text) {
+                // A vector in a list of a key has the unit of that key.
+                let unit = std::mem::replace(&mut self.unit, key.unit);
                 self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
+                self.unit = unit;
             }
         }
     }
@@ -195,6 +206,10 @@ impl Expander<'_> {
     /// Replaces a formula by its value; what is no string stays as it is.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
+        if self.has_unit(text, node.span) || self.asks_for_body(text, node.span, false) {
+            node.value = Value::Invalid;
+            return;
+        }
         if self.is_default {
             self.look_over(text, node.span);
             node.value = Value::Invalid;
@@ -206,6 +221,10 @@ impl Expander<'_> {
     /// Like [`Expander::number`], where a formula may be one of the time: that is kept as a program.
     fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
+        if self.has_unit(text, node.span) || self.asks_for_body(text, node.span, true) {
+            node.value = Value::Invalid;
+            return;
+        }
         let Some(formula) = self.keep(Formula::parse(text), text, node.span) else {
             node.value = Value::Invalid;
             return;
@@ -315,7 +334,12 @@ impl Expander<'_> {
         }
         for error in errors {
             let place = place::in_string(self.raw(span), text, &error.range, span);
-            let diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
+            let mut diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
+            if let Some(number) = habits::without_decimal_comma(text) {
+                diagnostic = diagnostic.fix(span, number);
+            } else if let Some(fix) = error.fix.filter(|_| place != span) {
+                diagnostic = diagnostic.fix(place, fix);
+            }
             self.diagnostics.push(match error.help {
                 Some(help) => diagnostic.help(help),
                 None => diagnostic,

@@ -58,6 +58,7 @@ impl Expander<'_> {
             self.variable_spans.insert(name.clone(), entry.name.span);
             let span = entry.node.span;
             let value = match &entry.node.value {
+                Value::String(text) if self.has_unit(text, span) => None,
                 Value::String(text) => match self.keep(Formula::parse(text), text, span) {
                     Some(formula) => {
                         let (needs, state) = (Vec::new(), State::Untouched);

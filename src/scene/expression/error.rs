@@ -15,11 +15,13 @@ pub struct ExpressionError {
     pub label: String,
     /// How to mend it, if there is more to say.
     pub help: Option<String>,
+    /// What belongs in the place of those bytes, if that is known.
+    pub fix: Option<String>,
 }
 
 /// A mistake of the given kind.
 pub(super) fn error(code: &'static str, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
-    ExpressionError { code, range, message: message.into(), label: String::new(), help: None }
+    ExpressionError { code, range, message: message.into(), label: String::new(), help: None, fix: None }
 }
 
 /// A mistake in how a formula is written.
@@ -36,6 +38,12 @@ impl ExpressionError {
     #[must_use]
     pub(super) fn label(mut self, label: impl Into<String>) -> ExpressionError {
         self.label = label.into();
+        self
+    }
+
+    #[must_use]
+    pub(super) fn fix(mut self, text: impl Into<String>) -> ExpressionError {
+        self.fix = Some(text.into());
         self
     }
 

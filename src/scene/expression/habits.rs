@@ -30,9 +30,30 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
         ("·", "write `*`"),
         ("÷", "write `/`"),
     ];
+    const REPLACED: [(&str, &str); 15] = [
+        ("**", "^"),
+        ("<>", "!="),
+        ("&&", " and "),
+        ("||", " or "),
+        ("=", "=="),
+        (";", ","),
+        ("²", "^2"),
+        ("³", "^3"),
+        ("π", "pi"),
+        ("τ", "tau"),
+        ("−", "-"),
+        ("–", "-"),
+        ("×", "*"),
+        ("·", "*"),
+        ("÷", "/"),
+    ];
     if let Some((symbol, help)) = SYMBOLS.iter().find(|(symbol, _)| rest.starts_with(symbol)) {
         let range = start..start + symbol.len();
-        return syntax(range, format!("`{symbol}` is no part of a formula")).label(*help);
+        let error = syntax(range, format!("`{symbol}` is no part of a formula")).label(*help);
+        return match REPLACED.iter().find(|(replaced, _)| replaced == symbol) {
+            Some((_, by)) => error.fix(*by),
+            None => error,
+        };
     }
     // A name in another alphabet is one mistake, not one for each letter.
     let first = rest.chars().next().map_or(0, char::len_utf8);
@@ -41,13 +62,6 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     let error =
         syntax(start..start + word.len(), format!("`{}` is no part of a formula", word.escape_debug()));
     if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
-}
-
-/// Whether a name may have been meant as a unit, which no number of a scene has with it.
-pub(super) fn is_unit(name: &str) -> bool {
-    const UNITS: [&str; 16] =
-        ["m", "cm", "mm", "km", "kg", "g", "s", "ms", "N", "J", "Hz", "deg", "degrees", "rad", "fps", "px"];
-    UNITS.contains(&name)
 }
 
 /// What a function of another program is called here.

@@ -250,9 +250,10 @@ impl<'a> Parser<'a> {
         let both = self.before.start..self.range.end;
         if !is_name && matches!(self.token, Token::Name | Token::Open) {
             // `2x`, `2(x + 1)` and `(a)(b)` mean a product to everyone.
-            let units = if habits::is_unit(second) { "; units are not written" } else { "" };
+            let units = if crate::scene::units::is_unit(second) { "; units are not written" } else { "" };
             return syntax(both, "an operator is missing")
-                .label(format!("write `{first}*{second}` to multiply{units}"));
+                .label(format!("write `{first}*{second}` to multiply{units}"))
+                .fix(format!("{first}*{second}"));
         }
         syntax(both, "an operator is missing")
             .label(format!("nothing stands between `{first}` and `{second}`"))

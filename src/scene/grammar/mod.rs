@@ -99,6 +99,23 @@ impl Key {
     }
 }
 
+/// The unit of the first key of this name that has one, in any table.
+pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
+    fn within(table: &'static TableSpec, name: &str) -> Option<&'static str> {
+        let inside = |kind: &'static Kind| match kind {
+            Kind::Table(table) | Kind::Named(table) => within(table, name),
+            Kind::Either(kinds) => {
+                kinds.iter().find_map(|kind| kind.table()).and_then(|table| within(table, name))
+            }
+            Kind::List { of, .. } => of.table().and_then(|table| within(table, name)),
+            _ => None,
+        };
+        let own = table.key(name).map(|key| key.unit).filter(|unit| !unit.is_empty());
+        own.or_else(|| table.keys.iter().find_map(|key| inside(&key.kind)))
+    }
+    within(&SCENE, name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,11 +2,13 @@
 
 mod brackets;
 pub(super) mod file;
+pub(in crate::scene) mod habits;
 mod load;
 mod overrides;
 mod syntax;
 mod toml;
 mod tree;
+mod yaml;
 
 pub use load::{MAX_BYTES, load};
 pub use overrides::Override;

@@ -5,13 +5,17 @@ use std::num::IntErrorKind;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::{Entry, Name, Node, Table, Value, brackets, syntax};
+use super::{Entry, Name, Node, Table, Value, brackets, habits, syntax, yaml};
 use crate::diagnostic::{Diagnostic, SourceId, Span};
 
 /// Parses a text as far as it goes: what cannot be read becomes a diagnostic, and the rest a tree.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
     let (document, mut errors) = DeTable::parse_recoverable(text);
     errors.retain(|error| error.message() != syntax::DEEP_KEY);
+    if let (Some(error), Some(toml)) = (errors.first(), yaml::to_toml(text)) {
+        diagnostics.push(not_toml(error, toml, text, source));
+        return Node { span: Span::new(source, 0..text.len()), value: Value::Table(Table::default()) };
+    }
     errors.sort_by_key(|error| error.span().map(|range| range.start));
     let brackets = brackets::look(text, source);
     let span = Span::new(source, 0..text.len());
@@ -29,7 +33,11 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
         let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
         let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
         if line.is_none() || line != last_line {
-            diagnostics.push(syntax::diagnose(error, text, source));
+            let diagnostic = syntax::diagnose(error, text, source);
+            diagnostics.push(match error.span() {
+                Some(range) => mended(diagnostic, range.start, text, source),
+                None => diagnostic,
+            });
         }
         last_line = line;
     }
@@ -37,6 +45,29 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     diagnostics.extend(brackets.too_new);
     diagnostics.extend(brackets.deep_keys);
     root
+}
+
+/// That a text is YAML, with the TOML that says the same.
+fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
+    let start = error
+        .span()
+        .map_or(0, |range| text[..range.start.min(text.len())].rfind('\n').map_or(0, |at| at + 1));
+    let end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+    let error = Diagnostic::error("toml-syntax", "this is YAML; a scene is TOML");
+    let error =
+        error.at(Span::new(source, start..end), "TOML writes `key = value`, below headers in brackets");
+    error.fix(Span::new(source, 0..text.len()), toml)
+}
+
+/// Adds what the line should have been, if that can be told.
+fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
+    let at = at.min(text.len());
+    let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
+    let is_duplicate = diagnostic.code == "duplicate-key";
+    let Some(mended) = habits::mend(&text[start..end]).filter(|_| !is_duplicate) else { return diagnostic };
+    diagnostic.help = Some(mended.why.to_owned());
+    diagnostic.fix(Span::new(source, start + mended.range.start..start + mended.range.end), mended.text)
 }
 
 /// Parses a text that is one value, as it would stand after `key = `.

@@ -1,0 +1,66 @@
+//! How to mend a mistake, as an editor or a script can apply it.
+
+use super::{Report, SourceId, Span};
+
+/// What should have been written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Fix {
+    /// The pieces of text to replace; they do not overlap.
+    pub edits: Vec<Edit>,
+    /// Whether a label of the diagnostic says it already, so that people need not see it twice.
+    pub is_said: bool,
+}
+
+/// A piece of text, and the text that belongs in its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edit {
+    /// The piece to replace; an empty one is a place to insert at.
+    pub span: Span,
+    /// What belongs there.
+    pub text: String,
+}
+
+impl Report {
+    /// The text of a source with the fixes of all diagnostics applied. Of fixes that overlap, the first one counts.
+    pub fn fixed(&self, source: SourceId) -> String {
+        let mut edits: Vec<&Edit> = Vec::new();
+        for fix in self.diagnostics.iter().filter_map(|diagnostic| diagnostic.fix.as_ref()) {
+            let apart = |edit: &Edit| edits.iter().all(|other| !edit.overlaps(other));
+            if fix.edits.iter().all(|edit| edit.span.source == source && apart(edit)) {
+                edits.extend(&fix.edits);
+            }
+        }
+        edits.sort_by_key(|edit| edit.span);
+        let mut text = self.sources.get(source).text.clone();
+        for edit in edits.iter().rev() {
+            text.replace_range(edit.span.start..edit.span.end, &edit.text);
+        }
+        text
+    }
+}
+
+impl Edit {
+    fn overlaps(&self, other: &Edit) -> bool {
+        let (a, b) = (self.span, other.span);
+        a == b || a.source == b.source && a.start < b.end && b.start < a.end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Diagnostic, Sources};
+    use super::*;
+
+    #[test]
+    fn fixes_are_applied_together_and_of_two_that_overlap_the_first() {
+        let mut sources = Sources::default();
+        let id = sources.add("scene.toml", "a = 1\nb = 22\n");
+        let error = |range, text: &str| {
+            Diagnostic::error("test", "wrong").at(Span::new(id, 0..1), "").fix(Span::new(id, range), text)
+        };
+        let diagnostics =
+            vec![error(10..12, "333"), error(4..5, "0"), error(10..11, "9"), error(13..13, "c = 4\n")];
+        let report = Report { sources, diagnostics };
+        assert_eq!(report.fixed(id), "a = 0\nb = 333\nc = 4\n");
+    }
+}

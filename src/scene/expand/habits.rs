@@ -1,0 +1,134 @@
+//! What people write where a formula stands and no formula can say: numbers with units, and places of bodies.
+
+use std::ops::Range;
+
+use super::Expander;
+use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::scene::source::{Node, Table, Value};
+use crate::scene::units;
+
+/// A formula that asks where bodies are.
+pub(super) struct OfBody {
+    text: String,
+    span: Span,
+    /// Whether it may be a formula of the time.
+    is_timed: bool,
+}
+
+impl Expander<'_> {
+    /// Reports a number with a unit; whether it is one.
+    pub(super) fn has_unit(&mut self, text: &str, span: Span) -> bool {
+        let Some((number, unit)) = units::quantity(text) else { return false };
+        if !self.told.insert(span) {
+            return true;
+        }
+        let of = self.unit;
+        let error = Diagnostic::error(
+            "number-with-unit",
+            format!("a number stands alone, without the unit `{unit}`"),
+        );
+        self.diagnostics.push(match units::converted(number, unit, of) {
+            Some(converted) => {
+                let label = if of.is_empty() {
+                    "numbers are in SI units".to_owned()
+                } else {
+                    format!("this key is in {of}")
+                };
+                error.at(span, label).fix(span, converted)
+            }
+            None => error.at(span, format!("this key is in {of}, and `{unit}` measures something else")),
+        });
+        true
+    }
+
+    /// Keeps a formula that asks where bodies are, to be reported when the places of all bodies are known; whether it is
+    /// one.
+    pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
+        let asks = text.contains('.') && members(text).next().is_some();
+        if asks && self.told.insert(span) {
+            self.of_bodies.push(OfBody { text: text.to_owned(), span, is_timed });
+        }
+        asks
+    }
+
+    /// Reports the formulas that ask where bodies are, with what stands there at the start.
+    pub(super) fn report_of_bodies(&mut self, root: &Table) {
+        let bodies = root.get("body").and_then(|entry| entry.node.as_table());
+        for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {
+            let mut mended = text.clone();
+            let (mut all_known, mut moves) = (true, false);
+            for (range, name, member) in members(&text).collect::<Vec<_>>().into_iter().rev() {
+                let body = bodies.and_then(|bodies| bodies.get(name)).and_then(|entry| entry.node.as_table());
+                let place = body.and_then(|body| coordinate(body, member));
+                match place.filter(|(_, is_formula)| is_timed || !is_formula) {
+                    Some((place, is_formula)) => {
+                        moves |= !is_formula;
+                        let alone = range == (0..text.len());
+                        mended.replace_range(range, &if alone { place } else { format!("({place})") });
+                    }
+                    None => all_known = false,
+                }
+            }
+            let (range, name, _) = members(&text).next().unwrap_or((0..0, "", ""));
+            let place = super::place::in_string(self.raw(span), &text, &range, span);
+            let message = "a formula cannot ask where a body is";
+            let help = "formulas know `t` and `[variables]`, and only labels know bodies; `camera.follow` lets the camera go with a body";
+            let error = Diagnostic::error("formula-of-body", message).help(help);
+            if !all_known {
+                self.diagnostics.push(error.at(place, ""));
+                continue;
+            }
+            let label = if moves {
+                format!("where `{name}` is at the start can be written as a number")
+            } else {
+                format!("the formula by which `{name}` moves can be written here")
+            };
+            let mended = if mended.parse::<f64>().is_ok() { mended } else { format!("\"{mended}\"") };
+            let mut error = error.at(place, label);
+            error.fix.get_or_insert_default().edits.push(Edit { span, text: mended });
+            self.diagnostics.push(error);
+        }
+    }
+}
+
+/// `0,5` → `0.5`.
+pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
+    let (whole, part) = text.trim().split_once(',')?;
+    let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (is_digits(whole.strip_prefix('-').unwrap_or(whole)) && is_digits(part))
+        .then(|| format!("{whole}.{part}"))
+}
+
+/// A coordinate of a body as a formula can say it, and whether that is a formula of the time.
+fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
+    let axis = ["x", "y", "z"].iter().position(|axis| *axis == member)?;
+    let inner = |table: &Table, key: &str| table.get(key).and_then(|entry| entry.node.as_table()).cloned();
+    let motion = inner(body, "motion");
+    let location = match &motion {
+        None => body.get("location").map(|entry| entry.node.clone()),
+        Some(motion) => {
+            let formula = inner(motion, "formula")?;
+            formula.get("location").or(body.get("location")).map(|entry| entry.node.clone())
+        }
+    };
+    let Some(Node { value: Value::Array(items), .. }) = location else {
+        return Some(("0".to_owned(), false));
+    };
+    match &items.get(axis)?.value {
+        Value::Formula(formula) => Some((formula.text.clone(), true)),
+        _ => Some((units::written(items.get(axis)?.as_number()?), false)),
+    }
+}
+
+/// The places of a text where something of a body is asked for, as in `ball.x`: the whole, the body and what is asked.
+fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
+    text.match_indices('.').filter_map(move |(at, _)| {
+        let begin = text[..at].rfind(|c| !is_part(c)).map_or(0, |before| before + 1);
+        let rest = &text[at + 1..];
+        let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+        let (body, member) = (&text[begin..at], &text[at + 1..end]);
+        let letter = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        (letter(body) && letter(member)).then_some((begin..end, body, member))
+    })
+}

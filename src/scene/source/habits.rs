@@ -1,0 +1,295 @@
+//! What people write from the habits of other languages where TOML stands, and what it is in TOML.
+
+use std::ops::Range;
+
+use super::toml::parse_value;
+use crate::diagnostic::Sources;
+use crate::scene::expression::Formula;
+use crate::scene::grammar::unit_of_key;
+use crate::scene::units;
+
+/// A piece of a line, what belongs in its place, and why.
+pub(super) struct Mended {
+    pub(super) range: Range<usize>,
+    pub(super) text: String,
+    pub(super) why: &'static str,
+}
+
+/// What a value should be, and why.
+type Better = (String, &'static str);
+
+const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
+const LIST: &str = "a list stands in square brackets, with commas between its values";
+const POINT: &str = "a decimal point is a point, with a digit on either side: `0.5`";
+const QUOTES: &str = "text and formulas stand in quotes";
+const BOOLEAN: &str = "there are `true` and `false`";
+const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
+const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
+const HEADER: &str = "a dot stands between the parts of a header";
+
+/// What a line that is no TOML should have been, if that can be told.
+pub(super) fn mend(line: &str) -> Option<Mended> {
+    let (content, comment) = split_comment(line);
+    let trimmed = content.trim();
+    if trimmed.starts_with('[') && trimmed.ends_with(']') && !trimmed.contains('=') {
+        return header(content, trimmed);
+    }
+    let split =
+        top_level(content, &['=']).first().copied().or(top_level(content, &[':']).first().copied())?;
+    let key = content[..split].trim();
+    if key.is_empty()
+        || key.starts_with(['[', '{', '('])
+        || parse_value(&format!("{{ {key} = 0 }}"), no_source()).is_err()
+    {
+        return None;
+    }
+    let mut raw = content[split + 1..].trim();
+    // A color that has lost its quotes is a comment.
+    let color = line[content.len()..].trim();
+    if raw.is_empty() && color.len() > 3 && color[1..].bytes().all(|byte| byte.is_ascii_hexdigit()) {
+        raw = color;
+    }
+    let (text, why) = value(raw, key.rsplit('.').next().unwrap_or(key).trim_matches(['"', '\'', ' ']))?;
+    let text = format!(
+        "{key} = {text}{}",
+        comment.filter(|_| raw != color).map_or(String::new(), |it| format!("  # {it}"))
+    );
+    let start = line.len() - line.trim_start().len();
+    let end = line.trim_end().len();
+    (text != line[start..end]).then_some(Mended { range: start..end, text, why })
+}
+
+fn header(content: &str, trimmed: &str) -> Option<Mended> {
+    let inner = trimmed.trim_matches(['[', ']']);
+    let parts: Vec<&str> = inner.split(|c: char| c.is_whitespace() || matches!(c, ':' | '/' | '.')).collect();
+    let parts: Vec<&str> =
+        parts.into_iter().map(|part| part.trim_matches('"')).filter(|part| !part.is_empty()).collect();
+    let is_bare =
+        |part: &&str| part.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-'));
+    let text = format!("[{}]", parts.join("."));
+    let start = content.len() - content.trim_start().len();
+    (!parts.is_empty() && parts.iter().all(is_bare) && text != trimmed).then(|| Mended {
+        range: start..start + trimmed.len(),
+        text,
+        why: HEADER,
+    })
+}
+
+/// A value in TOML, from what people write; `key` is the last part of its key.
+fn value(raw: &str, key: &str) -> Option<Better> {
+    let is_toml = |text: &str| parse_value(text, no_source()).is_ok();
+    let cut = raw.trim_end_matches([';', ',']).trim_end();
+    if cut.is_empty() {
+        return None;
+    }
+    if is_toml(cut) {
+        return Some((cut.to_owned(), ENTRY));
+    }
+    if let Some((number, unit)) = units::quantity(cut) {
+        return Some((units::converted(number, unit, unit_of_key(key).unwrap_or(""))?, UNIT));
+    }
+    if let Some(number) = number(cut) {
+        return Some((number, POINT));
+    }
+    match cut.to_ascii_lowercase().as_str() {
+        "true" | "yes" | "on" => return Some(("true".to_owned(), BOOLEAN)),
+        "false" | "no" | "off" => return Some(("false".to_owned(), BOOLEAN)),
+        _ => {}
+    }
+    for (open, close) in [('[', ']'), ('(', ')'), ('<', '>'), ('{', '}')] {
+        if let Some(inner) = cut.strip_prefix(open).and_then(|rest| rest.strip_suffix(close)) {
+            let is_table = open == '{' && !top_level(inner, &['=', ':']).is_empty();
+            let better = if is_table { table(inner) } else { list(inner, key) };
+            // `(1 + 2) * (3 + 4)` is no list.
+            if better.as_ref().is_some_and(|(text, _)| is_toml(text)) {
+                return better;
+            }
+        }
+    }
+    let has_commas = !top_level(cut, &[',']).is_empty();
+    if let Some(better) = has_commas.then(|| list(cut, key)).flatten().filter(|(text, _)| is_toml(text)) {
+        return Some(better);
+    }
+    let plain = cut.replace(['“', '”', '„', '«', '»'], "\"").replace(['‘', '’'], "'");
+    if plain != cut && is_toml(&plain) {
+        return Some((plain, "quotes are those of the keyboard"));
+    }
+    let is_word = |text: &str| {
+        let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '/' | '#' | ' ');
+        text.starts_with(|c: char| c.is_alphabetic() || matches!(c, '#' | '/')) && text.chars().all(is_part)
+    };
+    let is_formula = || Formula::parse(cut).is_ok();
+    (!cut.contains(['"', '\\']) && (is_word(cut) || is_formula())).then(|| (format!("\"{cut}\""), QUOTES))
+}
+
+/// A number that TOML does not read: `.5`, `5.`, `0,5`, `007`.
+fn number(text: &str) -> Option<String> {
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(rest) => ("-", rest),
+        None => ("", text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (mantissa, exponent) = digits.split_once(['e', 'E']).map_or((digits, None), |(m, e)| (m, Some(e)));
+    let (whole, part) =
+        mantissa.split_once(['.', ',']).map_or((mantissa, None), |(whole, part)| (whole, Some(part)));
+    let is_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let exponent_is_good = exponent.is_none_or(|e| {
+        let digits = e.trim_start_matches(['+', '-']);
+        !digits.is_empty() && is_digits(digits)
+    });
+    if !is_digits(whole)
+        || !part.is_none_or(is_digits)
+        || !exponent_is_good
+        || whole.len() + part.map_or(0, str::len) == 0
+    {
+        return None;
+    }
+    let whole = whole.trim_start_matches('0');
+    let whole = if whole.is_empty() { "0" } else { whole };
+    let part = part.map_or(String::new(), |part| format!(".{}", if part.is_empty() { "0" } else { part }));
+    Some(format!("{sign}{whole}{part}{}", exponent.map_or(String::new(), |exponent| format!("e{exponent}"))))
+}
+
+/// The values of a list, whatever stands between them.
+pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
+    let split = |by: &[char]| {
+        let mut items = Vec::new();
+        let mut start = 0;
+        for at in top_level(inner, by) {
+            items.push(inner[start..at].trim());
+            start = at + 1;
+        }
+        items.push(inner[start..].trim());
+        items.retain(|item| !item.is_empty());
+        items
+    };
+    let mended = |items: Vec<&str>| items.iter().map(|item| value(item, key)).collect::<Option<Vec<_>>>();
+    let decimal = |item: &&str| number(item).is_some();
+    // `0,5; 1,5` and `0,5, 1,5`: commas with a blank are those of the list.
+    let spaced: Vec<&str> = inner.split(", ").map(str::trim).collect();
+    let has_decimal_commas =
+        spaced.len() > 1 && spaced.iter().all(decimal) && spaced.iter().any(|item| item.contains(','));
+    let (items, why) = if !top_level(inner, &[';']).is_empty() {
+        (split(&[';']), LIST)
+    } else if has_decimal_commas {
+        (spaced, POINT)
+    } else if !top_level(inner, &[',']).is_empty() {
+        (split(&[',']), LIST)
+    } else {
+        (split(&[' ', '\t']), LIST)
+    };
+    let items: Vec<String> = mended(items)?.into_iter().map(|(text, _)| text).collect();
+    Some((format!("[{}]", items.join(", ")), why))
+}
+
+/// The entries of a table in braces, with `=` or with `:`.
+fn table(inner: &str) -> Option<Better> {
+    let mut entries = Vec::new();
+    let mut ends = top_level(inner, &[',']);
+    ends.push(inner.len());
+    let mut start = 0;
+    for end in ends {
+        let entry = inner[start..end].trim();
+        start = (end + 1).min(inner.len());
+        if entry.is_empty() {
+            continue;
+        }
+        let at = *top_level(entry, &['=', ':']).first()?;
+        let (key, raw) = (entry[..at].trim(), entry[at + 1..].trim());
+        let (text, _) = value(raw, key.trim_matches(['"', '\'']))?;
+        entries.push(format!("{key} = {text}"));
+    }
+    Some((format!("{{ {} }}", entries.join(", ")), TABLE))
+}
+
+/// Where one of some signs stands outside of quotes and brackets.
+pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
+    let (mut depth, mut quote, mut found) = (0usize, None, Vec::new());
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (Some(open), c) if c == open => quote = None,
+            (Some(_), _) => {}
+            (None, '"' | '\'') => quote = Some(c),
+            (None, c) if depth == 0 && signs.contains(&c) => found.push(at),
+            (None, '(' | '[' | '{') => depth += 1,
+            (None, ')' | ']' | '}') => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    found
+}
+
+/// A line without its comment, and the words of the comment, which other languages begin with `//`.
+fn split_comment(line: &str) -> (&str, Option<&str>) {
+    let mut quote = None;
+    for (at, c) in line.char_indices() {
+        match (quote, c) {
+            (Some(open), c) if c == open => quote = None,
+            (Some(_), _) => {}
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '#') => {
+                return (&line[..at], Some(line[at + 1..].trim()).filter(|words| !words.is_empty()));
+            }
+            (None, '/') if line[at..].starts_with("//") => return (&line[..at], Some(line[at + 2..].trim())),
+            _ => {}
+        }
+    }
+    (line, None)
+}
+
+/// A text that is looked at for its form alone has no place.
+fn no_source() -> crate::diagnostic::SourceId {
+    Sources::default().add("", "")
+}
+
+/// The value of a YAML scalar or list in TOML.
+pub(super) fn scalar(raw: &str, key: &str) -> Option<String> {
+    value(raw, key).map(|(text, _)| text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_other_languages_become_toml() {
+        for (line, expected) in [
+            ("duration = 5 s", "duration = 5"),
+            ("radius = 20 cm   # small", "radius = 0.2  # small"),
+            ("angular_velocity = 180 deg", "angular_velocity = 3.1415926535898"),
+            ("location = (1,2,3)", "location = [1, 2, 3]"),
+            ("location = <1, .5, -3>;", "location = [1, 0.5, -3]"),
+            ("location = 1, 2, 3", "location = [1, 2, 3]"),
+            ("location = [1 2 3]", "location = [1, 2, 3]"),
+            ("location = {1, 2, 3}", "location = [1, 2, 3]"),
+            ("location = [0,5; 1,5; 0]", "location = [0.5, 1.5, 0]"),
+            ("radius = 0,5", "radius = 0.5"),
+            ("radius = .5", "radius = 0.5"),
+            ("radius = 1/3", "radius = \"1/3\""),
+            ("fixed = True", "fixed = true"),
+            ("integrator = rk4", "integrator = \"rk4\""),
+            ("color = #ff0000", "color = \"#ff0000\""),
+            ("title = “Fall”", "title = \"Fall\""),
+            ("step: 0.01", "step = 0.01"),
+            ("step = 0.01;", "step = 0.01"),
+            ("step = 0.01 // fine", "step = 0.01  # fine"),
+            ("shape.sphere = { radius: 1 }", "shape.sphere = { radius = 1 }"),
+            ("[body ball]", "[body.ball]"),
+            ("[body: ball]", "[body.ball]"),
+        ] {
+            let mended = mend(line).map(|mended| {
+                let mut text = line.to_owned();
+                text.replace_range(mended.range, &mended.text);
+                text
+            });
+            assert_eq!(mended.as_deref(), Some(expected), "{line}");
+        }
+    }
+
+    #[test]
+    fn what_is_toml_or_cannot_be_told_stays() {
+        for line in ["a = 1", "a = [1, 2]", "[body.ball]", "# a: b", "a = \"b", "= 3", "a b c", "", "a = [1,"]
+        {
+            assert!(mend(line).is_none(), "{line}: {:?}", mend(line).map(|mended| mended.text));
+        }
+    }
+}

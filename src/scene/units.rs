@@ -1,0 +1,189 @@
+//! Units that people write behind numbers, and what they are in the units of the scene language.
+
+/// A unit: the ways to write it, the unit of the scene language for the same quantity, and how many of those it is.
+struct Unit {
+    names: &'static [&'static str],
+    of: &'static str,
+    factor: f64,
+}
+
+const fn unit(names: &'static [&'static str], of: &'static str, factor: f64) -> Unit {
+    Unit { names, of, factor }
+}
+
+/// A Julian year, s.
+const YEAR: f64 = 365.25 * 86_400.0;
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+/// The unit of a quantity itself comes first: it holds where none is given.
+static UNITS: &[Unit] = &[
+    unit(&["s", "sec", "second", "seconds"], "s", 1.0),
+    unit(&["ns"], "s", 1e-9),
+    unit(&["us", "µs", "μs"], "s", 1e-6),
+    unit(&["ms"], "s", 1e-3),
+    unit(&["min", "minute", "minutes"], "s", 60.0),
+    unit(&["h", "hr", "hour", "hours"], "s", 3600.0),
+    unit(&["d", "day", "days"], "s", 86_400.0),
+    unit(&["yr", "y", "a", "year", "years"], "s", YEAR),
+    unit(&["m", "meter", "meters", "metre", "metres"], "m", 1.0),
+    unit(&["pm"], "m", 1e-12),
+    // Angstrom has two letters in Unicode.
+    unit(&["Å", "Å", "A", "angstrom", "ångström"], "m", 1e-10),
+    unit(&["nm"], "m", 1e-9),
+    unit(&["um", "µm", "μm"], "m", 1e-6),
+    unit(&["mm"], "m", 1e-3),
+    unit(&["cm"], "m", 1e-2),
+    unit(&["dm"], "m", 1e-1),
+    unit(&["km"], "m", 1e3),
+    unit(&["in", "inch"], "m", 0.0254),
+    unit(&["ft", "foot", "feet"], "m", 0.3048),
+    // Resolution B2 of the IAU, 2012.
+    unit(&["AU", "au", "ua"], "m", 149_597_870_700.0),
+    unit(&["ly"], "m", 299_792_458.0 * YEAR),
+    // 648000/π astronomical units: resolution B2 of the IAU, 2015.
+    unit(&["pc"], "m", 149_597_870_700.0 * 648_000.0 / std::f64::consts::PI),
+    unit(&["kg"], "kg", 1.0),
+    unit(&["mg"], "kg", 1e-6),
+    unit(&["g", "gram", "grams"], "kg", 1e-3),
+    unit(&["t", "ton", "tons"], "kg", 1e3),
+    // CODATA 2022.
+    unit(&["u", "Da"], "kg", 1.660_539_068_92e-27),
+    unit(&["m/s", "m s^-1", "mps"], "m/s", 1.0),
+    unit(&["mm/s"], "m/s", 1e-3),
+    unit(&["cm/s"], "m/s", 1e-2),
+    unit(&["km/s"], "m/s", 1e3),
+    unit(&["km/h", "kmh", "kph"], "m/s", 1.0 / 3.6),
+    unit(&["mph"], "m/s", 0.447_04),
+    unit(&["AU/d", "AU/day", "au/d", "au/day"], "m/s", 149_597_870_700.0 / 86_400.0),
+    unit(&["AU/yr", "au/yr"], "m/s", 149_597_870_700.0 / YEAR),
+    unit(&["Å/ps", "Å/ps"], "m/s", 100.0),
+    unit(&["Å/fs", "Å/fs"], "m/s", 1e5),
+    unit(&["nm/ps"], "m/s", 1e3),
+    unit(&["m/s²", "m/s^2", "m/s2", "m/s**2", "m s^-2"], "m/s²", 1.0),
+    unit(&["rad/s", "1/s", "s^-1"], "rad/s", 1.0),
+    unit(&["deg/s", "°/s"], "rad/s", DEGREE),
+    unit(&["rpm", "rev/min"], "rad/s", std::f64::consts::TAU / 60.0),
+    unit(&["°", "deg", "degree", "degrees"], "degrees", 1.0),
+    unit(&["rad", "radian", "radians"], "degrees", 1.0 / DEGREE),
+    unit(&["N"], "N", 1.0),
+    unit(&["mN"], "N", 1e-3),
+    unit(&["kN"], "N", 1e3),
+    unit(&["N·m", "N*m", "Nm", "N m"], "N·m", 1.0),
+    unit(&["C"], "C", 1.0),
+    unit(&["mC"], "C", 1e-3),
+    unit(&["uC", "µC", "μC"], "C", 1e-6),
+    unit(&["nC"], "C", 1e-9),
+    unit(&["pC"], "C", 1e-12),
+    // Exact by definition of the coulomb.
+    unit(&["e"], "C", 1.602_176_634e-19),
+    unit(&["T"], "T", 1.0),
+    unit(&["mT"], "T", 1e-3),
+    unit(&["V/m", "N/C"], "V/m", 1.0),
+    unit(&["kV/m"], "V/m", 1e3),
+    unit(&["N/m"], "N/m", 1.0),
+    unit(&["N/cm"], "N/m", 100.0),
+    unit(&["N·s/m", "N*s/m", "Ns/m", "kg/s"], "N·s/m", 1.0),
+    unit(&["kg/m³", "kg/m^3", "kg/m3", "kg/m**3"], "kg/m³", 1.0),
+    unit(&["g/cm³", "g/cm^3", "g/cm3", "g/cc"], "kg/m³", 1e3),
+    unit(&["frames/s", "fps", "Hz"], "frames/s", 1.0),
+    unit(&["px", "pixel", "pixels"], "pixels", 1.0),
+];
+
+/// How many of the scene language's unit a unit is; none if it measures something else.
+pub(super) fn factor(unit: &str, of: &str) -> Option<f64> {
+    let is_it = |known: &&Unit| known.of == of && known.names.contains(&unit);
+    UNITS.iter().find(is_it).map(|known| known.factor)
+}
+
+/// Whether somebody may have meant this word as a unit.
+pub(super) fn is_unit(word: &str) -> bool {
+    UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "J" | "W" | "Pa" | "K" | "V" | "A")
+}
+
+/// How the units of a quantity are usually written, its own first.
+pub(super) fn usual(of: &str) -> Vec<&'static str> {
+    UNITS.iter().filter(|unit| unit.of == of).map(|unit| unit.names[0]).collect()
+}
+
+/// `2.5 km` → `2.5` and `km`, if that is a number with a unit.
+pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let mut bytes = text.bytes().enumerate().peekable();
+    let mut end = 0;
+    while let Some((at, byte)) = bytes.next() {
+        let after = bytes.peek().map(|(_, byte)| *byte);
+        let is_part = match byte {
+            b'0'..=b'9' | b'.' => true,
+            b'+' | b'-' => at == 0 || matches!(text.as_bytes()[at - 1], b'e' | b'E'),
+            b'e' | b'E' => after.is_some_and(|byte| byte.is_ascii_digit() || matches!(byte, b'+' | b'-')),
+            _ => false,
+        };
+        if !is_part {
+            break;
+        }
+        end = at + 1;
+    }
+    let number = text[..end].parse::<f64>().ok()?;
+    let unit = text[end..].trim();
+    is_unit(unit).then_some((number, unit))
+}
+
+/// What a number with a unit is in the unit of a key, as a scene writes it. Of a key without a unit, the unit of the
+/// scene language for that quantity counts.
+pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
+    let factor = match (factor(unit, of), of) {
+        (None, "") => UNITS.iter().find(|known| known.names.contains(&unit)).map(|known| known.factor),
+        // Degrees are meant as degrees per second there.
+        (None, "rad/s") => factor(unit, "degrees").map(|degrees| degrees * DEGREE),
+        (factor, _) => factor,
+    };
+    factor.map(|factor| written(number * factor))
+}
+
+/// A number as a scene writes it, without the dirt of a conversion in its last digits.
+pub(super) fn written(number: f64) -> String {
+    let rounded = format!("{number:.14e}").parse::<f64>().unwrap_or(number);
+    if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_with_units_are_read_and_others_are_not() {
+        for (text, expected) in [
+            ("2 m", Some((2.0, "m"))),
+            ("5kg", Some((5.0, "kg"))),
+            ("-1.5e-3 km/h", Some((-1.5e-3, "km/h"))),
+            ("90°", Some((90.0, "°"))),
+            ("1.6e", Some((1.6, "e"))),
+            ("2", None),
+            ("m", None),
+            ("2 x", None),
+            ("2*m", None),
+        ] {
+            assert_eq!(quantity(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn quantities_are_converted_to_the_unit_of_the_key() {
+        for (number, unit, of, expected) in [
+            (20.0, "cm", "m", Some("0.2")),
+            (36.0, "km/h", "m/s", Some("10")),
+            (3.3, "mm", "m", Some("0.0033")),
+            (1.0, "AU", "m", Some("1.495978707e11")),
+            (180.0, "deg", "degrees", Some("180")),
+            (90.0, "deg", "rad/s", Some("1.5707963267949")),
+            (5.0, "g", "", Some("0.005")),
+            (1.0, "kg", "m", None),
+        ] {
+            assert_eq!(converted(number, unit, of).as_deref(), expected, "{number} {unit}");
+        }
+    }
+}
