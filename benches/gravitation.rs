@@ -28,7 +28,7 @@ fn main() {
 
     let mut world = World::new();
     let bodies = (0..STARS).map(|i| world.add(star(i))).collect();
-    world.add_force(Gravitation { bodies, constant: 1.0, softening: 0.01 });
+    world.add_force(Gravitation { bodies, against: None, constant: 1.0, softening: 0.01 });
     let (mut forces, mut potentials, mut plain) = (Vec::new(), Vec::new(), Vec::new());
     for round in 0..=ROUNDS {
         let start = Instant::now();

@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::scene::{Scene, Shutter, View};
-use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Selection, Survey, survey_watched};
+use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Overlap, Selection, Survey, survey_watched};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {
@@ -111,7 +111,7 @@ impl<'a> Run<'a> {
         &self.emitter
     }
 
-    /// What was noticed of the run and is no error: bodies that go through planes, bodies too thin or too small to be
+    /// What was noticed of the run and is no error: bodies that go through planes or each other, bodies too thin or too small to be
     /// seen, an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         let crossings = self.survey.crossings.iter().map(crossing);
@@ -125,7 +125,12 @@ impl<'a> Run<'a> {
             let help = "the motion is far longer than the bodies: shorten `simulation.duration`, or give a `[camera]`";
             Diagnostic::warning("too-small", message).help(help)
         });
-        crossings.chain(thin).chain(small).chain(drift(self.survey.drift)).collect()
+        crossings
+            .chain(self.survey.overlap.iter().map(overlap))
+            .chain(thin)
+            .chain(small)
+            .chain(drift(self.survey.drift))
+            .collect()
     }
 
     /// The frames, from the initial state.
@@ -183,7 +188,7 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [&str; 4] = ["crossing", "too-thin", "too-small", "energy-drift"];
+pub(crate) const RUN_WARNINGS: [&str; 5] = ["crossing", "overlap", "too-thin", "too-small", "energy-drift"];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
 fn drift(drift: f64) -> Option<Diagnostic> {
@@ -203,6 +208,13 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
     };
     let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
     Diagnostic::warning("crossing", message).help("bodies do not collide yet: nothing stops it")
+}
+
+/// That two bodies go into each other.
+fn overlap(overlap: &Overlap) -> Diagnostic {
+    let [one, two] = &overlap.bodies;
+    let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
+    Diagnostic::warning("overlap", message).help("bodies do not collide yet: they go through each other")
 }
 
 impl From<Diverged> for RunError {

@@ -13,4 +13,4 @@ ${common}
 
 <% endif %>
 // the bodies
-${bodies_sdl}
+${solids_sdl}${showing_sdl}

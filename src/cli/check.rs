@@ -1,12 +1,15 @@
 //! `jabuka check`: what is wrong with scenes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use jabuka::Scene;
 use jabuka::diagnostic::{Report, visible_path};
+use jabuka::output::OutputError;
 use jabuka::scene::Options;
+use jabuka::{Run, Scene};
 
+use super::progress::Progress;
+use super::scene_arguments::SceneArguments;
 use super::{Failure, say};
 
 /// Check scenes without writing anything
@@ -18,9 +21,11 @@ pub(super) struct Arguments {
     /// How errors and warnings are shown
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Let the scenes' SDL open, write and include files, and their paths leave their folders
+    /// Simulate the scenes, too, and say what is noticed of their motion
     #[arg(long)]
-    trust: bool,
+    run: bool,
+    #[command(flatten)]
+    of_scene: SceneArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -32,12 +37,11 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let options = Options { trust: arguments.trust, ..Options::default() };
+    let options = arguments.of_scene.options(&[]);
     let mut errors = 0;
     let mut json = Vec::new();
     for path in &arguments.scene {
-        let report =
-            Scene::from_path_with(path, &options).map_or_else(|report| report, |scene| scene.warnings);
+        let report = look_at(path, &options, arguments.run);
         errors += report.errors();
         match arguments.format {
             Format::Text => show(path, &report),
@@ -55,7 +59,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
 }
 
-fn show(path: &std::path::Path, report: &Report) {
+/// What is said of a scene, and of its run where that is asked for.
+fn look_at(path: &Path, options: &Options, simulate: bool) -> Report {
+    let scene = match Scene::from_path_with(path, options) {
+        Ok(scene) => scene,
+        Err(report) => return report,
+    };
+    let mut report = scene.warnings.clone();
+    if simulate {
+        let progress = Progress::new(scene.simulation.frames());
+        progress.phase("simulating");
+        let run = Run::new_seeing(&scene, |_| progress.step());
+        progress.finish();
+        report.diagnostics.extend(match run {
+            Ok(run) => run.warnings(),
+            Err(error) => OutputError::from(error).report().diagnostics,
+        });
+    }
+    report
+}
+
+fn show(path: &Path, report: &Report) {
     say::report(report);
     let count = |number: usize, noun: &str| format!("{number} {noun}{}", if number == 1 { "" } else { "s" });
     let verdict = match (report.errors(), report.warnings()) {

@@ -18,9 +18,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::rows(&rows);
         return Ok(());
     };
-    let names = CATEGORIES.iter().map(|category| category.name);
+    let names: Vec<&str> = CATEGORIES.iter().map(|category| category.name).collect();
     let found = CATEGORIES.iter().find(|category| category.name == name);
-    let category = found.ok_or_else(|| say::unknown("list of", name, nearest(name, names)))?;
+    let category = found.ok_or_else(|| {
+        let failure = say::unknown("list of", name, nearest(name, names.iter().copied()));
+        say::error(&format!("the lists: {}\n", names.join(", ")));
+        failure
+    })?;
     let entries = (category.entries)();
     say::rows(&entries.iter().map(|(name, what)| (*name, what.as_str())).collect::<Vec<_>>());
     Ok(())

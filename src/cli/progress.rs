@@ -65,6 +65,19 @@ impl Progress {
         Progress::with(frames as u64, Labour::default(), template)
     }
 
+    /// Something that takes a time nobody knows: it shows that it goes on, and for how long.
+    pub(super) fn waiting(what: &'static str) -> Progress {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{msg:12} {spinner} {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(what);
+        bar.enable_steady_tick(LOOK);
+        let steps = Mutex::new(Steps { shown: true, ..Steps::default() });
+        let (effort, labour) = (Effort::default(), Labour::default());
+        Progress(Arc::new(Shared { bar, start: Instant::now(), effort, labour, steps }))
+    }
+
     fn with(length: u64, labour: Labour, template: &str) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {

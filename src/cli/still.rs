@@ -64,7 +64,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
     };
-    let outcome = render(&job, stop)?;
+    let progress = Progress::waiting("rendering");
+    let outcome = render(&job, stop);
+    progress.finish();
+    let outcome = outcome?;
     if outcome.stopped {
         say::error("stopped: there is no image\n");
         return Err(Failure::Interrupted);
@@ -90,6 +93,7 @@ fn write_script(arguments: &Arguments, scene: &Scene, view: Option<&View>) -> Re
     let seen = run_arguments::seen(&run, view, &progress)?;
     let run: &Run<'_> = seen.as_ref().unwrap_or(&run);
     let folder = Folder::open(&folder).map_err(|error| progress.failed(&error))?;
+    progress.phase("writing");
     output::write_moment(run, &folder, arguments.time).map_err(|error| progress.failed(&error))?;
     progress.finish();
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });

@@ -75,7 +75,7 @@ fn patches<'a>(edits: &'a [Edit], sources: &'a Sources) -> Snippet<'a, Patch<'a>
     let patch =
         |edit: &'a Edit| Patch::new(edit.span.start - start..edit.span.end - start, edit.text.as_str());
     Snippet::source(&text[start..end])
-        .path(&source.name)
+        .path(visible(&source.name))
         .line_start(sources.position(edits[0].span.source, start).line)
         .patches(edits.iter().map(patch).collect::<Vec<_>>())
 }

@@ -86,7 +86,7 @@ pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Motion, Pose};
-pub use shape::{Compound, Flaw, Mesh, Part, Shape, cone_base};
+pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub use state::State;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;

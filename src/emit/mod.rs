@@ -74,9 +74,10 @@ impl Emitter {
             Layout::SelfContained => (common, None),
             Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),
         };
-        let with_bodies = templates.mention("bodies");
         Ok(Emitter {
-            constants: FrameConstants::new(scene, in_every_script, &materials, style, with_bodies),
+            constants: FrameConstants::new(scene, in_every_script, &materials, style, |name| {
+                templates.mention(name)
+            }),
             shared,
             block: Block::new(scene, &materials, &meshes, style),
             showing: Showing::new(scene, &plan, &materials, &meshes, style),
@@ -123,11 +124,12 @@ impl Emitter {
         {
             return Err(EmitError::Blind { time: frame.time });
         }
-        let mut bodies_sdl = String::new();
-        let written = self.block.write(&mut bodies_sdl, frame);
+        let mut solids_sdl = String::new();
+        let written = self.block.write(&mut solids_sdl, frame);
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
-        self.showing.write(&mut bodies_sdl, &self.plan, frame, &self.names);
-        self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, bodies_sdl))
+        let mut showing_sdl = String::new();
+        self.showing.write(&mut showing_sdl, &self.plan, frame, &self.names);
+        self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
     }
 
     /// The files with parts of trails that the script of a frame includes, but for those that `has` knows by name: a

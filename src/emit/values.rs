@@ -71,6 +71,8 @@ pub(super) struct FrameConstants {
     style: Style,
     /// Made for templates that look at `bodies`; the built-in ones do not.
     bodies: Option<Vec<BodyConstants>>,
+    /// Whether a template looks at `bodies_sdl`, which is the other two in one.
+    with_all: bool,
 }
 
 /// What stays the same about a body.
@@ -94,14 +96,14 @@ struct BodyValues<'a> {
 }
 
 impl FrameConstants {
-    /// The constants of a scene; `common` is the text of `common.inc`, and `with_bodies` says whether a template looks
-    /// at `bodies`.
+    /// The constants of a scene; `common` is the text of `common.inc`, and `mentions` says whether a template looks at a
+    /// value.
     pub(super) fn new(
         scene: &Scene,
         common: String,
         materials: &[MaterialText],
         style: Style,
-        with_bodies: bool,
+        mentions: impl Fn(&str) -> bool,
     ) -> FrameConstants {
         let body = |body: &Body| BodyConstants {
             name: body.name.clone(),
@@ -113,12 +115,13 @@ impl FrameConstants {
             frames: scene.simulation.frames(),
             common: Value::from(common),
             style,
-            bodies: with_bodies.then(|| scene.bodies.iter().map(body).collect()),
+            bodies: mentions("bodies").then(|| scene.bodies.iter().map(body).collect()),
+            with_all: mentions("bodies_sdl"),
         }
     }
 
-    /// All values of a frame; `bodies_sdl` is the block of its bodies.
-    pub(super) fn of(&self, plan: &Plan, frame: &Frame, bodies_sdl: String) -> Value {
+    /// All values of a frame: `solids_sdl` is the block of its bodies, `showing_sdl` that of what is shown beside them.
+    pub(super) fn of(&self, plan: &Plan, frame: &Frame, solids_sdl: String, showing_sdl: String) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
@@ -137,7 +140,9 @@ impl FrameConstants {
             frames => self.frames,
             title => self.title.clone(),
             common => self.common.clone(),
-            bodies_sdl,
+            bodies_sdl => if self.with_all { format!("{solids_sdl}{showing_sdl}") } else { String::new() },
+            solids_sdl,
+            showing_sdl,
             bodies,
         }
     }
@@ -233,12 +238,12 @@ mod tests {
         let stage = StageText::new(&plan, 1.0);
         let materials = materials::texts(&scene);
         let style = Style { unit: 1.0, digits: 9 };
-        let constants = FrameConstants::new(&scene, String::new(), &materials, style, true);
+        let constants = FrameConstants::new(&scene, String::new(), &materials, style, |_| true);
         let frame = Frames::new(&scene).next().unwrap().unwrap();
 
         for (heading, value) in [
             ("## The values of `common.inc`", common(&scene, &stage, &materials)),
-            ("## The values of `frame.pov`", constants.of(&plan, &frame, String::new())),
+            ("## The values of `frame.pov`", constants.of(&plan, &frame, String::new(), String::new())),
             ("## The values of `animation.pov` and `animation.ini`", sequence(&scene)),
         ] {
             let mut found = BTreeSet::new();

@@ -183,6 +183,9 @@ pub struct Head {
     /// The view that sees the scene; absent for the main camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
+    /// The values of the scene that were replaced: `simulation.step=0.001`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<String>,
     /// The digest of the texts that the scene was read from.
     pub digest: String,
     /// The number of the scene's frames, of which the folder may hold some.
@@ -232,6 +235,7 @@ impl Head {
             state: State::Complete,
             scene: scene.name.clone(),
             view: view.map(str::to_owned),
+            set: scene.overrides.clone(),
             digest: scene.digest.clone(),
             frames: scene.simulation.frames(),
             frame_rate: scene.simulation.frame_rate,

@@ -182,7 +182,11 @@ fn of_body(body: &Body, at: &BodyFrame, measure: BodyMeasure) -> f64 {
         BodyMeasure::Spin => at.angular_velocity.length(),
         BodyMeasure::Mass => mass,
         BodyMeasure::Momentum => mass * at.velocity.length(),
-        BodyMeasure::Kinetic => 0.5 * mass * at.velocity.length_squared(),
+        BodyMeasure::Kinetic => {
+            let turned = at.orientation * body.start.principal_axes;
+            let spin = turned.conjugate() * at.angular_velocity;
+            0.5 * (mass * at.velocity.length_squared() + body.start.inertia.dot(spin * spin))
+        }
     }
 }
 

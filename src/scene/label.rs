@@ -213,7 +213,7 @@ impl BodyMeasure {
         ("spin", BodyMeasure::Spin, "the size of its angular velocity, rad/s"),
         ("mass", BodyMeasure::Mass, "its mass, kg"),
         ("momentum", BodyMeasure::Momentum, "the size of its momentum, kg·m/s"),
-        ("kinetic", BodyMeasure::Kinetic, "the kinetic energy of its translation, ½ m v², J"),
+        ("kinetic", BodyMeasure::Kinetic, "its kinetic energy, of translation and rotation, J"),
     ];
 }
 

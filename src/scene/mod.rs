@@ -91,6 +91,8 @@ pub struct Scene {
     pub digest: String,
     /// Where the text says what a run may show to be wrong; the texts are those of `warnings`.
     pub places: Places,
+    /// The values that replaced those of the file, as they were written: `simulation.step=0.001`.
+    pub overrides: Vec<String>,
     /// What was noticed and is no error.
     pub warnings: Report,
 }

@@ -122,6 +122,8 @@ pub enum ForceKind {
     Gravitation {
         /// The numbers of the bodies.
         on: Vec<usize>,
+        /// The numbers of the bodies of another group, if the force acts between two groups and not within one.
+        against: Option<Vec<usize>>,
         /// Newton's constant, m³/(kg·s²).
         constant: f64,
         /// The softening length, m.
@@ -131,6 +133,8 @@ pub enum ForceKind {
     Coulomb {
         /// The numbers of the bodies.
         on: Vec<usize>,
+        /// The numbers of the bodies of another group, if the force acts between two groups and not within one.
+        against: Option<Vec<usize>>,
         /// Coulomb's constant, N·m²/C².
         constant: f64,
         /// The softening length, m.

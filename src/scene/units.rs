@@ -142,7 +142,7 @@ pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
 
 /// A number as a scene writes it, without the dirt of a conversion in its last digits.
 pub(super) fn written(number: f64) -> String {
-    let rounded = format!("{number:.14e}").parse::<f64>().unwrap_or(number);
+    let rounded = format!("{number:.12e}").parse::<f64>().unwrap_or(number);
     if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {
         rounded.to_string()
     } else {
@@ -179,7 +179,7 @@ mod tests {
             (3.3, "mm", "m", Some("0.0033")),
             (1.0, "AU", "m", Some("1.495978707e11")),
             (180.0, "deg", "degrees", Some("180")),
-            (90.0, "deg", "rad/s", Some("1.5707963267949")),
+            (90.0, "deg", "rad/s", Some("1.570796326795")),
             (5.0, "g", "", Some("0.005")),
             (1.0, "kg", "m", None),
         ] {

@@ -15,7 +15,9 @@ use crate::scene::{Body, Force, ForceKind, Scene, SpringEnd};
 pub fn world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
-    world.set_step(scene.simulation.step);
+    // What is given at every time needs no steps to get there.
+    let is_given = scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some());
+    world.set_step(if is_given { f64::INFINITY } else { scene.simulation.step });
     let ids: Vec<BodyId> = scene.bodies.iter().map(|body| add(&mut world, body)).collect();
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
@@ -73,11 +75,13 @@ fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
         &ForceKind::Drag { ref on, linear, quadratic, wind } => {
             world.add_force(Drag { bodies: named(on), linear, quadratic, wind });
         }
-        &ForceKind::Gravitation { ref on, constant, softening } => {
-            world.add_force(Gravitation { bodies: named(on), constant, softening });
+        &ForceKind::Gravitation { ref on, ref against, constant, softening } => {
+            let against = against.as_deref().map(named);
+            world.add_force(Gravitation { bodies: named(on), against, constant, softening });
         }
-        &ForceKind::Coulomb { ref on, constant, softening } => {
-            world.add_force(Coulomb { bodies: named(on), constant, softening });
+        &ForceKind::Coulomb { ref on, ref against, constant, softening } => {
+            let against = against.as_deref().map(named);
+            world.add_force(Coulomb { bodies: named(on), against, constant, softening });
         }
         &ForceKind::Lorentz { ref on, electric, magnetic } => {
             world.add_force(Lorentz { bodies: named(on), electric, magnetic });

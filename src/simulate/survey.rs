@@ -6,6 +6,7 @@
 use glam::DVec3;
 
 use super::arrows::{self, Largest};
+use super::overlap::{Overlap, Watch};
 use super::{BodyFrame, Diverged, Frame, Frames, world};
 use crate::dynamics::{Effort, Shape};
 use crate::scene::{Body, Scene};
@@ -22,6 +23,8 @@ pub struct Survey {
     pub arrow_scales: [f64; 3],
     /// The first passage of a body through each plane or ground that is given.
     pub crossings: Vec<Crossing>,
+    /// The first two bodies that go into each other.
+    pub overlap: Option<Overlap>,
     /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
     /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
     /// run begins at rest.)
@@ -89,6 +92,7 @@ pub struct Surveyor<'a> {
     has_begun: bool,
     /// For each body: whether it has gone through a plane.
     crossed: Vec<bool>,
+    overlaps: Watch<'a>,
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
@@ -104,6 +108,7 @@ impl<'a> Surveyor<'a> {
             planes: planes(scene),
             has_begun: false,
             crossed: vec![false; scene.bodies.len()],
+            overlaps: Watch::new(scene),
             error: 0.0,
             largest_kinetic: 0.0,
             largest: Largest::default(),
@@ -126,6 +131,7 @@ impl<'a> Surveyor<'a> {
         for plane in &mut self.planes {
             plane.watch(scene, frame, &mut self.crossed);
         }
+        self.overlaps.see(frame);
         for body in &frame.bodies {
             // What has gone through a plane is behind the scenery, and the camera need not follow.
             if self.crossed[body.id] {
@@ -147,7 +153,7 @@ impl<'a> Surveyor<'a> {
     /// # Errors
     /// Where the run leaves the numbers.
     pub fn finish(self) -> Result<Survey, Diverged> {
-        let Surveyor { scene, bounds, planes, error, largest_kinetic, largest, .. } = self;
+        let Surveyor { scene, bounds, planes, overlaps, error, largest_kinetic, largest, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
         let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
@@ -163,6 +169,7 @@ impl<'a> Surveyor<'a> {
             seen,
             arrow_scales,
             crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
+            overlap: overlaps.finish(),
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,

@@ -14,7 +14,7 @@ fn two_equal_charges_fly_apart() {
     let time = 0.5 * (root * less + libm::log(root + less));
     for (method, mut world, one) in worlds(ball().with_charge(1e-3).with_location(0.5 * DVec3::X)) {
         let two = world.add(ball().with_charge(1e-3).with_location(-0.5 * DVec3::X));
-        world.add_force(Coulomb { bodies: vec![one, two], constant: 1e6, softening: 0.0 });
+        world.add_force(Coulomb { bodies: vec![one, two], against: None, constant: 1e6, softening: 0.0 });
         world.set_step(time / f64::from(steps));
         world.advance_to(time);
         let off = ((world.location(one) - world.location(two)).length() - distance).abs();

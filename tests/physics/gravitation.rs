@@ -14,7 +14,7 @@ fn attracting(method: &'static Method, bodies: &[(f64, DVec3, DVec3)]) -> World 
         world.add(body.with_location(location).with_velocity(velocity))
     };
     let bodies = bodies.iter().map(add).collect();
-    world.add_force(Gravitation { bodies, constant: 1.0, softening: 0.0 });
+    world.add_force(Gravitation { bodies, against: None, constant: 1.0, softening: 0.0 });
     world
 }
 

@@ -13,6 +13,8 @@ use super::{Force, Loads, Moment};
 pub struct Coulomb {
     /// The bodies that act on each other.
     pub bodies: Vec<BodyId>,
+    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    pub against: Option<Vec<BodyId>>,
     /// The constant k = 1/4πε₀, N m²/C².
     pub constant: f64,
     /// The softening length ε, m.
@@ -25,7 +27,13 @@ impl Coulomb {
 
     fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
         let strength = moment.model.charge();
-        Pairs { bodies: &self.bodies, strength, constant: self.constant, softening: self.softening }
+        Pairs {
+            bodies: &self.bodies,
+            against: self.against.as_deref(),
+            strength,
+            constant: self.constant,
+            softening: self.softening,
+        }
     }
 }
 
@@ -51,7 +59,7 @@ mod tests {
         for (charge, x) in [(3.0, -1.5), (-3.0, 1.5)] {
             let (model, state) = charged(&[(2.0, DVec3::ZERO), (charge, 2.0 * DVec3::X)]);
             let bodies = [0, 1].map(BodyId::new).to_vec();
-            let coulomb = Coulomb { bodies, constant: 1.0, softening: 0.0 };
+            let coulomb = Coulomb { bodies, against: None, constant: 1.0, softening: 0.0 };
             // k q₁ q₂ / r² = 6 / 4
             assert_eq!(loads(&coulomb, &model, &state).force, [x * DVec3::X, -x * DVec3::X]);
             assert_minus_gradient(&coulomb, &model, &state);

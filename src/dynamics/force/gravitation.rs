@@ -12,6 +12,8 @@ use super::{Force, Loads, Moment};
 pub struct Gravitation {
     /// The bodies that attract each other.
     pub bodies: Vec<BodyId>,
+    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    pub against: Option<Vec<BodyId>>,
     /// The constant G, m³/(kg s²).
     pub constant: f64,
     /// The softening length ε, m.
@@ -24,7 +26,13 @@ impl Gravitation {
 
     fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
         let strength = moment.model.mass();
-        Pairs { bodies: &self.bodies, strength, constant: -self.constant, softening: self.softening }
+        Pairs {
+            bodies: &self.bodies,
+            against: self.against.as_deref(),
+            strength,
+            constant: -self.constant,
+            softening: self.softening,
+        }
     }
 }
 
@@ -46,7 +54,7 @@ mod tests {
     use super::*;
 
     fn all(count: usize, softening: f64) -> Gravitation {
-        Gravitation { bodies: (0..count).map(BodyId::new).collect(), constant: 2.0, softening }
+        Gravitation { bodies: (0..count).map(BodyId::new).collect(), against: None, constant: 2.0, softening }
     }
 
     #[test]
@@ -105,5 +113,35 @@ mod tests {
                 "{given} {potential}"
             );
         }
+    }
+
+    /// Two groups of 150 and 140 bodies take two tiles each.
+    #[test]
+    fn two_groups_attract_each_other_and_not_themselves() {
+        let at = |i: usize, k: f64| (i as f64 * k).fract() * 10.0;
+        let located: Vec<_> = (0..290)
+            .map(|i| (DVec3::new(at(i, 0.618_033), at(i, 0.414_213), at(i, 0.732_050)), DVec3::ZERO))
+            .collect();
+        let (model, state) = bodies(&located);
+        let ids = |range: std::ops::Range<usize>| range.map(BodyId::new).collect::<Vec<_>>();
+        let force =
+            Gravitation { bodies: ids(0..150), against: Some(ids(150..290)), constant: 2.0, softening: 0.1 };
+        let loads = loads(&force, &model, &state);
+        let mut potential = 0.0;
+        for (i, (here, _)) in located.iter().enumerate() {
+            let (mut sum, mut magnitude) = (DVec3::ZERO, 0.0);
+            for (j, (there, _)) in located.iter().enumerate().filter(|(j, _)| (*j < 150) != (i < 150)) {
+                let (d, masses) = (*there - *here, model.mass()[i] * model.mass()[j]);
+                let square = d.length_squared() + 0.01;
+                let pull = 2.0 * masses / (square * square.sqrt()) * d;
+                sum += pull;
+                magnitude += pull.length();
+                potential -= masses / square.sqrt();
+            }
+            assert!((loads.force[i] - sum).length() <= 290e-15 * magnitude, "{i}");
+        }
+        let given = force.potential(&Moment { time: 0.0, state: &state, model: &model });
+        assert!((given - potential).abs() <= 290e-15 * potential.abs(), "{given} {potential}");
+        assert_minus_gradient(&force, &model, &state);
     }
 }

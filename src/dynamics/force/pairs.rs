@@ -23,6 +23,8 @@ const LANES: usize = 4;
 pub(super) struct Pairs<'a> {
     /// The bodies that act on each other.
     pub(super) bodies: &'a [BodyId],
+    /// The bodies of another group: then those of one act on those of the other, and not among themselves.
+    pub(super) against: Option<&'a [BodyId]>,
     /// s of every body of the world.
     pub(super) strength: &'a [f64],
     /// The constant c.
@@ -62,9 +64,22 @@ impl Pairs<'_> {
         self.constant * sum
     }
 
-    /// Shows every tile alone, then with each of those behind it; the flag says that it is shown for the last time.
+    /// Shows every tile alone, then with each of those behind it; of two groups, every tile with each of the other group.
+    /// The flag says that it is shown for the last time.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
         let effort = moment.model.effort();
+        if let Some(against) = self.against {
+            for head in self.bodies.chunks(TILE) {
+                let mut first = self.tile(head, moment);
+                let mut others = against.chunks(TILE).peekable();
+                while let Some(other) = others.next() {
+                    let mut second = self.tile(other, moment);
+                    see(&mut first, Some(&mut second), others.peek().is_none());
+                    effort.add(first.len() * second.len());
+                }
+            }
+            return;
+        }
         let mut rest = self.bodies;
         while !rest.is_empty() {
             let (head, behind) = rest.split_at(TILE.min(rest.len()));
@@ -125,7 +140,7 @@ impl Tile<'_> {
 
     /// All pairs of one body here and one there.
     fn attract(&mut self, other: &mut Tile<'_>, softening: f64) {
-        // Every tile but the last is full; the number of lanes of those is known beforehand.
+        // The number of lanes of full tiles is known beforehand. Only where there are two groups, one may be not full.
         let full = if self.len() == TILE { TILE } else { 0 };
         for j in 0..other.len() {
             let (at, strength) = (other.at.map(|at| at[j]), other.strength[j]);
@@ -134,6 +149,13 @@ impl Tile<'_> {
                 self.attract_lanes(i, at, strength, softening, &mut back);
             }
             other.pull_back(j, back);
+            if full == 0 {
+                let mut back = [[0.0]; 3];
+                for i in 0..self.len() {
+                    self.attract_lanes(i, at, strength, softening, &mut back);
+                }
+                other.pull_back(j, back);
+            }
         }
     }
 

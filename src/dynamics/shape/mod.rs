@@ -1,6 +1,7 @@
 //! What a body looks like, as far as mechanics cares: volume, inertia and extent.
 
 mod compound;
+mod convex;
 mod mesh;
 mod principal;
 mod solids;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 
 pub use compound::{Compound, Part};
+pub use convex::Placed;
 pub use mesh::{Flaw, Mesh};
 
 /// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds and meshes, the

@@ -10,10 +10,13 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     for force in forces {
         match &force.kind {
-            ForceKind::Gravitation { on, .. } => on.iter().for_each(|&body| attracts[body] = true),
-            ForceKind::Coulomb { on, .. } | ForceKind::Lorentz { on, .. } => {
-                on.iter().for_each(|&body| electric[body] = true);
+            ForceKind::Gravitation { on, against, .. } => {
+                on.iter().chain(against.iter().flatten()).for_each(|&body| attracts[body] = true);
             }
+            ForceKind::Coulomb { on, against, .. } => {
+                on.iter().chain(against.iter().flatten()).for_each(|&body| electric[body] = true);
+            }
+            ForceKind::Lorentz { on, .. } => on.iter().for_each(|&body| electric[body] = true),
             _ => {}
         }
     }

@@ -177,7 +177,9 @@ impl Reader<'_, '_, '_> {
         let mut dotted = Vec::new();
         for (at, _) in formula.match_indices('.') {
             let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            let begin = formula[..at].trim_end_matches(is_part).len();
+            // The name of a copy ends with its indices: `ball[0]`, `brick[3,1]`.
+            let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
+            let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
             let rest = &formula[at + 1..];
             let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
             let (body, measure) = (&formula[begin..at], &formula[at + 1..end]);
@@ -189,6 +191,10 @@ impl Reader<'_, '_, '_> {
                 let names = self.bodies.iter().map(|body| body.name.as_str());
                 let label = crate::diagnostic::nearest(body, names.take(1000));
                 let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+                let label = match self.context.groups.ends(body) {
+                    Some([first, last]) => format!("its copies are `{first}` to `{last}`"),
+                    None => label,
+                };
                 let message = format!("there is no body `{body}`");
                 self.report(Diagnostic::error("unknown-name", message), start + begin..start + at, &label);
                 return None;
@@ -205,8 +211,19 @@ impl Reader<'_, '_, '_> {
                 });
                 return None;
             };
-            plain.replace_range(at..=at, &joint);
-            dotted.push((plain[begin..end].to_owned(), Measure::Body(number, known)));
+            let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
+            plain.replace_range(begin..end, &joined);
+            let measure = Measure::Body(number, known);
+            if dotted.iter().any(|(other, another)| *other == joined && *another != measure) {
+                let message = format!(
+                    "`{body}.{measure_name}` looks like another name in this formula",
+                    measure_name = &formula[at + 1..end]
+                );
+                let label = "write the two in `${…}` of their own";
+                self.report(Diagnostic::error("label-syntax", message), start + begin..start + end, label);
+                return None;
+            }
+            dotted.push((joined, measure));
         }
         Some((plain, dotted))
     }

@@ -8,6 +8,7 @@ mod consequence;
 mod effect;
 mod force;
 pub(super) mod geometry;
+mod habits;
 mod label;
 mod look;
 mod material;
@@ -212,7 +213,7 @@ fn build(
     context: &mut Context<'_>,
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
-    let simulation = simulation::read(&root.table("simulation"), context);
+    let simulation = simulation::read(&root.table("simulation"), needs_steps(&root), context);
     let mut materials = material::read(&root, context);
     let mut bodies = body::read(&root, &simulation, &mut materials, context);
     for (number, body) in bodies.iter_mut().enumerate() {
@@ -252,8 +253,18 @@ fn build(
             camera: root.key_span("camera"),
             unit: root.table("povray").span("unit"),
         },
+        overrides: options.overrides.iter().map(|set| set.as_str().to_owned()).collect(),
         warnings: Report::default(),
     }
+}
+
+/// Whether a body is moved by forces, so that the world has to be advanced step by step.
+fn needs_steps(root: &View<'_>) -> bool {
+    root.named("body").iter().any(|(_, _, body)| {
+        let shape = body.table("shape");
+        let is_scenery = shape.has("plane") || shape.has("heightfield");
+        !is_scenery && !body.has("motion") && body.boolean("fixed") != Some(true)
+    })
 }
 
 /// A digest of all texts and other files that the scene was read from.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use super::read::figure;
 use super::trajectory::{self, Columns};
 use super::view::View;
 use super::{Context, asset, body};
@@ -34,7 +35,7 @@ pub(super) fn read(
         return by_keyframes(name, &keyframes, place, context);
     }
     unused_location(name, view, context);
-    by_trajectory(name, &motion.variant("trajectory")?, place.1, context)
+    by_trajectory(name, &motion.variant("trajectory")?, place.1, simulation, context)
 }
 
 /// Says that a location has no effect: also the one to which a `repeat` puts a copy.
@@ -187,6 +188,7 @@ fn by_trajectory(
     name: &str,
     view: &View<'_>,
     orientation: DQuat,
+    simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Option<BodyMotion> {
     let (node, span) = (view.raw("file")?, view.span("file")?);
@@ -202,10 +204,30 @@ fn by_trajectory(
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
+    stands_still(name, keys, span, simulation, context);
     let interpolation = interpolation(view);
     let mut keys = keys.clone();
     if !recording.is_turned {
         keys.iter_mut().for_each(|key| key.orientation = orientation);
     }
     Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, false))))
+}
+
+/// Warns of a body that stands still before the first row of its file, or after the last.
+fn stands_still(name: &str, keys: &[Key], span: Span, simulation: &Simulation, context: &mut Context<'_>) {
+    let (Some(first), Some(last)) = (keys.first(), keys.last()) else { return };
+    let end = simulation.time(simulation.frames() - 1);
+    // Less than a frame is not seen.
+    let frame = 1.0 / simulation.frame_rate;
+    let before = (first.time > frame).then(|| format!("until its first row, at {} s", figure(first.time)));
+    let after =
+        (last.time < end - frame).then(|| format!("from its last row on, at {} s", figure(last.time)));
+    let when: Vec<String> = [before, after].into_iter().flatten().collect();
+    if when.is_empty() {
+        return;
+    }
+    let message = format!("`{name}` stands still {}", when.join(", and "));
+    let label = format!("the scene goes from 0 to {} s", figure(end));
+    let help = "let `simulation.duration` end with the file; a body cannot be absent yet";
+    context.diagnostics.push(Diagnostic::warning("short-trajectory", message).at(span, label).help(help));
 }

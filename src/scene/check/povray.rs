@@ -4,7 +4,8 @@ use std::path::{Component, Path};
 
 use super::view::View;
 use super::{Context, asset, suggest};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Sources, Span};
+use crate::scene::expand::in_string;
 use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay};
@@ -87,4 +88,15 @@ fn include_text(
         _ => cannot_read(e),
     })?;
     Ok(Include::Text { name: name.to_owned(), text })
+}
+
+/// That a value in POV-Ray's own words, as labels have them, stays as it is.
+pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<Diagnostic> {
+    let start = text.find("${")?;
+    let end = text[start..].find('}').map_or(text.len(), |length| start + length + 1);
+    let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+    let place = in_string(raw, text, &(start..end), span);
+    let message = "values are not filled into POV-Ray's own words";
+    let help = "only the text of a label has values; for words that change from frame to frame, take a template of your own (`jabuka templates`)";
+    Some(Diagnostic::warning("value-in-sdl", message).at(place, "this stays as it is").help(help))
 }

@@ -13,7 +13,8 @@ pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
 /// More timesteps than anyone waits for: days, even for a single body.
 const MAX_STEPS: f64 = 1e11;
 
-pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Simulation {
+/// Reads it; without a body that `needs_steps`, none are taken, and no number of them is too large.
+pub(super) fn read(view: &View<'_>, needs_steps: bool, context: &mut Context<'_>) -> Simulation {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
     let mut simulation = Simulation {
         duration: view.number("duration").unwrap_or(10.0),
@@ -23,7 +24,11 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Simulation {
         gravity: view.vector("gravity").unwrap_or(DVec3::ZERO),
     };
     let frames = (simulation.duration * simulation.frame_rate).round() + 1.0;
-    let steps = simulation.duration / simulation.step.min(1.0 / simulation.frame_rate);
+    let steps = if needs_steps {
+        simulation.duration / simulation.step.min(1.0 / simulation.frame_rate)
+    } else {
+        0.0
+    };
     if frames > MAX_FRAMES {
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));

@@ -28,6 +28,18 @@ pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'stat
     })
 }
 
+/// The way to a key that another program calls so and that stands in a table inside this one: `material.color` for `colour`
+/// in a body.
+pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
+    let folded = word.to_lowercase();
+    table.keys.iter().find_map(|key| {
+        let inner = key.kind.table()?;
+        let found =
+            inner.keys.iter().find(|key| key.name == folded || key.also.contains(&folded.as_str()))?;
+        Some(vec![key.name, found.name])
+    })
+}
+
 /// What to say of an unknown word, given those that the scene declares and those that every scene knows; `plural` is
 /// the word for all of them.
 pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {

@@ -1,7 +1,7 @@
 //! A tree held against the description of the language: everything that can be said without knowing what a
 //! scene is about.
 
-use super::{Context, read, sdl, suggest};
+use super::{Context, habits, read, sdl, suggest};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
@@ -16,26 +16,37 @@ pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
     // What an unknown key was meant to be is not missing as well.
     let mut meant = Vec::new();
+    let before = context.diagnostics.len();
+    let hint = habits::hint(table, spec);
+    meant.extend(hint.iter().map(|hint| hint.way[0]));
     for entry in &table.entries {
         if let Some(key) = spec.key(&entry.name.text) {
             value(&entry.node, &key.kind, Some(entry), path, context);
         } else {
-            let way = suggest::deeper(&entry.name.text, spec);
-            let way = way.or_else(|| suggest::key(&entry.name.text, spec).map(|near| vec![near]));
+            let word = entry.name.text.as_str();
+            let way = habits::way_by_hint(hint.as_ref(), word).or_else(|| suggest::deeper(word, spec));
+            let way = way.or_else(|| suggest::key(word, spec).map(|near| vec![near]));
+            let way = way.or_else(|| suggest::deeper_also(word, spec));
             meant.extend(way.iter().map(|way| way[0]));
-            context.diagnostics.push(unknown_key(entry, way, spec, path));
+            let error = unknown_key(entry, way.as_deref(), spec, path);
+            let error = habits::mend_unknown(error, entry, way.as_deref(), table, spec, context);
+            context.diagnostics.push(error);
         }
+    }
+    if let Some(hint) = &hint {
+        habits::mend_hint(hint, table, before, context);
     }
     let is_whole = !context.is_partial;
     for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
         if !meant.contains(&key.name) {
-            context.diagnostics.push(missing_key(key, at, path));
+            let error = habits::mend_missing(missing_key(key, at, path), key, at, context);
+            context.diagnostics.push(error);
         }
     }
     rule(table, spec, &meant, at, path, context);
 }
 
-fn unknown_key(entry: &Entry, meant: Option<Vec<&str>>, spec: &TableSpec, path: &str) -> Diagnostic {
+fn unknown_key(entry: &Entry, meant: Option<&[&str]>, spec: &TableSpec, path: &str) -> Diagnostic {
     let error = Diagnostic::error("unknown-key", format!("unknown key `{}` in {path}", entry.name.text));
     match meant {
         Some(way) => error.at(entry.name.span, format!("did you mean `{}`?", way.join("."))),
@@ -128,6 +139,12 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
     if matches!(node.value, Value::Invalid) {
         return;
     }
+    let before = context.diagnostics.len();
+    of_kind(node, kind, entry, path, context);
+    habits::mend_value(before, node, kind, entry, context);
+}
+
+fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, context: &mut Context<'_>) {
     if let (Kind::File | Kind::Include | Kind::Asset, Some(name), Some(folder)) =
         (kind, node.as_str(), context.folder)
     {
@@ -152,7 +169,11 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
         Kind::Direction(_) => keep_all(read::direction::<3>(node), context),
         Kind::Color => keep_all(read::color(node), context),
         Kind::Identifier => keep(read::identifier(node), context),
-        Kind::Sdl(place) => sdl::check(node, *place, context),
+        Kind::Sdl(place) => {
+            sdl::check(node, *place, context);
+            let text = node.as_str().unwrap_or_default();
+            context.diagnostics.extend(super::povray::value_in_sdl(text, node.span, &context.sources));
+        }
         Kind::Include if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
         Kind::Include => match super::povray::include(node, context.folder, context.trust) {
             Ok(Include::Text { name, text }) => sdl::check_include(&name, &text, node.span, context),
@@ -165,7 +186,7 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
             Err(error) => context.diagnostics.push(error),
         },
         Kind::Choice(words) => choice(node, kind, &words(), entry, context),
-        Kind::Reference(collection) => reference(node, kind, *collection, context),
+        Kind::Reference(collection) => reference(node, kind, *collection, entry, context),
         Kind::List { of, .. } => match read::list(node, kind) {
             Ok(items) => items.iter().for_each(|item| value(item, of, None, path, context)),
             Err(error) => context.diagnostics.push(error),
@@ -284,7 +305,13 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
     }
 }
 
-fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Context<'_>) {
+fn reference(
+    node: &Node,
+    kind: &Kind,
+    collection: Collection,
+    entry: Option<&Entry>,
+    context: &mut Context<'_>,
+) {
     let Some(word) = node.as_str() else {
         context.diagnostics.push(read::wrong_type(node, kind));
         return;
@@ -313,9 +340,13 @@ fn reference(node: &Node, kind: &Kind, collection: Collection, context: &mut Con
     let error = Diagnostic::error("unknown-name", format!("there is no {noun} `{word}`"));
     let is_near = label.starts_with("did you mean");
     let error = error.at(node.span, label);
-    context.diagnostics.push(match library.is_empty() || is_near {
+    let error = match library.is_empty() || is_near {
         true => error,
         false => error.help(format!("names of the library need no table: {}", quoted(&library))),
+    };
+    context.diagnostics.push(match collection {
+        Collection::Body => error,
+        Collection::Material => habits::color_for_material(error, word, node, entry),
     });
 }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Expander;
 use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Table, Value};
 use crate::scene::units;
 
@@ -39,6 +40,28 @@ impl Expander<'_> {
             None => error.at(span, format!("this key is in {of}, and `{unit}` measures something else")),
         });
         true
+    }
+
+    /// Warns of angles that are probably in the wrong unit.
+    pub(super) fn look_at_angles(&mut self, formula: &Formula, span: Span) {
+        let text = formula.text();
+        let (range, message, label, mended) =
+            if let Some(range) = formula.degrees_for_radians(|name| self.scope.value(name)) {
+                let angle = &text[range.clone()];
+                let mended = format!("rad({angle})");
+                (range, "sine, cosine and tangent take radians", format!("did you mean `{mended}`?"), mended)
+            } else if self.unit == "degrees" && formula.is_in_radians() {
+                let mended = format!("deg({text})");
+                (0..text.len(), "this angle is in degrees", format!("did you mean `{mended}`?"), mended)
+            } else {
+                return;
+            };
+        if !self.warned.insert(span) {
+            return;
+        }
+        let place = super::place::in_string(self.raw(span), text, &range, span);
+        let warning = Diagnostic::warning("angle-unit", message).at(place, label);
+        self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
     /// Keeps a formula that asks where bodies are, to be reported when the places of all bodies are known; whether it is

@@ -56,6 +56,7 @@ pub(super) fn expand(
         told: HashSet::new(),
         unit: "",
         of_bodies: Vec::new(),
+        warned: HashSet::new(),
         diagnostics,
     };
     if let Some(entry) = root.get_mut("seed") {
@@ -115,6 +116,8 @@ struct Expander<'a> {
     told: HashSet<Span>,
     /// The unit of the key that is looked at; empty where there is none.
     unit: &'static str,
+    /// The formulas whose angles have been warned of.
+    warned: HashSet<Span>,
     /// The formulas that ask where bodies are.
     of_bodies: Vec<habits::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,
@@ -230,6 +233,7 @@ impl Expander<'_> {
             return;
         };
         let changes = formula.names().any(|(name, _)| name == "t");
+        self.look_at_angles(&formula, node.span);
         match self.time_formula(&formula, node.span) {
             Some(_) if !changes => self.number(node),
             found => node.value = found.map_or(Value::Invalid, Value::Formula),
@@ -283,6 +287,7 @@ impl Expander<'_> {
     /// The value of a formula that stands somewhere; none after what is wrong has been said.
     fn evaluate(&mut self, text: &str, span: Span) -> Option<f64> {
         let formula = self.keep(Formula::parse(text), text, span)?;
+        self.look_at_angles(&formula, span);
         self.value_of(&formula, span)
     }
 

@@ -20,6 +20,7 @@
 //!
 //! All functions are those of `libm` or exact, so values are the same bits on every platform.
 
+mod angles;
 mod derive;
 mod emit;
 mod error;

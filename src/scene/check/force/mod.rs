@@ -88,8 +88,10 @@ impl Reader<'_, '_> {
 
     fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
         let softening = view.number("softening").unwrap_or(0.0);
+        let (on, against) = self.pairs(view, softening, |_| true);
         ForceKind::Gravitation {
-            on: self.pairs(view, softening, |_| true),
+            on,
+            against,
             constant: view.number("constant").unwrap_or(Gravitation::CONSTANT),
             softening,
         }
@@ -98,8 +100,10 @@ impl Reader<'_, '_> {
     fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
         let softening = view.number("softening").unwrap_or(0.0);
         let bodies = self.bodies;
+        let (on, against) = self.pairs(view, softening, |i| bodies[i].start.charge != 0.0);
         ForceKind::Coulomb {
-            on: self.pairs(view, softening, |i| bodies[i].start.charge != 0.0),
+            on,
+            against,
             constant: view.number("constant").unwrap_or(Coulomb::CONSTANT),
             softening,
         }

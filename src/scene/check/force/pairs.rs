@@ -5,9 +5,14 @@ use std::collections::HashMap;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::source::Value;
+
+/// The number of a body, and where it is named, if it is.
+type Member = (usize, Option<Span>);
 
 impl Reader<'_, '_> {
-    /// The bodies that act on each other: those of `on`, or all but planes. Only those that are `able` to do.
+    /// The bodies that act on each other: those of `on`, or all but planes; or those of two groups. Only those that are
+    /// `able` to do.
     ///
     /// A plane cannot be one of them: it has no centre. Without softening, no two may be at the same place.
     pub(super) fn pairs(
@@ -15,19 +20,26 @@ impl Reader<'_, '_> {
         view: &View<'_>,
         softening: f64,
         able: impl Fn(usize) -> bool,
-    ) -> Vec<usize> {
+    ) -> (Vec<usize>, Option<Vec<usize>>) {
         let bodies = self.bodies;
-        let endless = |i: usize| bodies[i].shape.is_unbounded();
-        let on: Vec<(usize, Option<Span>)> = match self.named(view) {
-            // What is named and has no charge is warned of, and left out.
-            None => (0..bodies.len()).filter(|&i| !endless(i) && able(i)).map(|i| (i, None)).collect(),
-            Some(named) => {
-                for &(body, span) in &named {
-                    self.one_of_pair(body, span, endless(body), able(body));
-                }
-                let with_centre = named.into_iter().filter(|&(body, _)| !endless(body) && able(body));
-                with_centre.map(|(body, span)| (body, Some(span))).collect()
+        let able = |i: usize| !bodies[i].shape.is_unbounded() && able(i);
+        let numbers = |group: &[Member]| group.iter().map(|(body, _)| *body).collect::<Vec<_>>();
+        if let Some([first, second]) = self.groups(view) {
+            let (first, second) = (self.usable(first, &able), self.usable(second, &able));
+            let moves = |group: &[Member]| group.iter().any(|&(i, _)| !bodies[i].start.fixed);
+            if first.is_empty() || second.is_empty() {
+                self.acts_on_nothing("each of the two groups needs a body");
+            } else if !moves(&first) && !moves(&second) {
+                self.acts_on_nothing("all of them are fixed");
             }
+            if softening == 0.0 {
+                self.apart(&[&first, &second]);
+            }
+            return (numbers(&first), Some(numbers(&second)));
+        }
+        let on: Vec<Member> = match self.named(view) {
+            None => (0..bodies.len()).filter(|&i| able(i)).map(|i| (i, None)).collect(),
+            Some(named) => self.usable(named, &able),
         };
         let moving = on.iter().any(|&(i, _)| !bodies[i].start.fixed);
         if on.len() < 2 && !view.has("on") || on.len() == 1 {
@@ -36,9 +48,57 @@ impl Reader<'_, '_> {
             self.acts_on_nothing("all of them are fixed");
         }
         if softening == 0.0 {
-            self.apart(&on);
+            self.apart(&[&on]);
         }
-        on.into_iter().map(|(body, _)| body).collect()
+        (numbers(&on), None)
+    }
+
+    /// Those bodies that a force can act between; what keeps the others from it is said.
+    fn usable(&mut self, named: Vec<(usize, Span)>, able: impl Fn(usize) -> bool) -> Vec<Member> {
+        let bodies = self.bodies;
+        for &(body, span) in &named {
+            self.one_of_pair(body, span, bodies[body].shape.is_unbounded(), able(body));
+        }
+        named.into_iter().filter(|&(body, _)| able(body)).map(|(body, span)| (body, Some(span))).collect()
+    }
+
+    /// The two groups of `between`. The copies of a body that is repeated all stand at the place of its name.
+    fn groups(&mut self, view: &View<'_>) -> Option<[Vec<(usize, Span)>; 2]> {
+        let items = view.list("between")?;
+        let mut groups: Vec<(Span, Vec<(usize, Span)>)> = Vec::new();
+        for item in items {
+            let members: Vec<(usize, Span)> = match &item.value {
+                Value::Array(names) => {
+                    names.iter().filter_map(|name| Some((self.body(name)?, name.span))).collect()
+                }
+                _ => self.body(item).map(|body| (body, item.span)).into_iter().collect(),
+            };
+            match groups.last_mut().filter(|(span, _)| *span == item.span) {
+                Some((_, group)) => group.extend(members),
+                None => groups.push((item.span, members)),
+            }
+        }
+        let mut seen = vec![false; self.bodies.len()];
+        for (body, span) in groups.iter().flat_map(|(_, group)| group) {
+            if std::mem::replace(&mut seen[*body], true) {
+                let message = format!("the body `{}` is named twice", self.bodies[*body].name);
+                let error = Diagnostic::error("named-twice", message);
+                self.context.diagnostics.push(error.at(*span, "the second time"));
+            }
+        }
+        let count = groups.len();
+        match <[_; 2]>::try_from(groups) {
+            Ok([(_, first), (_, second)]) => Some([first, second]),
+            Err(_) => {
+                let message = format!("a force acts between 2 groups, and here are {count}");
+                let error = Diagnostic::error("wrong-length", message);
+                let help = "each is a body, the copies of one, or a list: `between = [[\"sun\", \"moon\"], \"ship\"]`";
+                self.context
+                    .diagnostics
+                    .extend(view.span("between").map(|span| error.at(span, "").help(help)));
+                Some([Vec::new(), Vec::new()])
+            }
+        }
     }
 
     fn one_of_pair(&mut self, body: usize, span: Span, endless: bool, able: bool) {
@@ -53,15 +113,18 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Two bodies at the same place are an error, unless both stay there.
-    fn apart(&mut self, on: &[(usize, Option<Span>)]) {
+    /// Two bodies at the same place are an error, unless both stay there. Of several groups, those of different ones.
+    fn apart(&mut self, groups: &[&[Member]]) {
         let bodies = self.bodies;
-        let mut places: HashMap<[u64; 3], usize> = HashMap::new();
-        for &(body, span) in on {
+        let mut places: HashMap<[u64; 3], (usize, usize)> = HashMap::new();
+        let members =
+            groups.iter().enumerate().flat_map(|(group, members)| members.iter().map(move |it| (group, *it)));
+        for (group, (body, span)) in members {
             // Adding 0 makes 0 of −0, which is the same place.
             let place = (bodies[body].start.location + 0.0).to_array().map(f64::to_bits);
-            let other = *places.entry(place).or_insert(body);
-            if other == body || bodies[other].start.fixed && bodies[body].start.fixed {
+            let (of, other) = *places.entry(place).or_insert((group, body));
+            let within_one = groups.len() > 1 && of == group;
+            if other == body || within_one || bodies[other].start.fixed && bodies[body].start.fixed {
                 continue;
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);

@@ -12,6 +12,7 @@ impl Reader<'_, '_> {
     /// A spring from each end to the next.
     pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let nodes = view.list("between")?;
+        self.chain_of_groups(nodes);
         let rest_length = view.number("rest_length");
         let mut links = Vec::with_capacity(nodes.len());
         for neighbours in nodes.windows(2) {
@@ -27,6 +28,25 @@ impl Reader<'_, '_> {
             damping: view.number("damping").unwrap_or(0.0),
             coil: super::super::showing::coil(view),
         })
+    }
+
+    /// Warns of several bodies that are repeated: their copies make one chain, where pairs may have been meant.
+    fn chain_of_groups(&mut self, nodes: &[Node]) {
+        // The copies of a body all stand at the place of its name.
+        let mut groups: Vec<&[Node]> = nodes.chunk_by(|a, b| a.span == b.span).collect();
+        groups.retain(|group| group.len() > 1);
+        let [first, .., last] = groups.as_slice() else { return };
+        let end = |node: Option<&Node>| node.and_then(Node::as_str).unwrap_or_default().to_owned();
+        let (from, to) = (end(first.first()), end(last.last()));
+        let message = "all copies make one chain, and not pairs";
+        let warning = Diagnostic::warning("one-chain", message);
+        let help = format!(
+            "for pairs, write a force for each: `between = [\"{from}\", \"{}\"]`, and so on",
+            end(last.first())
+        );
+        let warning =
+            warning.at(last[0].span, format!("the chain goes from `{from}` through every copy to `{to}`"));
+        self.context.diagnostics.push(warning.help(help));
     }
 
     /// Two neighbouring ends must be different, and one of them able to move.

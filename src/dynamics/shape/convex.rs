@@ -1,0 +1,206 @@
+//! Where convex shapes end, point by point, and whether two of them have a point in common.
+
+use glam::{DQuat, DVec3};
+
+use super::{Shape, cone_base};
+
+/// So many steps are made to find a point that two shapes have in common. Round shapes that just touch need the most.
+const MAX_STEPS: usize = 64;
+
+impl Shape {
+    /// The point that is farthest in a direction (any length, in the frame of the body), m; `None` for a shape that is
+    /// not convex or has no end.
+    #[must_use]
+    pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
+        let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
+        let corner = |half: DVec3| half * DVec3::new(sign(direction.x), sign(direction.y), sign(direction.z));
+        let rim = DVec3::new(direction.x, 0.0, direction.z).normalize_or_zero();
+        Some(match *self {
+            Shape::Sphere { radius } => radius * direction.normalize_or_zero(),
+            Shape::Box { size } => corner(0.5 * size),
+            Shape::RoundedBox { size, rounding } => {
+                corner(0.5 * size - rounding) + rounding * direction.normalize_or_zero()
+            }
+            Shape::Cylinder { radius, height } => radius * rim + 0.5 * height * sign(direction.y) * DVec3::Y,
+            Shape::Capsule { radius, height } => {
+                (0.5 * height - radius) * sign(direction.y) * DVec3::Y
+                    + radius * direction.normalize_or_zero()
+            }
+            Shape::Cone { radius, top_radius, height } => {
+                let base = cone_base(radius, top_radius, height);
+                let ends = [radius * rim + base * DVec3::Y, top_radius * rim + (base + height) * DVec3::Y];
+                if ends[0].dot(direction) > ends[1].dot(direction) { ends[0] } else { ends[1] }
+            }
+            _ => return None,
+        })
+    }
+}
+
+/// A convex shape at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// The shape.
+    pub shape: &'a Shape,
+    /// Where its centre of mass is, m.
+    pub location: DVec3,
+    /// How it is turned.
+    pub orientation: DQuat,
+    /// How many times larger it counts than it is.
+    pub scale: f64,
+}
+
+impl Placed<'_> {
+    /// The point that is farthest in a direction, m.
+    fn farthest(&self, direction: DVec3) -> DVec3 {
+        let point = self.shape.farthest(self.orientation.conjugate() * direction).unwrap_or(DVec3::ZERO);
+        self.location + self.scale * (self.orientation * point)
+    }
+
+    /// Whether two convex shapes have a point in common; `false` where that cannot be decided.
+    ///
+    /// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, IEEE J. Robotics and Automation 4 (1988) 193; balls by their
+    /// distance.
+    #[must_use]
+    pub fn meets(&self, other: &Placed<'_>) -> bool {
+        let between = other.location - self.location;
+        if let (Shape::Sphere { radius: a }, Shape::Sphere { radius: b }) = (self.shape, other.shape) {
+            return between.length() < a * self.scale + b * other.scale;
+        }
+        // Points of the difference of the shapes, which holds the origin if they meet.
+        let difference = |direction: DVec3| self.farthest(direction) - other.farthest(-direction);
+        let mut direction = if between == DVec3::ZERO { DVec3::X } else { between };
+        let mut simplex = vec![difference(direction)];
+        direction = -simplex[0];
+        for _ in 0..MAX_STEPS {
+            if direction == DVec3::ZERO {
+                return true;
+            }
+            let point = difference(direction);
+            if point.dot(direction) < 0.0 {
+                return false;
+            }
+            simplex.push(point);
+            match towards_origin(&mut simplex) {
+                Some(next) => direction = next,
+                None => return true,
+            }
+        }
+        false
+    }
+}
+
+/// Keeps the part of a simplex that is nearest to the origin, and gives the direction from there to the origin; none if
+/// the simplex holds it. The newest point is the last one.
+fn towards_origin(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
+    match simplex.as_slice() {
+        &[b, a] => Some(of_edge(simplex, a, b)),
+        &[c, b, a] => Some(of_triangle(simplex, a, b, c)),
+        &[d, c, b, a] => {
+            for (b, c, opposite) in [(b, c, d), (c, d, b), (d, b, c)] {
+                let mut normal = (b - a).cross(c - a);
+                if normal.dot(opposite - a) > 0.0 {
+                    normal = -normal;
+                }
+                if normal.dot(-a) > 0.0 {
+                    *simplex = vec![c, b, a];
+                    return Some(of_triangle(simplex, a, b, c));
+                }
+            }
+            None
+        }
+        _ => None,
+    }
+}
+
+fn of_edge(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3) -> DVec3 {
+    let edge = b - a;
+    if edge.dot(-a) > 0.0 {
+        *simplex = vec![b, a];
+        edge.cross(-a).cross(edge)
+    } else {
+        *simplex = vec![a];
+        -a
+    }
+}
+
+fn of_triangle(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    let normal = (b - a).cross(c - a);
+    if normal.cross(c - a).dot(-a) > 0.0 {
+        return if (c - a).dot(-a) > 0.0 { of_edge(simplex, a, c) } else { of_edge(simplex, a, b) };
+    }
+    if (b - a).cross(normal).dot(-a) > 0.0 {
+        return of_edge(simplex, a, b);
+    }
+    if normal.dot(-a) > 0.0 {
+        *simplex = vec![c, b, a];
+        normal
+    } else {
+        *simplex = vec![b, c, a];
+        -normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn placed(shape: &Shape, location: [f64; 3], turn: f64) -> Placed<'_> {
+        let orientation = DQuat::from_rotation_z(turn.to_radians());
+        Placed { shape, location: DVec3::from_array(location), orientation, scale: 1.0 }
+    }
+
+    #[test]
+    fn shapes_meet_where_they_do() {
+        let ball = Shape::Sphere { radius: 1.0 };
+        let cube = Shape::Box { size: DVec3::splat(2.0) };
+        let soft = Shape::RoundedBox { size: DVec3::splat(2.0), rounding: 0.5 };
+        let can = Shape::Cylinder { radius: 1.0, height: 4.0 };
+        let pill = Shape::Capsule { radius: 0.5, height: 4.0 };
+        let cone = Shape::Cone { radius: 1.0, top_radius: 0.0, height: 4.0 };
+        for (one, two, place, turn, meets) in [
+            (&ball, &ball, [1.99, 0.0, 0.0], 0.0, true),
+            (&ball, &ball, [2.01, 0.0, 0.0], 0.0, false),
+            // Corner to corner along the diagonal: the boxes end at √3.
+            (&cube, &cube, [1.99, 1.99, 1.99], 0.0, true),
+            (&cube, &cube, [2.01, 0.0, 0.0], 0.0, false),
+            // Turned by 45 degrees, it reaches √2.
+            (&cube, &cube, [2.41, 0.0, 0.0], 45.0, true),
+            (&cube, &cube, [2.42, 0.0, 0.0], 45.0, false),
+            (&ball, &cube, [1.57, 1.57, 1.57], 0.0, true),
+            (&ball, &cube, [1.58, 1.58, 1.58], 0.0, false),
+            (&soft, &cube, [1.99, 0.0, 0.0], 0.0, true),
+            // Its corner is (√3 − 1) / 2 m nearer than that of the cube.
+            (&soft, &soft, [1.57, 1.57, 1.57], 0.0, true),
+            (&soft, &soft, [1.6, 1.6, 1.6], 0.0, false),
+            (&can, &ball, [0.0, 2.99, 0.0], 0.0, true),
+            (&can, &ball, [0.0, 3.01, 0.0], 0.0, false),
+            (&can, &pill, [1.49, 0.0, 0.0], 0.0, true),
+            (&can, &pill, [1.51, 0.0, 0.0], 0.0, false),
+            // The tip of a cone is three quarters of its height above its centre of mass.
+            (&cone, &ball, [0.0, 3.99, 0.0], 0.0, true),
+            (&cone, &ball, [0.0, 4.01, 0.0], 0.0, false),
+            (&cone, &ball, [0.0, -1.99, 0.0], 0.0, true),
+            (&cone, &ball, [0.0, -2.01, 0.0], 0.0, false),
+        ] {
+            let (a, b) = (placed(one, [0.0; 3], 0.0), placed(two, place, turn));
+            assert_eq!(a.meets(&b), meets, "{one:?} {two:?} {place:?}");
+            assert_eq!(b.meets(&a), meets, "{two:?} {one:?} {place:?}");
+        }
+    }
+
+    /// Of balls, the answer is known; a box that is all rounding is one, and has to be found by steps.
+    #[test]
+    fn round_boxes_meet_as_balls_do() {
+        let (ball, round) =
+            (Shape::Sphere { radius: 0.5 }, Shape::RoundedBox { size: DVec3::ONE, rounding: 0.5 });
+        for i in 0..2000 {
+            let at = |k: f64| (f64::from(i) * k).fract() * 1.6 - 0.8;
+            let place = [at(0.618_033), at(0.414_213), at(0.732_050)];
+            let distance = DVec3::from_array(place).length();
+            if (distance - 1.0).abs() > 1e-3 {
+                let meets = placed(&ball, [0.0; 3], 0.0).meets(&placed(&round, place, 20.0));
+                assert_eq!(meets, distance < 1.0, "{place:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Angles that are probably in the wrong unit: functions take radians, and orientations are in degrees.
+
+use std::ops::Range;
+
+use super::Formula;
+use super::parser::Part;
+
+/// Functions whose values are angles in radians.
+const GIVES_RADIANS: [&str; 5] = ["asin", "acos", "atan", "atan2", "rad"];
+
+impl Formula {
+    /// Where an angle that looks like one in degrees is given to a function that takes radians, as in `cos(45)`. `value`
+    /// says what a name stands for.
+    pub(in crate::scene) fn degrees_for_radians(
+        &self,
+        value: impl Fn(&str) -> Option<f64>,
+    ) -> Option<Range<usize>> {
+        self.nodes.iter().find_map(|node| {
+            let Part::Call(function, arguments) = &node.part else { return None };
+            let [argument] = **arguments else { return None };
+            let argument = &self.nodes[argument];
+            let angle = match &argument.part {
+                Part::Number(number) => *number,
+                Part::Name(range) => value(&self.text()[range.clone()])?,
+                _ => return None,
+            };
+            // Nobody means 45 radians.
+            let is_usual = angle.abs() >= 15.0 && angle % 5.0 == 0.0 && angle.abs() <= 720.0;
+            (matches!(function.name, "sin" | "cos" | "tan") && is_usual).then(|| argument.range.clone())
+        })
+    }
+
+    /// Whether the value looks like an angle in radians: it is made with `pi`, `tau` or a function that gives radians, and
+    /// `deg` is not used.
+    pub(in crate::scene) fn is_in_radians(&self) -> bool {
+        let calls = |names: &[&str]| {
+            self.nodes
+                .iter()
+                .any(|node| matches!(&node.part, Part::Call(function, _) if names.contains(&function.name)))
+        };
+        // Within a sine, an angle is in radians by right.
+        let has_sine = calls(&["sin", "cos", "tan", "sinh", "cosh", "tanh"]);
+        let has_pi = self.names().any(|(name, _)| matches!(name, "pi" | "tau"));
+        let divides_by_it = self.text().contains("/pi") || self.text().contains("/ pi");
+        !calls(&["deg"]) && !has_sine && !divides_by_it && (has_pi || calls(&GIVES_RADIANS))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn degrees_and_radians_are_told_apart_where_they_can_be() {
+        let value = |name: &str| (name == "theta").then_some(30.0);
+        for (text, angle) in [
+            ("cos(45)", Some(4..6)),
+            ("2*sin(theta) + 1", Some(6..11)),
+            ("cos(rad(45))", None),
+            ("cos(0.5)", None),
+            ("sin(10*t)", None),
+            ("tan(45 + x)", None),
+        ] {
+            assert_eq!(Formula::parse(text).unwrap().degrees_for_radians(value), angle, "{text}");
+        }
+        for (text, is_in_radians) in [
+            ("pi/4", true),
+            ("tau*t", true),
+            ("atan2(1, 2)", true),
+            ("deg(pi/4)", false),
+            ("180*atan(2)/pi", false),
+            ("30*sin(2*pi*t)", false),
+            ("45", false),
+        ] {
+            assert_eq!(Formula::parse(text).unwrap().is_in_radians(), is_in_radians, "{text}");
+        }
+    }
+}
