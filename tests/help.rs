@@ -38,7 +38,60 @@ fn list_shows_what_there_is_to_choose_from() {
 fn what_cannot_be_listed_is_an_error() {
     let output = jabuka().args(["list", "shape"]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(stderr(&output), "error: there is no list of `shape`; did you mean `shapes`?\n");
+    let said = stderr(&output);
+    assert!(
+        said.starts_with("error: there is no list of `shape`; did you mean `shapes`?\nthe lists: "),
+        "{said}"
+    );
+    let said = stderr(&jabuka().args(["list", "foo"]).output().unwrap());
+    assert!(CATEGORIES.iter().all(|category| said.contains(category.name)), "{said}");
+}
+
+const MEETING: &str = "
+    simulation.duration = 2
+    [body.left]
+    shape.sphere.radius = 0.5
+    velocity = [2, 0, 0]
+    [body.right]
+    shape.sphere.radius = 0.5
+    location = [3, 0, 0]
+    ";
+
+#[test]
+fn check_takes_settings_and_says_what_a_run_would() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, MEETING).unwrap();
+    let check = |arguments: &[&str]| jabuka().arg("check").arg(&scene).args(arguments).output().unwrap();
+    assert!(stdout(&check(&[])).ends_with("scene.toml: ok\n"));
+    let output = check(&["--run"]);
+    assert!(
+        stderr(&output).starts_with("warning[overlap]: `left` and `right` overlap at t = 1.04 s\n"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(output.status.success() && stdout(&output).ends_with("scene.toml: ok, 1 warning\n"));
+    let output = check(&["--run", "--set", "body.right.location=[3, 2, 0]"]);
+    assert!(stdout(&output).ends_with("scene.toml: ok\n"), "{}", stderr(&output));
+    let output = check(&["--set", "body.right.mass=-1"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("--set:1:17"), "{}", stderr(&output));
+    // What is noticed of the run is there for editors, too.
+    let said = stdout(&check(&["--run", "--format", "json"]));
+    assert!(said.contains("\"overlap\""), "{said}");
+}
+
+#[test]
+fn a_manifest_says_what_was_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    support::compile(
+        &support::scene("projectile"),
+        &out,
+        &["--frames", "0", "--set", "simulation.step=0.002"],
+    );
+    let manifest = std::fs::read_to_string(out.join("manifest.json")).unwrap();
+    assert!(manifest.contains("\"simulation.step=0.002\""), "{manifest}");
 }
 
 #[test]

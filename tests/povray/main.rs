@@ -17,6 +17,7 @@ mod meshes;
 mod pinhole;
 mod planes;
 mod povray;
+mod reuse;
 mod same_pixels;
 mod scales;
 mod scene;

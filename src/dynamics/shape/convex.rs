@@ -68,20 +68,20 @@ impl Placed<'_> {
         }
         // Points of the difference of the shapes, which holds the origin if they meet.
         let difference = |direction: DVec3| self.farthest(direction) - other.farthest(-direction);
-        let mut direction = if between == DVec3::ZERO { DVec3::X } else { between };
-        let mut simplex = vec![difference(direction)];
-        direction = -simplex[0];
+        let mut simplex = vec![difference(if between == DVec3::ZERO { DVec3::X } else { between })];
+        let mut nearest = simplex[0];
         for _ in 0..MAX_STEPS {
-            if direction == DVec3::ZERO {
+            // Nearer than that, rounding decides.
+            if nearest.length_squared() <= 1e-24 * between.length_squared() {
                 return true;
             }
-            let point = difference(direction);
-            if point.dot(direction) < 0.0 {
+            let point = difference(-nearest);
+            if point.dot(nearest) > 0.0 {
                 return false;
             }
             simplex.push(point);
-            match towards_origin(&mut simplex) {
-                Some(next) => direction = next,
+            match reduce(&mut simplex) {
+                Some(next) => nearest = next,
                 None => return true,
             }
         }
@@ -89,55 +89,77 @@ impl Placed<'_> {
     }
 }
 
-/// Keeps the part of a simplex that is nearest to the origin, and gives the direction from there to the origin; none if
-/// the simplex holds it. The newest point is the last one.
-fn towards_origin(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
-    match simplex.as_slice() {
-        &[b, a] => Some(of_edge(simplex, a, b)),
-        &[c, b, a] => Some(of_triangle(simplex, a, b, c)),
-        &[d, c, b, a] => {
-            for (b, c, opposite) in [(b, c, d), (c, d, b), (d, b, c)] {
-                let mut normal = (b - a).cross(c - a);
-                if normal.dot(opposite - a) > 0.0 {
-                    normal = -normal;
+/// The point of a simplex that is nearest to the origin, of which the simplex keeps no more than the part that has that
+/// point; none if a tetrahedron holds the origin.
+fn reduce(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
+    match *simplex.as_slice() {
+        [a, b] => Some(of_edge(simplex, a, b)),
+        [a, b, c] => Some(of_triangle(simplex, a, b, c)),
+        [a, b, c, d] => {
+            let mut best: Option<(DVec3, Vec<DVec3>)> = None;
+            for (a, b, c, opposite) in [(a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)] {
+                let normal = (b - a).cross(c - a);
+                // The origin is on the other side of this face than the rest, or the tetrahedron is flat.
+                if normal.dot(-a) * normal.dot(opposite - a) > 0.0 {
+                    continue;
                 }
-                if normal.dot(-a) > 0.0 {
-                    *simplex = vec![c, b, a];
-                    return Some(of_triangle(simplex, a, b, c));
+                let mut face = Vec::new();
+                let point = of_triangle(&mut face, a, b, c);
+                if best.as_ref().is_none_or(|(other, _)| point.length_squared() < other.length_squared()) {
+                    best = Some((point, face));
                 }
             }
-            None
+            let (point, face) = best?;
+            *simplex = face;
+            Some(point)
         }
-        _ => None,
+        _ => simplex.first().copied(),
     }
 }
 
 fn of_edge(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3) -> DVec3 {
     let edge = b - a;
-    if edge.dot(-a) > 0.0 {
-        *simplex = vec![b, a];
-        edge.cross(-a).cross(edge)
-    } else {
-        *simplex = vec![a];
-        -a
+    let part = (-a).dot(edge) / edge.length_squared();
+    if part > 0.0 && part < 1.0 {
+        *simplex = vec![a, b];
+        return a + part * edge;
     }
+    let end = if part >= 1.0 { b } else { a };
+    *simplex = vec![end];
+    end
 }
 
+/// Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 fn of_triangle(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
-    let normal = (b - a).cross(c - a);
-    if normal.cross(c - a).dot(-a) > 0.0 {
-        return if (c - a).dot(-a) > 0.0 { of_edge(simplex, a, c) } else { of_edge(simplex, a, b) };
+    let (ab, ac) = (b - a, c - a);
+    let [d1, d2] = [ab.dot(-a), ac.dot(-a)];
+    let [d3, d4] = [ab.dot(-b), ac.dot(-b)];
+    let [d5, d6] = [ab.dot(-c), ac.dot(-c)];
+    if d1 <= 0.0 && d2 <= 0.0 {
+        *simplex = vec![a];
+        return a;
     }
-    if (b - a).cross(normal).dot(-a) > 0.0 {
+    if d3 >= 0.0 && d4 <= d3 {
+        *simplex = vec![b];
+        return b;
+    }
+    if d6 >= 0.0 && d5 <= d6 {
+        *simplex = vec![c];
+        return c;
+    }
+    let (of_c, of_b, of_a) = (d1 * d4 - d3 * d2, d5 * d2 - d1 * d6, d3 * d6 - d5 * d4);
+    if of_c <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
         return of_edge(simplex, a, b);
     }
-    if normal.dot(-a) > 0.0 {
-        *simplex = vec![c, b, a];
-        normal
-    } else {
-        *simplex = vec![b, c, a];
-        -normal
+    if of_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return of_edge(simplex, a, c);
     }
+    if of_a <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return of_edge(simplex, b, c);
+    }
+    *simplex = vec![a, b, c];
+    let sum = of_a + of_b + of_c;
+    a + ab * (of_b / sum) + ac * (of_c / sum)
 }
 
 #[cfg(test)]

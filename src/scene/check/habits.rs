@@ -85,8 +85,7 @@ pub(super) fn mend_hint(hint: &Hint, table: &Table, before: usize, context: &mut
     if let (Some(diagnostic), Some((span, text))) =
         (context.diagnostics[before..].iter_mut().find(is_of_it), example)
     {
-        let mended = std::mem::replace(diagnostic, Diagnostic::error("", ""));
-        *diagnostic = Diagnostic { fix: None, ..mended }.fix(span, text);
+        *diagnostic = Diagnostic { fix: None, ..diagnostic.clone() }.fix(span, text);
     }
 }
 
@@ -113,7 +112,8 @@ pub(super) fn mend_unknown(
     };
     match table.get(way[0]) {
         None => error.fix(entry.name.span, way.join(".")).fix_is_said(),
-        Some(_) if way.len() == 1 => error,
+        Some(_) if way.len() == 1 && header_end(entry.name.span, context).is_none() => error,
+        Some(_) if way.len() == 1 => error.fix(entry.name.span, way[0]).fix_is_said(),
         Some(first) => {
             match (&first.node.value, header_end(first.name.span, context), whole_line(whole, context)) {
                 // The table has a header of its own, below which the key belongs.
