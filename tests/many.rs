@@ -165,3 +165,25 @@ fn scattered_meshes_do_not_overlap() {
         }
     }
 }
+
+#[test]
+fn labels_know_copies_by_their_names() {
+    let text = "
+        [body.ball]
+        repeat = 2
+        shape.sphere.radius = 0.1
+        location = ['7 + 2*i', 0, 0]
+        [body.brick]
+        repeat.grid.count = [2, 1, 2]
+        repeat.grid.spacing = [1, 1, 1]
+        shape.box.size = [0.1, 0.1, 0.1]
+        [label.sum]
+        text = 'a = ${ball[1].x}, b = ${ball[0].x + ball[1].x:.1}'
+        [label.of_three_indices]
+        text = 'c = ${brick[0,0,1].x:.3}'
+        ";
+    let wrong = Scene::parse(&text.replace("ball[0].x", "ball.x")).unwrap_err().to_string();
+    assert!(wrong.contains("its copies are `ball[0]` to `ball[1]`"), "{wrong}");
+    let script = &scripts(text)[0];
+    assert!(script.contains("a = 9, b = 16.0") && script.contains("c = "), "{script}");
+}

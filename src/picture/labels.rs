@@ -234,4 +234,31 @@ mod tests {
             assert_eq!(written(value, format), expected);
         }
     }
+
+    /// The kinetic energy of the only body that moves is that of the run, also while a compound tumbles.
+    #[test]
+    fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
+        let scene = Scene::parse(
+            "
+            simulation = { duration = 1, integrator = 'rk4' }
+            [body.hammer]
+            mass = 3
+            velocity = [1, 2, 0]
+            angular_velocity = [1, 2, 3]
+            shape.compound.parts = [
+                { box.size = [3, 1, 2] },
+                { sphere.radius = 0.5, location = [1, 2, 0] },
+            ]
+            ",
+        )
+        .unwrap();
+        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
+            let kinetic = of_body(&scene.bodies[0], &frame.bodies[0], BodyMeasure::Kinetic);
+            assert!(
+                (kinetic / frame.balance.kinetic - 1.0).abs() < 1e-9,
+                "{kinetic} {}",
+                frame.balance.kinetic
+            );
+        }
+    }
 }

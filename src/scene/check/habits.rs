@@ -121,6 +121,10 @@ pub(super) fn mend_unknown(
                     let text = format!("\n{} = {}", way[1..].join("."), raw(entry.node.span, context));
                     error.fix(line, "").fix(Span { start: end, end, ..line }, text)
                 }
+                // The word that names the kind goes: see `mend_hint`.
+                (Value::String(_), ..) if way[0] == "shape" => {
+                    error.fix(entry.name.span, way.join(".")).fix_is_said()
+                }
                 (Value::Table(_), None, _) => error.fix(entry.name.span, way.join(".")).fix_is_said(),
                 // A color beside a material of the library tints it.
                 (Value::String(like), _, Some(line)) if way == ["material", "color"] => {
@@ -240,7 +244,11 @@ fn better(node: &Node, raw: &str, kind: &Kind, key: &str) -> Option<String> {
         (Kind::Text, Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Datetime) => {
             Some(format!("\"{raw}\""))
         }
-        (Kind::List { of, .. }, value) if of.takes(value) => Some(format!("[{raw}]")),
+        (Kind::List { of, .. }, value)
+            if of.takes(value) && !matches!(value, Value::Array(_) | Value::Table(_)) =>
+        {
+            Some(format!("[{raw}]"))
+        }
         _ => None,
     }
 }

@@ -51,7 +51,9 @@ impl Expander<'_> {
                 let mended = format!("rad({angle})");
                 (range, "sine, cosine and tangent take radians", format!("did you mean `{mended}`?"), mended)
             } else if self.unit == "degrees" && formula.is_in_radians() {
-                let mended = format!("deg({text})");
+                let degrees = text.strip_prefix("rad(").and_then(|rest| rest.strip_suffix(')'));
+                let degrees = degrees.filter(|inner| !inner.contains(['(', ')']));
+                let mended = degrees.map_or_else(|| format!("deg({text})"), str::to_owned);
                 (0..text.len(), "this angle is in degrees", format!("did you mean `{mended}`?"), mended)
             } else {
                 return;

@@ -36,6 +36,7 @@ static FORMULA: TableSpec = TableSpec {
             Either(&[TIMED_VECTOR, Table(&TURNING)]),
             "How it is turned, by formulas of `t`: a list of three angles is short for `orientation.euler`",
         )
+        .unit("degrees")
         .default("that of the body")
         .also(&["rotation", "rotate"]),
     ],
@@ -93,6 +94,7 @@ static KEYFRAME: TableSpec = TableSpec {
             .default("that of the keyframe before, or of the body")
             .also(&["position", "pos"]),
         Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned, as at a body")
+            .unit("degrees")
             .default("that of the keyframe before, or of the body")
             .also(&["rotation", "rotate"]),
     ],

@@ -102,6 +102,7 @@ static PART: TableSpec = TableSpec {
         .default("[0, 0, 0]")
         .also(&["position", "pos", "center", "translate", "origin", "offset"]),
         Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned within the body")
+            .unit("degrees")
             .default("not turned")
             .also(&["rotation", "rotate", "angle", "attitude"]),
     ],

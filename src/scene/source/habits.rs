@@ -166,8 +166,9 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     let decimal = |item: &&str| number(item).is_some();
     // `0,5; 1,5` and `0,5, 1,5`: commas with a blank are those of the list.
     let spaced: Vec<&str> = inner.split(", ").map(str::trim).collect();
-    let has_decimal_commas =
-        spaced.len() > 1 && spaced.iter().all(decimal) && spaced.iter().any(|item| item.contains(','));
+    let has_decimal_commas = spaced.len() > 1
+        && spaced.iter().all(decimal)
+        && spaced.iter().any(|item| item.trim_end_matches(',').contains(','));
     let (items, why) = if !top_level(inner, &[';']).is_empty() {
         (split(&[';']), LIST)
     } else if has_decimal_commas {

@@ -37,6 +37,10 @@ impl Reader<'_, '_> {
             }
             return (numbers(&first), Some(numbers(&second)));
         }
+        if view.has("between") {
+            // What is wrong with it has been said.
+            return (Vec::new(), None);
+        }
         let on: Vec<Member> = match self.named(view) {
             None => (0..bodies.len()).filter(|&i| able(i)).map(|i| (i, None)).collect(),
             Some(named) => self.usable(named, &able),
@@ -96,7 +100,7 @@ impl Reader<'_, '_> {
                 self.context
                     .diagnostics
                     .extend(view.span("between").map(|span| error.at(span, "").help(help)));
-                Some([Vec::new(), Vec::new()])
+                None
             }
         }
     }
