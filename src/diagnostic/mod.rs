@@ -45,7 +45,7 @@ pub struct Diagnostic {
     /// How to mend it, in words.
     pub help: Option<String>,
     /// How to mend it, as text to replace.
-    pub fix: Option<Fix>,
+    pub fix: Option<Box<Fix>>,
 }
 
 impl Diagnostic {
