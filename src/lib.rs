@@ -12,7 +12,7 @@
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
 //! | [`render`] | scripts → images → film | POV-Ray's options; which images are up to date; ffmpeg |
 //!
-//! [`Run`] takes a scene through them. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
+//! [`Run`] takes a scene through them. [`overwrite`] decides which files a command may replace. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
 //! what there is to choose from, and [`starter`] a scene to start from. [`surface`] has the triangles of shapes and plain looks of materials, and
 //! [`export`] tables and models, for programs that are not POV-Ray; [`preview`] shows a scene in the browser while it is written.
 //! [`sandbox`] confines the programs that jabuka starts.
@@ -48,6 +48,7 @@ pub mod emit;
 pub mod explain;
 pub mod export;
 pub mod output;
+pub mod overwrite;
 pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;

@@ -4,12 +4,14 @@
 mod support;
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::process::Command;
 
 use jabuka::diagnostic::{Diagnostic, Report};
 use jabuka::explain::{EXPLANATIONS, Explanation};
 use jabuka::output::OutputError;
 use jabuka::{Run, Scene};
-use support::{jabuka, root, stderr, stdout};
+use support::{commands, jabuka, root, stderr, stdout};
 
 #[test]
 fn every_code_has_a_file_and_every_file_a_code() {
@@ -41,9 +43,8 @@ fn what_an_explanation_calls_wrong_gets_the_code_and_what_it_calls_right_gets_no
     for entry in EXPLANATIONS {
         let Explanation { code, .. } = entry;
         let (wrong, right) = (entry.wrong(), entry.right());
-        let commands = |text: &str| text.lines().all(|line| line.starts_with("$ "));
-        if commands(&wrong) {
-            assert!(commands(&right), "explanations/{code}.md: one is a scene, the other are commands");
+        if commands::are(&wrong) {
+            assert!(commands::are(&right), "explanations/{code}.md: one is a scene, the other are commands");
             continue;
         }
         let found = diagnostics(&wrong);
@@ -116,4 +117,78 @@ fn a_code_that_there_is_not_is_an_error() {
     let output = jabuka().args(["explain", "xyzzy"]).output().unwrap();
     assert_eq!(stderr(&output), "error: there is no code `xyzzy`\n");
     assert_eq!((output.status.code(), stdout(&output)), (Some(1), String::new()));
+}
+
+/// What the commands of the explanations find in their folder.
+const SCENE: &str = "
+    [simulation]
+    duration = 0.4
+    [output]
+    size = [32, 18]
+    [body.ball]
+    shape.sphere.radius = 1
+    velocity = [2, 0, 0]
+    ";
+
+#[test]
+fn every_command_of_an_explanation_is_one_that_jabuka_has() {
+    for entry in EXPLANATIONS {
+        for (text, is_right) in [(entry.wrong(), false), (entry.right(), true)] {
+            for command in text.lines().filter_map(|line| line.strip_prefix("$ ")).flat_map(commands::of_line)
+            {
+                let Err(why) = commands::parses(&command) else { continue };
+                // A value may be what is wrong; an option that there is not never is.
+                let about_a_value = why.starts_with("error: invalid value");
+                assert!(!is_right && about_a_value, "explanations/{}.md: `{command}`: {why}", entry.code);
+            }
+        }
+    }
+}
+
+#[test]
+fn commands_that_an_explanation_calls_wrong_get_the_code_and_those_it_calls_right_succeed() {
+    let prepared = tempfile::tempdir().unwrap();
+    let place = |name: &str| prepared.path().join(name);
+    let write = |name: &str, text: &[u8]| fs::write(place(name), text).unwrap();
+    let table = "t [s],body,x [m],y [m],z [m]\n0,ball,0,0,0\n1,ball,1,0,0\n";
+    let lift = "[body.ball]\nshape.sphere.radius = 1\nmotion.trajectory.file = \"lift_as_measured.csv\"\n";
+    for name in ["scene.toml", "film.toml", "ball.toml", "lamp.toml", "caffè.toml"] {
+        write(name, format!("title = \"caffè\"\n{SCENE}").as_bytes());
+    }
+    write(
+        "old.toml",
+        format!("title = \"caff\u{e8}\"\n{SCENE}").chars().map(|c| c as u8).collect::<Vec<_>>().as_slice(),
+    );
+    write("lift.toml", lift.as_bytes());
+    write("lift_as_measured.csv", table.as_bytes());
+    write("notes.txt", b"years of work");
+    fs::File::create(place("film.mp4")).unwrap().set_len(5 << 30).unwrap();
+    fs::create_dir(place("mine")).unwrap();
+    fs::create_dir(place("empty_folder")).unwrap();
+    std::os::unix::fs::symlink(root().join("scenes"), place("scenes")).unwrap();
+    let output = jabuka().args(["render", "scene.toml"]).current_dir(prepared.path()).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+
+    let mut tried = 0;
+    for Explanation { code, .. } in EXPLANATIONS {
+        let entry = Explanation::of(code).unwrap();
+        let (wrong, right) = (entry.wrong(), entry.right());
+        // A comment behind a command tells of what a test cannot arrange.
+        if !commands::are(&wrong) || wrong.contains("    #") {
+            continue;
+        }
+        tried += 1;
+        let folder = tempfile::tempdir().unwrap();
+        let copied = Command::new("cp").arg("-a").arg(prepared.path().join(".")).arg(folder.path()).status();
+        assert!(copied.unwrap().success());
+        let output = commands::run(&wrong, folder.path());
+        let said = stderr(&output);
+        // Arguments that are wrong as such have the code 2 and no name of their own.
+        let named = said.contains(&format!("[{code}]")) || output.status.code() == Some(2);
+        assert!(!output.status.success() && named, "explanations/{code}.md: what is wrong says:\n{said}");
+        let output = commands::run(&right, folder.path());
+        let said = stderr(&output);
+        assert!(output.status.success(), "explanations/{code}.md: what is right says:\n{said}");
+    }
+    assert!(tried >= 20, "only {tried} examples were run");
 }

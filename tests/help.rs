@@ -3,8 +3,81 @@
 
 mod support;
 
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use jabuka::catalog::CATEGORIES;
-use support::{jabuka, stderr, stdout};
+use support::{commands, jabuka, root, stderr, stdout};
+
+/// Options of other programs that texts name.
+const FOREIGN: [(&str, &[&str]); 8] = [
+    ("cargo", &["features", "path", "release", "open", "example", "locked", "test", "no-default-features"]),
+    ("docker", &["workdir"]),
+    ("openjd", &["step"]),
+    ("povray", &["version"]),
+    ("parallel", &["joblog", "resume-failed", "sshlogin", "workdir"]),
+    ("render-chunk and submit", &["chunk", "chunks", "missing", "dry-run"]),
+    ("sbatch", &["partition", "account", "time", "mem", "cpus-per-task"]),
+    ("setpriv", &["pdeathsig"]),
+];
+
+/// All files below a folder whose names end so.
+fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path, endings));
+        } else if endings.iter().any(|ending| path.to_string_lossy().ends_with(ending)) {
+            found.push(path);
+        }
+    }
+    found
+}
+
+#[test]
+fn no_text_names_an_option_or_a_command_that_there_is_not() {
+    let tree = commands::tree();
+    assert!(tree.len() > 10 && tree["render"].contains("video"), "{tree:?}");
+    let mut known: BTreeSet<&str> = tree.values().flatten().map(String::as_str).collect();
+    known.extend(FOREIGN.iter().flat_map(|(_, options)| *options));
+    let mut texts = vec![root().join("README.md"), root().join("templates/README.md")];
+    texts.extend(files(&root().join("src"), &[".rs", ".toml", ".html"]));
+    texts.extend(
+        ["explanations", "docs", "scenes"].map(|name| files(&root().join(name), &[".md", ".toml"])).concat(),
+    );
+    let mut wrong = Vec::new();
+    for path in &texts {
+        let text = fs::read_to_string(path).unwrap();
+        let text = text.split("#[cfg(test)]").next().unwrap();
+        let mut say = |what: String| wrong.push(format!("{}: {what}", path.display()));
+        for option in commands::options(text) {
+            if !known.contains(&*option) {
+                say(format!("there is no option --{option}"));
+            }
+        }
+        // In prose, a command stands between backquotes; in an example, it stands behind `$ `.
+        for (at, start) in ["`jabuka ", "$ jabuka "].iter().flat_map(|start| text.match_indices(start)) {
+            let end = if start.starts_with('`') { '`' } else { '\n' };
+            let command = text[at + start.len()..].split([end, '\n', '|', '&', '#', ';']).next().unwrap();
+            let name: &str = command.split([' ', '`', '"', '\'', '{', '…']).next().unwrap();
+            if name.is_empty() || name.starts_with('-') || !name.starts_with(char::is_lowercase) {
+                continue;
+            }
+            let Some(options) = tree.get(name) else {
+                say(format!("there is no command `jabuka {name}`"));
+                continue;
+            };
+            for option in commands::options(command) {
+                if !options.contains(&option) {
+                    say(format!("`jabuka {name}` has no option --{option}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
 
 #[test]
 fn list_shows_what_there_is_to_choose_from() {

@@ -5,12 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, OutputError};
+use jabuka::overwrite::Kept;
+use jabuka::render::Film;
 use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
 use jabuka::simulate::Selection;
 
 use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
 use super::run_arguments::{RunArguments, seen, survey};
+use super::video_arguments::VideoArguments;
 use super::{Failure, say, shell};
 
 /// Write a folder that a cluster renders: scripts, and what sends them to Slurm or a render farm
@@ -29,6 +32,8 @@ pub(super) struct Arguments {
     of_scene: RunArguments,
     #[command(flatten)]
     picture: PictureArguments,
+    #[command(flatten)]
+    film: VideoArguments,
     /// So many frames are one job of the cluster [default: 10, or more where there are very many]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     chunk: Option<u32>,
@@ -91,9 +96,14 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
     let frames = scene.simulation.frames();
     let selection = arguments.of_scene.selection(frames)?;
+    check_film([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folder = folder(arguments, &scene.name);
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
+    for (_, folder) in &cameras {
+        let kept = Kept::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
+        say::spared(kept.and_then(|kept| kept.and_folder(&folder.join("images"))))?;
+    }
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
     let run = survey(&scene, &progress)?;
     progress.phase("writing");
@@ -123,7 +133,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     let from = &arguments.scene;
     // Nothing is written for scripts that cannot be sent.
     let frames = arguments.of_scene.frames.as_ref();
-    let settings = batch::settings(from, frames, String::new()).map_err(|error| failed(&error))?;
+    let settings = batch::settings(from, frames, String::new(), None).map_err(|error| failed(&error))?;
     if settings.frames.is_empty() {
         let asked = frames.map(|frames| format!(" of the frames {frames}")).unwrap_or_default();
         return Err(Failure::Usage(format!("the folder `{}` has no scripts{asked}", from.display())));
@@ -133,9 +143,22 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         batch::copy_scripts(from, &job.scripts()?)?;
         Ok(batch::size(from))
     };
+    let head = output::Manifest::read(from).map(|manifest| manifest.head);
+    check_film(arguments.picture.size_or(batch::size(from).0), head.and_then(|head| head.video_rate))?;
     let said = make(arguments, &folder(arguments, &name), frames, copy);
     say::result(&said.map_err(|error| failed(&error))?);
     Ok(())
+}
+
+/// Whether the film can be made, which is the last that a job does: of images of this size, at the rate that the scene may
+/// give it.
+fn check_film(size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
+    let film = Film::new("film.mp4");
+    let check = film.and_then(|film| film.check_size(size).and(rate.map_or(Ok(()), Film::check_rate)));
+    check.map_err(|error| {
+        say::report(&error.report());
+        Failure::Errors
+    })
 }
 
 fn failed(error: &OutputError) -> Failure {
@@ -158,12 +181,13 @@ fn make(
     let job = JobFolder::open(folder)?;
     let (size, transparent) = write(&job)?;
     let options = arguments.picture.options(size, transparent).join(" ");
-    let settings = batch::settings(&folder.join(SCRIPTS), frames, options)?;
+    let settings = batch::settings(&folder.join(SCRIPTS), frames, options, arguments.film.video_rate)?;
     let cpus = arguments.cpus.map(|cpus| cpus as usize);
     let chunk = batch::chunk(settings.frames.len(), cpus.unwrap_or(1));
     let chunk = arguments.chunk.map_or(chunk, |chunk| chunk as usize);
     let (limit, trust) = (arguments.limit.max(1), arguments.of_scene.trust());
-    let settings = Settings { chunk, limit, trust, ..settings };
+    let video_quality = arguments.film.quality().unwrap_or(settings.video_quality);
+    let settings = Settings { chunk, limit, trust, video_quality, ..settings };
     let requirements = Requirements {
         partition: arguments.partition.clone(),
         account: arguments.account.clone(),
@@ -188,6 +212,9 @@ fn make(
         engine.name()
     );
     said.push_str(&format!("images    {done} of {all} are there\n"));
+    if let Some(speed) = settings.pace.in_words() {
+        said.push_str(&format!("film      {} frames a second, {speed}\n", settings.pace.rate));
+    }
     for name in &edits.kept {
         let new = if edits.new.contains(name) {
             format!("; what jabuka would write now is {name}.new")

@@ -6,6 +6,7 @@ use std::time::Instant;
 use jabuka::Run;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
+use jabuka::overwrite::Kept;
 use jabuka::simulate::Selection;
 
 use super::progress::Progress;
@@ -35,6 +36,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
+    if !arguments.check {
+        for (_, folder) in &cameras {
+            say::spared(Kept::of_scene(&scene).and_folder(folder))?;
+        }
+    }
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
     let run = survey(&scene, &progress)?;
     progress.phase(if arguments.check { "comparing" } else { "writing" });

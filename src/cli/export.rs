@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use jabuka::diagnostic::{Diagnostic, Report, visible_path};
 use jabuka::export::{ExportError, Exported, write_csv, write_glb};
 use jabuka::output::OutputError;
+use jabuka::overwrite::Kept;
 use jabuka::scene::Scene;
 use jabuka::simulate::Selection;
 
-use super::scene_arguments::{SceneArguments, spare};
+use super::scene_arguments::SceneArguments;
 use super::summary::{bytes as size, two_digits};
 use super::{Failure, say};
 
@@ -56,7 +57,7 @@ impl Format {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let format = Format::of(&arguments.output)?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
-    spare(&scene, &arguments.output)?;
+    say::spared(Kept::of_scene(&scene).check(&arguments.output))?;
     let frames = scene.simulation.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
     if let Some(last) = selection.last().filter(|last| *last >= frames) {

@@ -29,6 +29,7 @@ mod still;
 mod summary;
 mod templates;
 mod version;
+mod video_arguments;
 
 use std::process::ExitCode;
 

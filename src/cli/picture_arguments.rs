@@ -49,8 +49,13 @@ impl PictureArguments {
         self.size.map(size).into_iter().collect()
     }
 
+    /// Their size, where the scripts are made for images of a size.
+    pub(super) fn size_or(&self, size: [u32; 2]) -> [u32; 2] {
+        self.size.unwrap_or(size)
+    }
+
     /// POV-Ray's options for them, where the scripts are made for images of a size.
     pub(super) fn options(&self, size: [u32; 2], transparent: bool) -> Vec<String> {
-        render::options(self.size.unwrap_or(size), transparent, self.quality.into())
+        render::options(self.size_or(size), transparent, self.quality.into())
     }
 }

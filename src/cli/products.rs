@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use jabuka::diagnostic::visible_path;
+use jabuka::overwrite::{CannotOverwrite, Kept};
 use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
 use jabuka::sandbox::{Confinement, Launcher};
 
@@ -13,21 +14,50 @@ use super::{Failure, render, say};
 /// What is to be made of the images.
 pub(super) struct Products {
     film: Option<(Film, Ffmpeg)>,
+    /// The frames per second of the film, if they are given.
+    rate: Option<f64>,
     sheet: Option<ContactSheet>,
 }
 
 impl Products {
     /// What the arguments ask for. What is missing for it is said now, not after the last frame.
     pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
+        if arguments.video.is_none() && arguments.film.are_given() {
+            let message = "`--video-rate` and `--video-quality` are of a film: name it with `--video FILE`";
+            return Err(Failure::Usage(message.to_owned()));
+        }
         let film = arguments.video.as_ref().map(|path| {
-            let film = Film::new(path).map_err(|error| misnamed(&error))?;
+            let film = Film::new(path).and_then(|film| arguments.film.applied_to(film));
+            let film = film.map_err(|error| misnamed(&error))?;
             let ffmpeg = film
                 .check(None, Confinement::new(Launcher::of_this_program()))
                 .map_err(|error| failed(&error))?;
             Ok((film, ffmpeg))
         });
         let sheet = arguments.contact_sheet.as_ref().map(ContactSheet::new).transpose();
-        Ok(Products { film: film.transpose()?, sheet: sheet.map_err(|error| misnamed(&error))? })
+        let sheet = sheet.map_err(|error| misnamed(&error))?;
+        Ok(Products { film: film.transpose()?, rate: arguments.film.video_rate, sheet })
+    }
+
+    /// Whether they replace none of the files that are kept.
+    pub(super) fn replace_nothing_of(&self, kept: &Kept) -> Result<(), CannotOverwrite> {
+        let film = self.film.iter().map(|(film, _)| film.path());
+        let mut paths = film.chain(self.sheet.iter().map(ContactSheet::path));
+        paths.try_for_each(|path| kept.check(path))
+    }
+
+    /// Whether they can be made of images of this size, where the scene may give the film a rate of its own. What cannot
+    /// is said now, not after the last frame.
+    pub(super) fn check(&self, size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
+        let check = || {
+            if let Some((film, _)) = &self.film {
+                rate.map_or(Ok(()), Film::check_rate)?;
+                film.check_size(size)?;
+                film.check_place()?;
+            }
+            self.sheet.as_ref().map_or(Ok(()), ContactSheet::check_place)
+        };
+        check().map_err(|error| failed(&error))
     }
 
     /// Whether there is anything to be made.
@@ -57,18 +87,21 @@ impl Products {
         }
         if let Some((film, ffmpeg)) = &self.film {
             let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
-            let rate = sequence.frame_rate / every as f64;
+            // A coarse film, of every n-th frame, is as long as the whole one, unless its rate is given.
+            let rate = self.rate.or(sequence.video_rate.map(|rate| rate / every as f64));
+            let pace = film.pace(sequence.frame_rate / every as f64, rate);
             let progress = Progress::new(frames.len());
             progress.phase("film");
             let seen = std::cell::Cell::new(0);
-            let made = film.make(&frames, rate, ffmpeg, &|| stop.load(Ordering::Relaxed), &|done| {
+            let made = film.make(&frames, pace.rate, ffmpeg, &|| stop.load(Ordering::Relaxed), &|done| {
                 (seen.get()..done).for_each(|_| progress.step());
                 seen.set(done.max(seen.get()));
             });
             progress.finish();
             made.map_err(|error| failed(&error))?;
-            let seconds = frames.len() as f64 / film.shown_rate(rate);
-            say::result(&format!("film      {}, {seconds:.2} s\n", visible_path(film.path())));
+            let seconds = frames.len() as f64 / pace.rate;
+            let speed = pace.in_words().map_or(String::new(), |words| format!(", {words}"));
+            say::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));
         }
         Ok(())
     }

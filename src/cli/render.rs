@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use jabuka::Scene;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder, OutputError};
+use jabuka::overwrite::Kept;
 use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
 use jabuka::scene::View;
 use jabuka::simulate::Selection;
@@ -16,6 +17,7 @@ use super::povray_arguments::PovRayArguments;
 use super::products::Products;
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments};
+use super::video_arguments::VideoArguments;
 use super::{Failure, interrupt, say, summary};
 
 /// Render a scene, or a folder of scripts, into images and a film
@@ -41,6 +43,8 @@ pub(super) struct Arguments {
     /// Make one picture of evenly spaced frames with their times
     #[arg(long, value_name = "FILE.png")]
     pub(super) contact_sheet: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) film: VideoArguments,
     /// Go on even where the first frames all fail
     #[arg(long)]
     keep_going: bool,
@@ -56,6 +60,11 @@ pub(super) struct Arguments {
 impl Arguments {
     fn every(&self) -> usize {
         self.every.unwrap_or(1) as usize
+    }
+
+    /// The folder for the images of a folder of scripts.
+    fn images(&self, scripts: &Path) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| scripts.join("images"))
     }
 }
 
@@ -78,6 +87,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let message = "several views cannot share one folder of images, film or contact sheet: name one view";
         return Err(Failure::Usage(message.to_owned()));
     }
+    for (_, folder) in &cameras {
+        let kept = Kept::of_scene(&scene).and_folder(folder);
+        let kept = kept.and_then(|kept| kept.and_folder(&arguments.images(folder)));
+        say::spared(kept.and_then(|kept| products.replace_nothing_of(&kept)))?;
+    }
+    products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folders = write_scripts(&scene, &selection, &cameras)?;
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
     let mut result = Ok(());
@@ -134,6 +149,9 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         let message = "`--set`, `--templates` and `--view` are for scenes; the scripts of a folder are rendered as they are";
         return Err(Failure::Usage(message.to_owned()));
     }
+    let images = arguments.images(&arguments.source);
+    let kept = Kept::default().and_folder(&arguments.source).and_then(|kept| kept.and_folder(&images));
+    say::spared(kept.and_then(|kept| products.replace_nothing_of(&kept)))?;
     let _lock = match Folder::open(&arguments.source) {
         Ok(lock) => Some(lock),
         Err(error @ OutputError::Locked(_)) => {
@@ -163,8 +181,8 @@ fn render_scripts(
 ) -> Result<(), Failure> {
     let start = Instant::now();
     let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
-    let images = arguments.output.clone().unwrap_or_else(|| folder.join("images"));
-    let images = Images::open(&images).map_err(|error| failed(&error))?;
+    products.check(arguments.picture.size_or(sequence.size), sequence.video_rate)?;
+    let images = Images::open(&arguments.images(folder)).map_err(|error| failed(&error))?;
     let scene = (!arguments.source.is_dir()).then_some(arguments.source.as_path());
     let confinement = arguments.scene.confinement(scene, &[folder, images.folder()]);
     let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;

@@ -11,6 +11,7 @@ use std::process::ExitCode;
 
 use clap::error::ContextKind;
 use jabuka::diagnostic::{Report, is_invisible, visible, visible_lines};
+use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 
@@ -50,6 +51,14 @@ fn write(mut stream: impl Write, text: &str) {
 pub(super) fn report(report: &Report) {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     write(std::io::stderr().lock(), &report.to_text(color));
+}
+
+/// Says that a file may not be replaced, if that is so.
+pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
+    checked.map_err(|error| {
+        report(&error.report());
+        Failure::Errors
+    })
 }
 
 /// Says a list of things, each with what there is to know about it, in two columns.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
-use jabuka::diagnostic::{Report, visible_path};
+use jabuka::diagnostic::Report;
 use jabuka::sandbox::{Confinement, Launcher};
 use jabuka::scene::{Options, Override};
 
@@ -64,17 +64,6 @@ impl SceneArguments {
         let confinement = Confinement::new(Launcher::of_this_program());
         if self.trust { confinement.trusting(scene, folders) } else { confinement }
     }
-}
-
-/// Refuses to write what a scene was read from.
-pub(super) fn spare(scene: &Scene, output: &Path) -> Result<(), Failure> {
-    if scene.is_made_from(output) {
-        let message =
-            format!("`{}` would be overwritten, and the scene is made from it", visible_path(output));
-        say::report(&Report::of_error("cannot-overwrite", message));
-        return Err(Failure::Errors);
-    }
-    Ok(())
 }
 
 /// Says the errors of a scene.

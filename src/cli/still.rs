@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
+use jabuka::overwrite::Kept;
 use jabuka::render::{Images, Job, Sequence};
 use jabuka::scene::View;
 use jabuka::{Run, Scene};
@@ -14,7 +15,7 @@ use super::povray_arguments::PovRayArguments;
 use super::progress::Progress;
 use super::render::{failed, render};
 use super::run_arguments;
-use super::scene_arguments::{SceneArguments, spare};
+use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, say};
 
 /// Render one moment of a scene
@@ -49,11 +50,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     arguments.povray.look().map_err(|error| failed(&error))?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
-    spare(&scene, &arguments.output)?;
     let view = arguments.view.as_deref().map(|name| run_arguments::view(&scene, name)).transpose()?;
     check_time(&scene, arguments.time)?;
 
-    let folder = write_script(arguments, &scene, view)?;
+    let folder = script_folder(&scene, view);
+    let kept = Kept::of_scene(&scene).and_folder(&folder);
+    let kept = kept.and_then(|kept| kept.and_folder(&folder.join("images")));
+    say::spared(kept.and_then(|kept| kept.check(&arguments.output)))?;
+    let folder = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
     let images = Images::open(&folder.path().join("images")).map_err(|error| failed(&error))?;
@@ -83,16 +87,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes the script of the moment into a folder of its own, which nobody else changes until it is rendered.
-fn write_script(arguments: &Arguments, scene: &Scene, view: Option<&View>) -> Result<Folder, Failure> {
+/// The folder for the script of a moment. No other command writes there.
+fn script_folder(scene: &Scene, view: Option<&View>) -> PathBuf {
     let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
-    // Scripts of no scene go there: what is in that folder is no script.
-    let folder = Path::new("out/.still").join(format!("{}{view_name}", scene.name));
+    Path::new("out/.still").join(format!("{}{view_name}", scene.name))
+}
+
+/// Writes the script of the moment into a folder of its own, which nobody else changes until it is rendered.
+fn write_script(
+    arguments: &Arguments,
+    scene: &Scene,
+    view: Option<&View>,
+    folder: &Path,
+) -> Result<Folder, Failure> {
     let progress = Progress::of_run(scene, 0);
     let run = run_arguments::survey(scene, &progress)?;
     let seen = run_arguments::seen(&run, view, &progress)?;
     let run: &Run<'_> = seen.as_ref().unwrap_or(&run);
-    let folder = Folder::open(&folder).map_err(|error| progress.failed(&error))?;
+    let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     progress.phase("writing");
     output::write_moment(run, &folder, arguments.time).map_err(|error| progress.failed(&error))?;
     progress.finish();

@@ -164,6 +164,11 @@ pub(super) fn script_number(name: &str) -> Option<usize> {
     plain.then(|| digits.parse().ok())?
 }
 
+/// Whether a file of this name in a folder of scripts is a script or belongs to them.
+pub(crate) fn is_own_name(name: &str) -> bool {
+    [MANIFEST, MASTER, INI, COMMON].contains(&name) || script_number(name).is_some()
+}
+
 fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }

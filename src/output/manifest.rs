@@ -192,6 +192,9 @@ pub struct Head {
     pub frames: usize,
     /// Frames per second.
     pub frame_rate: f64,
+    /// Frames per second of a film, if the scene gives it a rate of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub video_rate: Option<f64>,
     /// The width of the images, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<u32>,
@@ -239,6 +242,7 @@ impl Head {
             digest: scene.digest.clone(),
             frames: scene.simulation.frames(),
             frame_rate: scene.simulation.frame_rate,
+            video_rate: scene.output.video_rate,
             width: Some(scene.output.width),
             height: Some(scene.output.height),
             transparent: Some(scene.output.transparent),

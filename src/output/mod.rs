@@ -17,7 +17,7 @@ mod write;
 pub use compare::{Difference, Kind, Line, compare};
 pub use error::OutputError;
 pub use folder::Folder;
-pub(crate) use folder::{scripts, trail_files};
+pub(crate) use folder::{is_own_name, scripts, trail_files};
 pub(crate) use manifest::read as read_manifest;
 pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
 pub use moment::write_moment;

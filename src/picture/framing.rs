@@ -151,8 +151,13 @@ pub(crate) fn decimal_step(number: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const WIDE: Output =
-        Output { width: 1280, height: 720, layout: crate::scene::Layout::SelfContained, transparent: false };
+    const WIDE: Output = Output {
+        width: 1280,
+        height: 720,
+        layout: crate::scene::Layout::SelfContained,
+        transparent: false,
+        video_rate: None,
+    };
 
     #[test]
     fn all_corners_are_in_the_picture_and_it_is_filled() {

@@ -76,6 +76,14 @@ impl ContactSheet {
         &self.path
     }
 
+    /// Whether the sheet can be written where it is to be. This makes its folder, if need be.
+    ///
+    /// # Errors
+    /// Where no file can be written there, or another process writes it.
+    pub fn check_place(&self) -> Result<(), FilmError> {
+        Target::create(&self.path).map(drop)
+    }
+
     /// Makes the sheet from all images that there are, in their order: it takes the first, the last, and some between
     /// them, evenly spaced. What is transparent is shown before white. A sheet that was there stays until the new one is whole.
     ///

@@ -103,9 +103,17 @@ impl Images {
     pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
         let file = target.file_name().unwrap_or_default().to_string_lossy();
         let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));
-        let copied = fs::copy(self.image(name), &temporary).and_then(|_| fs::rename(&temporary, target));
-        copied.map_err(|error| {
-            // What could not be written may not be there.
+        // A killed run may have left it.
+        let _ = fs::remove_file(&temporary);
+        let copy = || {
+            let mut image = File::open(self.image(name))?;
+            // `create_new` follows no link.
+            let mut copy = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
+            io::copy(&mut image, &mut copy)?;
+            fs::rename(&temporary, target)
+        };
+        copy().map_err(|error| {
+            // The temporary file may not exist.
             let _ = fs::remove_file(&temporary);
             RenderError::io(target)(error)
         })
@@ -169,6 +177,11 @@ impl Images {
         }
         Ok(())
     }
+}
+
+/// Whether jabuka has rendered images into a folder.
+pub(crate) fn is_folder_of_images(folder: &Path) -> bool {
+    folder.join(HIDDEN).is_dir()
 }
 
 fn lock(folder: &Path, path: &Path) -> Result<File, RenderError> {

@@ -19,6 +19,8 @@ pub struct Sequence {
     pub last: usize,
     /// Frames per second.
     pub frame_rate: f64,
+    /// Frames per second of a film, if the scene gives it a rate of its own.
+    pub video_rate: Option<f64>,
     /// Width and height of the images, pixels.
     pub size: [u32; 2],
     /// Whether the images have an alpha channel.
@@ -83,6 +85,7 @@ impl Sequence {
             scripts,
             last,
             frame_rate: manifest.as_ref().map_or(25.0, |manifest| manifest.head.frame_rate),
+            video_rate: manifest.as_ref().and_then(|manifest| manifest.head.video_rate),
             size: size.unwrap_or([1280, 720]),
             transparent: manifest.as_ref().and_then(|manifest| manifest.head.transparent).unwrap_or(false),
             moments,

@@ -369,6 +369,8 @@ pub struct Output {
     pub layout: Layout,
     /// Whether nothing stands behind the bodies: no sky, no ground, and alpha in the images.
     pub transparent: bool,
+    /// The frames per second of a film, if it has a rate of its own.
+    pub video_rate: Option<f64>,
 }
 
 /// Where the part stands that all scripts have in common.

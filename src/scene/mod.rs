@@ -139,13 +139,9 @@ impl Scene {
         )
     }
 
-    /// Whether the scene was read from a file, itself or something beside it.
-    pub fn is_made_from(&self, path: &Path) -> bool {
-        let same = |file: &PathBuf| match (file.canonicalize(), path.canonicalize()) {
-            (Ok(file), Ok(path)) => file == path,
-            _ => false,
-        };
-        self.warnings.sources.files().iter().any(same)
+    /// The files that the scene was read from: its own, and all that it names.
+    pub fn files(&self) -> &[PathBuf] {
+        self.warnings.sources.files()
     }
 
     /// Reads and checks a scene that is a text in memory. It has no folder, so it cannot include files of its own.

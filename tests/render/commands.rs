@@ -62,6 +62,140 @@ fn what_no_film_can_be_is_said_before_anything_is_done() {
     }
 }
 
+/// A scene of three frames whose time no film can show as it passes.
+const SLOW: &str = "
+    [simulation]
+    duration = 200
+    frame_rate = 0.01
+    [output]
+    size = [32, 18]
+    [body.ball]
+    shape.sphere.radius = 1
+    velocity = [0.01, 0, 0]
+    ";
+
+#[test]
+fn a_scene_of_any_time_makes_a_film_and_its_pace_is_said() {
+    let place = Place::new(SLOW);
+    let made = |arguments: &[&str], name: &str| {
+        let said = stdout(&place.succeed(&[&["render", "scene.toml", "--video", name], arguments].concat()));
+        let line = said.lines().find_map(|line| line.strip_prefix("film      ")).unwrap().to_owned();
+        (line, film(&place.path(name)))
+    };
+    let (said, (frames, rate)) = made(&[], "a.mp4");
+    assert_eq!(said, "a.mp4, 0.12 s, 2500 times faster than life");
+    assert_eq!((frames, &*rate), (3, "25/1"));
+    let (said, (_, rate)) = made(&["--video-rate", "10", "--video-quality", "draft"], "b.mp4");
+    assert_eq!((&*said, &*rate), ("b.mp4, 0.30 s, 1000 times faster than life", "10/1"));
+    let own = ["--set", "output.video_rate=5"];
+    assert_eq!(made(&own, "c.webm").1.1, "5/1");
+    // A rate on the command line counts more, and that of the scene is for all frames.
+    assert_eq!(made(&[&own[..], &["--video-rate", "20"]].concat(), "d.mp4").1.1, "20/1");
+    assert_eq!(made(&[&own[..], &["--every", "2"]].concat(), "e.mp4").1, (2, "5/2".to_owned()));
+    let (said, _) =
+        made(&["--set", "simulation.frame_rate=0.02", "--set", "output.video_rate=0.01"], "f.mp4");
+    assert!(said.ends_with(", 2 times slower than life"), "{said}");
+    // The better a film, the larger.
+    let length = |quality: &str| {
+        made(&["--video-quality", quality], "q.mp4");
+        fs::metadata(place.path("q.mp4")).unwrap().len()
+    };
+    let lengths = ["draft", "good", "final"].map(length);
+    assert!(lengths.is_sorted(), "{lengths:?}");
+}
+
+#[test]
+fn a_film_that_cannot_be_is_said_before_anything_is_done() {
+    let place = Place::new(SCENE);
+    fs::write(place.path("file"), "").unwrap();
+    for (arguments, code, why) in [
+        (&["--video-rate", "25"][..], 2, "name it with `--video FILE`"),
+        (&["--video", "a.mp4", "--video-rate", "5000"], 2, "from 0.01 to 1000 frames a second, not 5000"),
+        (&["--video", "a.mp4", "--video-rate", "fast"], 2, "it is not a number"),
+        (&["--video", "a.gif", "--video-quality", "final"], 2, "`a.gif` has 256 colors in any quality"),
+        (&["--video", "a.mp4", "--size", "20000x20"], 1, "error[bad-film-size]"),
+        (&["--video", "file/a.mp4"], 1, "error[cannot-write]"),
+        (&["--contact-sheet", "file/a.png"], 1, "error[cannot-write]"),
+        (&["--video", "a.mp4", "--set", "output.video_rate=0"], 1, "error[out-of-range]"),
+    ] {
+        let output = place.run(&[&["render", "scene.toml"], arguments].concat());
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(why), "{}", stderr(&output));
+        assert!(!place.path("out").exists(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn what_is_read_or_kept_is_never_replaced() {
+    let place = Place::new(&format!(
+        "povray.assets = ['wall.gif', 'wall.png']\n[body.land.shape.heightfield]\nfile = 'h.png'\nsize = [4, 1, 4]\n{SCENE}"
+    ));
+    linear_light::mean(&[support_image(&place)]).unwrap().write(&place.path("h.png")).unwrap();
+    for name in ["wall.gif", "wall.png"] {
+        fs::copy(place.path("h.png"), place.path(name)).unwrap();
+    }
+    fs::create_dir(place.path("sub")).unwrap();
+    fs::hard_link(place.path("h.png"), place.path("hard.png")).unwrap();
+    let before = fs::read(place.path("h.png")).unwrap();
+    let sheet = "--contact-sheet";
+    for arguments in [
+        ["render", "scene.toml", sheet, "h.png"],
+        ["render", "scene.toml", sheet, "sub/../wall.png"],
+        ["render", "scene.toml", sheet, "hard.png"],
+        ["render", "scene.toml", "--video", "wall.gif"],
+        ["render", "scene.toml", sheet, "out/scene/images/frame_0003.png"],
+        ["render", "scene.toml", "--video", "out/scene/assets/wall.gif"],
+        ["still", "scene.toml", "-o", "h.png"],
+        ["still", "scene.toml", "-o", "out/.still/scene/images/frame_0000.png"],
+    ] {
+        let output = place.run(&arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        let said = stderr(&output);
+        assert!(said.contains("error[cannot-overwrite]") && said.contains("would be overwritten"), "{said}");
+        assert!(!place.path("out").exists(), "{arguments:?}");
+    }
+    for name in ["h.png", "wall.gif", "wall.png"] {
+        assert!(fs::read(place.path(name)).unwrap() == before, "{name}");
+    }
+    // Also by commands that know no scene.
+    place.succeed(&["render", "scene.toml", "--frames", "0-1"]);
+    let frame = "out/scene/images/frame_0001.png";
+    for arguments in [
+        &["average", "-o", "h.png", "h.png", "hard.png"][..],
+        &["average", "-o", frame, "h.png"],
+        &["render", "out/scene", "--frames", "0", sheet, frame],
+        &["still", "scene.toml", "-o", frame],
+    ] {
+        let output = place.run(arguments);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(stderr(&output).contains("error[cannot-overwrite]"), "{}", stderr(&output));
+    }
+    place.succeed(&["average", "-o", "mean.png", "h.png", "hard.png"]);
+}
+
+/// A small image for a landscape.
+fn support_image(place: &Place) -> std::path::PathBuf {
+    let path = place.path("heights.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 8, 8);
+    encoder.set_color(png::ColorType::Rgb);
+    let pixels: Vec<u8> = (0..192_u8).collect();
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+    path
+}
+
+#[test]
+fn scripts_do_not_replace_what_the_scene_reads() {
+    let place = Place::new(&format!("povray.assets = ['out/scene/frame_0000.png']\n{SCENE}"));
+    fs::create_dir_all(place.path("out/scene")).unwrap();
+    fs::write(place.path("out/scene/frame_0000.png"), "mine").unwrap();
+    for arguments in [&["compile", "scene.toml"][..], &["render", "scene.toml", "-o", "out/scene"]] {
+        let output = place.run(arguments);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains("error[cannot-overwrite]"), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(place.path("out/scene/frame_0000.png")).unwrap(), "mine");
+}
+
 #[test]
 fn a_still_is_the_image_of_any_moment() {
     let place = Place::new(SCENE);

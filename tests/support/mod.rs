@@ -1,6 +1,8 @@
 //! What the tests of the `jabuka` command share.
 #![allow(dead_code, reason = "each test program uses some of it")]
 
+pub(crate) mod commands;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

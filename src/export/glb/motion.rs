@@ -4,12 +4,9 @@ use glam::{DQuat, DVec3};
 
 use super::container::LARGEST;
 use crate::export::ExportError;
-use crate::render::Film;
+use crate::render::{Film, Pace};
 use crate::scene::Scene;
 use crate::simulate::{Selection, Survey, survey};
-
-/// The frames per second of what is too fast or too slow for a film.
-const USUAL_RATE: f64 = 25.0;
 
 /// The motion of all bodies in the frames that are asked for, and of what stands beside them.
 pub(super) struct Motion {
@@ -47,7 +44,7 @@ impl Motion {
         let count = selection.count_within(scene.simulation.frames());
         let mut rate = scene.simulation.frame_rate;
         if !Film::RATES.contains(&rate) {
-            rate = USUAL_RATE;
+            rate = Pace::USUAL_RATE;
         }
         let slower = scene.simulation.frame_rate / rate;
         let mut times = Vec::with_capacity(count);

@@ -19,6 +19,7 @@ pub use settings::{SETTINGS, Settings};
 pub use texts::Requirements;
 
 use super::record::HIDDEN;
+use super::{Pace, Quality};
 use crate::output::{self, Folder, OutputError};
 
 /// The folder of the scripts in a job folder.
@@ -111,7 +112,7 @@ pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
 
 /// The settings of a job for the scripts of a folder.
 ///
-/// `frames` are those that are asked for; `None` stands for all that have scripts.
+/// `frames` are those that are asked for; `None` stands for all that have scripts. `video_rate` is the film's, if it is given.
 ///
 /// # Errors
 /// Where the folder has no complete scripts of jabuka's.
@@ -119,6 +120,7 @@ pub fn settings(
     scripts: &Path,
     frames: Option<&crate::simulate::Selection>,
     options: String,
+    video_rate: Option<f64>,
 ) -> Result<Settings, OutputError> {
     let head = complete(scripts)?;
     let mut frames: Vec<usize> = output::scripts(scripts)?
@@ -140,7 +142,8 @@ pub fn settings(
         last_frame,
         end,
         digits: crate::emit::width(head.frames),
-        frame_rate: head.frame_rate,
+        pace: Pace::new(head.frame_rate, video_rate.or(head.video_rate)),
+        video_quality: Quality::default(),
         chunk: chunk(number, 1),
         options,
         files: files(scripts)?,

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::render::{Format, Pace, Quality};
 use crate::simulate::Selection;
 
 /// The name of the file in its folder.
@@ -45,8 +46,10 @@ pub struct Settings {
     pub end: f64,
     /// The number of digits in the names of frames.
     pub digits: usize,
-    /// Frames per second.
-    pub frame_rate: f64,
+    /// How fast the film shows the scene.
+    pub pace: Pace,
+    /// How good the film is.
+    pub video_quality: Quality,
     /// The number of frames that one job of the engine renders.
     pub chunk: usize,
     /// The options of POV-Ray that matter for the pixels.
@@ -86,7 +89,8 @@ impl Settings {
                 ("last", &self.last_frame.to_string()),
                 ("end", &self.end.to_string()),
                 ("digits", &self.digits.to_string()),
-                ("frame_rate", &self.frame_rate.to_string()),
+                ("video_rate", &self.pace.rate.to_string()),
+                ("video_options", Format::Mp4.codec(self.video_quality)),
                 ("chunk", &self.chunk.to_string()),
                 ("options", &self.options),
                 ("blurred", if self.blurred { "yes" } else { "no" }),
@@ -207,7 +211,8 @@ pub(super) mod tests {
             last_frame: 9,
             end: 0.36,
             digits: 4,
-            frame_rate: 25.0,
+            pace: Pace::new(25.0, None),
+            video_quality: Quality::Good,
             chunk: 10,
             options: "+W64 +H36 +A0.1 +AM1 +R3".to_owned(),
             files: vec!["common.inc".to_owned(), "assets/a b 'c'.png".to_owned()],
@@ -256,7 +261,7 @@ pub(super) mod tests {
                 read_by_bash(folder.path()).unwrap(),
                 format!(
                     "jabuka-{hostile}|0-2,7|9|0.36|4|25|10|+W64 {hostile}|common.inc|assets/{hostile}|no|3600|povray|\
-                     -c:v libx264 -crf 18|"
+                     -c:v libx264 -preset medium -crf 18|"
                 )
             );
             let read = InForce::read(folder.path()).unwrap().unwrap();
@@ -264,7 +269,7 @@ pub(super) mod tests {
             assert_eq!(read.options, settings.options);
             let scripts = folder.path().join("scripts");
             assert_eq!(read.files, [scripts.join("common.inc"), scripts.join(format!("assets/{hostile}"))]);
-            assert_eq!(read.film, "25 -c:v libx264 -crf 18");
+            assert_eq!(read.film, "25 -c:v libx264 -preset medium -crf 18");
             assert!(!folder.path().join("PWNED").exists(), "{hostile}");
         }
     }

@@ -20,6 +20,17 @@ pub enum FilmError {
     NoImages,
     /// No film can be shown at this rate, in frames per second.
     Rate(f64),
+    /// The format of the film has no qualities to choose from.
+    NoQuality(PathBuf),
+    /// The images are too large for a film of this format.
+    TooLarge {
+        /// The format.
+        format: Format,
+        /// Width and height of the images, pixels.
+        size: [u32; 2],
+        /// The longest side that the format can have, pixels.
+        most: u32,
+    },
     /// There is no ffmpeg: what was looked for, and why it cannot be used.
     NoFfmpeg(PathBuf, String),
     /// This ffmpeg was built without an encoder that is needed.
@@ -54,6 +65,8 @@ impl FilmError {
             FilmError::FilmName(_) | FilmError::SheetName(_) => "bad-film-name",
             FilmError::NoImages => "no-images",
             FilmError::Rate(_) => "bad-film-rate",
+            FilmError::NoQuality(_) => "bad-film-name",
+            FilmError::TooLarge { .. } => "bad-film-size",
             FilmError::NoFfmpeg(..) | FilmError::NoEncoder(..) => "no-ffmpeg",
             FilmError::Image(..) => "bad-image",
             FilmError::Sizes { .. } => "image-sizes",
@@ -89,10 +102,13 @@ impl FilmError {
                 "install a complete one: `apt install ffmpeg` on Debian and Ubuntu, `brew install ffmpeg` on macOS, \
                  `dnf install ffmpeg` from RPM Fusion on Fedora; or name a film of another kind: `.mp4`, `.webm`, `.gif`",
             ),
-            FilmError::Rate(_) => Some(
-                "the time in the scene may run much faster or slower than a film can: give the film a rate of its own, \
-                 such as 25",
-            ),
+            FilmError::Rate(_) => Some("most films have 24, 25, 30 or 60"),
+            FilmError::NoQuality(_) => {
+                Some("leave out `--video-quality`, or name a film that ends in `.mp4` or `.webm`")
+            }
+            FilmError::TooLarge { .. } => {
+                Some("make the images smaller: by `output.size` in the scene, or by `--size`")
+            }
             FilmError::Image(..) | FilmError::Sizes { .. } => {
                 Some("remove the image, so that it is rendered again")
             }
@@ -138,6 +154,14 @@ impl fmt::Display for FilmError {
                 let (low, high) = (Film::RATES.start(), Film::RATES.end());
                 write!(f, "a film shows from {low} to {high} frames a second, not {rate}")
             }
+            FilmError::NoQuality(path) => {
+                write!(f, "`{}` has 256 colors in any quality", path.display())
+            }
+            FilmError::TooLarge { format, size: [width, height], most } => write!(
+                f,
+                "a film `.{}` has images of at most {most} × {most} pixels, not {width} × {height}",
+                format.extension()
+            ),
             FilmError::NoFfmpeg(path, why) => {
                 write!(f, "ffmpeg, which makes films, cannot be used: `{}`: {why}", path.display())
             }

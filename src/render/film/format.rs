@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use super::next_even;
+use crate::render::Quality;
 use crate::render::picture::Size;
 
 /// A format of films.
@@ -57,7 +58,13 @@ impl Format {
     }
 
     /// Tells ffmpeg to read pixels from its standard input, and to make a film of this format of them.
-    pub(super) fn arguments(self, (width, height): Size, rate: f64, samples: usize) -> Vec<OsString> {
+    pub(super) fn arguments(
+        self,
+        (width, height): Size,
+        rate: f64,
+        samples: usize,
+        quality: Quality,
+    ) -> Vec<OsString> {
         let (pixels, width, height) = match self {
             // What is told of transparency, of odd sizes: see above.
             Format::Gif => ("rgba", width, height),
@@ -67,14 +74,11 @@ impl Format {
         words.extend(["-video_size".to_owned(), format!("{width}x{height}")]);
         words.extend(["-framerate".to_owned(), rate.to_string(), "-i".to_owned(), "pipe:0".to_owned()]);
         words.extend(["-filter_complex".to_owned(), self.filters(samples)]);
-        let options = match self {
-            // 18 is hardly to be told from the original; +faststart lets a browser begin before it has all.
-            Format::Mp4 => "-c:v libx264 -preset medium -crf 18 -movflags +faststart",
-            // 24 is the quality of libx264's 18, by SSIM and PSNR.
-            Format::Webm => "-c:v libvpx-vp9 -crf 24 -b:v 0 -deadline good -cpu-used 2 -row-mt 1",
-            Format::Gif => "-c:v gif -loop 0",
-        };
-        words.extend(options.split(' ').map(str::to_owned));
+        words.extend(self.codec(quality).split(' ').map(str::to_owned));
+        if self == Format::Mp4 {
+            // A browser can begin to play before it has the whole film.
+            words.extend(["-movflags", "+faststart"].map(str::to_owned));
+        }
         if self != Format::Gif {
             // Fixed, since the bytes depend on it.
             let options = "-threads 8 -pix_fmt yuv420p \
@@ -85,6 +89,36 @@ impl Format {
         words.extend(["-fflags", "+bitexact", "-flags:v", "+bitexact"].map(str::to_owned));
         words.extend(["-y", "-f", self.extension()].map(str::to_owned));
         words.into_iter().map(OsString::from).collect()
+    }
+
+    /// The options of ffmpeg that choose the encoder and its quality. The lower the number after `-crf`, the better.
+    pub(in crate::render) fn codec(self, quality: Quality) -> &'static str {
+        // Each quality of VP9 is near that of H.264, by SSIM.
+        match (self, quality) {
+            (Format::Mp4, Quality::Draft) => "-c:v libx264 -preset veryfast -crf 28",
+            // Hard to tell from the images.
+            (Format::Mp4, Quality::Good) => "-c:v libx264 -preset medium -crf 18",
+            // A film to cut and encode again.
+            (Format::Mp4, Quality::Final) => "-c:v libx264 -preset slow -crf 12",
+            (Format::Webm, Quality::Draft) => {
+                "-c:v libvpx-vp9 -crf 40 -b:v 0 -deadline good -cpu-used 5 -row-mt 1"
+            }
+            (Format::Webm, Quality::Good) => {
+                "-c:v libvpx-vp9 -crf 24 -b:v 0 -deadline good -cpu-used 2 -row-mt 1"
+            }
+            (Format::Webm, Quality::Final) => {
+                "-c:v libvpx-vp9 -crf 14 -b:v 0 -deadline good -cpu-used 1 -row-mt 1"
+            }
+            (Format::Gif, _) => "-c:v gif -loop 0",
+        }
+    }
+
+    /// The longest side that an image may have, pixels: what the encoder takes.
+    pub(super) fn longest_side(self) -> u32 {
+        match self {
+            Format::Mp4 | Format::Webm => 16384,
+            Format::Gif => 65535,
+        }
     }
 
     /// What happens to the pixels on their way to the encoder.

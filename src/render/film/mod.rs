@@ -13,7 +13,7 @@
 //! **Transparency.** `.mp4` and `.webm` show what is transparent before white. A `.gif` keeps it, as far as the format can:
 //! a pixel that is at least half opaque is opaque, any other is not there.
 //!
-//! **Rates.** What is written is the rate itself: 23.976 is 2997/125. The times in a `.webm` are whole milliseconds.
+//! **Rates.** [`Pace`] chooses the rate of a film that is given none. What is written is the rate itself: 23.976 is 2997/125. The times in a `.webm` are whole milliseconds.
 //! The frames of a `.gif` last whole hundredths of a second, and two at least, for browsers show those of one for ten. So
 //! 25 and 50 frames a second are exact, 24 are delays of 4, 4, 4, 4, 4, 5 hundredths, 30 are 3, 3, 4 — both last as long as they should — and
 //! everything above 50 is shown at 50: a second of 60 frames takes 1.2 s. [`Film::shown_rate`] tells.
@@ -24,6 +24,7 @@
 mod error;
 mod ffmpeg;
 mod format;
+mod pace;
 mod target;
 
 use std::ffi::OsString;
@@ -35,8 +36,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub use error::FilmError;
 pub use ffmpeg::Ffmpeg;
 pub use format::Format;
+pub use pace::Pace;
 pub(super) use target::Target;
 
+use super::Quality;
 use super::picture::{self, Picture, Size};
 use crate::sandbox::Confinement;
 
@@ -45,6 +48,7 @@ use crate::sandbox::Confinement;
 pub struct Film {
     path: PathBuf,
     format: Format,
+    quality: Quality,
 }
 
 impl Film {
@@ -63,7 +67,18 @@ impl Film {
         if path.is_dir() {
             return Err(FilmError::Folder(path));
         }
-        Ok(Film { path, format })
+        Ok(Film { path, format, quality: Quality::default() })
+    }
+
+    /// The same film in another quality.
+    ///
+    /// # Errors
+    /// Where the format has no qualities: a `.gif`.
+    pub fn with_quality(self, quality: Quality) -> Result<Film, FilmError> {
+        match self.format {
+            Format::Gif => Err(FilmError::NoQuality(self.path)),
+            Format::Mp4 | Format::Webm => Ok(Film { quality, ..self }),
+        }
     }
 
     /// Where it will be.
@@ -84,6 +99,13 @@ impl Film {
         }
     }
 
+    /// How fast it shows images of a scene that has so many frames per second: at the rate that is asked for, or else at one
+    /// that can be watched.
+    pub fn pace(&self, scene_rate: f64, asked: Option<f64>) -> Pace {
+        let rate = Pace::new(scene_rate, asked).rate;
+        Pace::new(scene_rate, Some(self.shown_rate(rate)))
+    }
+
     /// Finds what makes the film, so that a lack of it is known before anything is rendered: a program, or `ffmpeg` where the
     /// shell would find it. The confinement is that of all its runs.
     ///
@@ -99,6 +121,26 @@ impl Film {
     /// Where it cannot.
     pub fn check_rate(frame_rate: f64) -> Result<(), FilmError> {
         if Film::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
+    }
+
+    /// Whether a film of this format can have images of this size.
+    ///
+    /// # Errors
+    /// Where they are too large.
+    pub fn check_size(&self, size: [u32; 2]) -> Result<(), FilmError> {
+        let most = self.format.longest_side();
+        if size.iter().all(|side| *side <= most) {
+            return Ok(());
+        }
+        Err(FilmError::TooLarge { format: self.format, size, most })
+    }
+
+    /// Whether the film can be written where it is to be. This makes its folder, if need be.
+    ///
+    /// # Errors
+    /// Where no file can be written there, or another process writes it.
+    pub fn check_place(&self) -> Result<(), FilmError> {
+        Target::create(&self.path).map(drop)
     }
 
     /// Makes the film of some images, in their order. `cancelled` is asked, and `progress` told how many frames are in
@@ -119,7 +161,8 @@ impl Film {
         let size = picture::common_size(images.iter())?;
         let target = Target::create(&self.path)?;
         let samples = self.format.samples(images.len());
-        let mut arguments = self.format.arguments(size, self.shown_rate(frame_rate), samples.len());
+        let rate = self.shown_rate(frame_rate);
+        let mut arguments = self.format.arguments(size, rate, samples.len(), self.quality);
         let mut output = OsString::from("file:");
         output.push(target.temporary());
         arguments.push(output);

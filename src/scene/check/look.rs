@@ -87,7 +87,8 @@ pub(super) fn output(view: &View<'_>) -> Output {
     let named = |name: &str| Layout::ALL.into_iter().find(|layout| layout.name() == name);
     let layout = view.text("layout").and_then(named).unwrap_or(Layout::SelfContained);
     let transparent = view.boolean("transparent").unwrap_or(false);
-    let mut output = Output { width: 1280, height: 720, layout, transparent };
+    let video_rate = view.number("video_rate");
+    let mut output = Output { width: 1280, height: 720, layout, transparent, video_rate };
     if let Some([width, height]) = view.list("size") {
         let pixels = |node| super::read::integer(node, 1, 65535).ok().and_then(|n| u32::try_from(n).ok());
         output.width = pixels(width).unwrap_or(output.width);

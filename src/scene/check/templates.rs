@@ -34,7 +34,10 @@ pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Contex
 
 fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<OwnTemplate> {
     match files(folder) {
-        Ok(templates) => templates,
+        Ok(templates) => {
+            templates.iter().for_each(|template| context.sources.note_file(&template.path));
+            templates
+        }
         Err(message) => {
             let error = Diagnostic::error("no-templates", message);
             let help = "`jabuka templates DIR` writes the built-in ones, to be changed";

@@ -404,5 +404,13 @@ static OUTPUT: TableSpec = TableSpec {
         )
         .default("false")
         .also(&["alpha"]),
+        Key::new(
+            "video_rate",
+            Number(Bound::From(0.01, 1000.0)),
+            "Frames per second of the film: below `frame_rate` it is in slow motion, above it in time lapse",
+        )
+        .unit("frames/s")
+        .default("`simulation.frame_rate`, or 25 where that is not from 1 to 120")
+        .also(&["film_rate", "playback_rate", "fps"]),
     ],
 };

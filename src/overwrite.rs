@@ -1,0 +1,229 @@
+//! Which files a command may replace: none that it reads, and none that jabuka keeps in its own folders.
+//!
+//! A file is known by its identity in the file system (device and inode), so links, `..`, hard links and names that differ
+//! in case lead to the same answer.
+
+use std::ffi::OsStr;
+use std::fmt;
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Component, Path, PathBuf};
+
+use crate::diagnostic::{Diagnostic, Report};
+use crate::emit::ASSETS;
+use crate::output::{self, MANIFEST};
+use crate::render;
+use crate::scene::Scene;
+
+/// The files that a command must leave as they are.
+#[derive(Debug, Default)]
+pub struct Kept {
+    inputs: Vec<Input>,
+    /// The names and identities of assets, which are copied into folders of scripts.
+    assets: Vec<(String, Option<Identity>)>,
+    /// The folders that the command fills with scripts and images. They may not exist yet.
+    folders: Vec<PathBuf>,
+}
+
+/// A file that is read.
+#[derive(Debug)]
+struct Input {
+    /// Where it is, without links and `..`.
+    path: PathBuf,
+    identity: Option<Identity>,
+    use_of_it: &'static str,
+}
+
+/// What tells a file from all others: device and inode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Identity(u64, u64);
+
+impl Identity {
+    fn of(path: &Path) -> Option<Identity> {
+        fs::metadata(path).ok().map(|metadata| Identity(metadata.dev(), metadata.ino()))
+    }
+}
+
+/// Why a file may not be replaced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CannotOverwrite {
+    path: PathBuf,
+    why: String,
+}
+
+impl CannotOverwrite {
+    /// The error as a diagnostic.
+    pub fn report(&self) -> Report {
+        let help = "name another file";
+        let diagnostic = Diagnostic::error("cannot-overwrite", self.to_string()).help(help);
+        Report { diagnostics: vec![diagnostic], ..Report::default() }
+    }
+}
+
+impl fmt::Display for CannotOverwrite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` would be overwritten, and {}", self.path.display(), self.why)
+    }
+}
+
+impl std::error::Error for CannotOverwrite {}
+
+impl Kept {
+    /// All that a scene is made from: its file, what it includes, tables, meshes, heightfields, assets and templates.
+    pub fn of_scene(scene: &Scene) -> Kept {
+        let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
+        let kept = Kept { assets: scene.povray.assets.iter().map(asset).collect(), ..Kept::default() };
+        kept.and_files(scene.files(), "the scene is made from it")
+    }
+
+    /// These files, which the command reads. What it does with them ends a sentence: `the scene is made from it`.
+    #[must_use]
+    pub fn and_files<P: AsRef<Path>>(
+        mut self,
+        files: impl IntoIterator<Item = P>,
+        use_of_it: &'static str,
+    ) -> Kept {
+        let input = |file: P| {
+            let path = file.as_ref();
+            Input { path: resolved(path), identity: Identity::of(path), use_of_it }
+        };
+        self.inputs.extend(files.into_iter().map(input));
+        self
+    }
+
+    /// Adds a folder that the command fills with scripts or images. None of these may replace what the command reads.
+    ///
+    /// # Errors
+    /// Where a file that is read has the name of one that is going to be written there.
+    pub fn and_folder(mut self, folder: &Path) -> Result<Kept, CannotOverwrite> {
+        let resolved = resolved(folder);
+        let is_replaced = |input: &&Input| {
+            let Ok(name) = input.path.strip_prefix(&resolved) else { return false };
+            let copied_over = |(asset, identity): &(String, Option<Identity>)| {
+                name == Path::new(ASSETS).join(asset) && *identity != input.identity
+            };
+            name.to_str().is_some_and(is_our_name) || self.assets.iter().any(copied_over)
+        };
+        if let Some(input) = self.inputs.iter().find(is_replaced) {
+            return Err(CannotOverwrite { path: input.path.clone(), why: input.use_of_it.to_owned() });
+        }
+        self.folders.push(resolved);
+        Ok(self)
+    }
+
+    /// Whether a file may be written here, and replace what there is.
+    ///
+    /// # Errors
+    /// Where it may not.
+    pub fn check(&self, path: &Path) -> Result<(), CannotOverwrite> {
+        let cannot = |why: String| Err(CannotOverwrite { path: path.to_owned(), why });
+        let identity = Identity::of(path);
+        if let Some(input) = self.inputs.iter().find(|input| identity.is_some() && input.identity == identity)
+        {
+            return cannot(input.use_of_it.to_owned());
+        }
+        // Of a link, both the link and the file that it leads to have a place.
+        let beside = path.parent().map(|parent| resolved(parent).join(path.file_name().unwrap_or_default()));
+        for place in beside.into_iter().chain([resolved(path)]) {
+            let Some(folder) = place.parent() else { continue };
+            let name = place.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+            if is_our_name(&name) && self.is_ours(folder) {
+                return cannot(format!("jabuka keeps its frames in `{}`", folder.display()));
+            }
+            let mut above =
+                folder.ancestors().filter(|folder| folder.file_name() == Some(OsStr::new(ASSETS)));
+            let read_by_scripts = |assets: &Path| assets.parent().is_some_and(|folder| self.is_ours(folder));
+            if above.any(read_by_scripts) {
+                return cannot("scripts read what is in that folder".to_owned());
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether jabuka keeps scripts or images in a folder, or will.
+    fn is_ours(&self, folder: &Path) -> bool {
+        self.folders.iter().any(|known| known == folder)
+            || output::read_manifest(&folder.join(MANIFEST)).is_some()
+            || render::is_folder_of_images(folder)
+    }
+}
+
+/// Whether a file of this name in a folder of jabuka's is one that jabuka writes: a script or what belongs to it, an image.
+fn is_our_name(name: &str) -> bool {
+    let image = name.strip_suffix(".png").is_some_and(|stem| output::is_own_name(&format!("{stem}.pov")));
+    image || output::is_own_name(name) || name.starts_with(".jabuka")
+}
+
+/// A path without links and `..`, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let parts: Vec<Component<'_>> = absolute.components().collect();
+    for existing in (1..=parts.len()).rev() {
+        let Ok(mut found) = parts[..existing].iter().collect::<PathBuf>().canonicalize() else { continue };
+        for part in &parts[existing..] {
+            match part {
+                Component::ParentDir => drop(found.pop()),
+                part => found.push(part),
+            }
+        }
+        return found;
+    }
+    absolute
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(result: Result<(), CannotOverwrite>) -> String {
+        result.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_file_that_is_read_is_kept_by_whatever_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("sub")).unwrap();
+        fs::write(at("wall.gif"), "GIF").unwrap();
+        fs::hard_link(at("wall.gif"), at("hard.gif")).unwrap();
+        std::os::unix::fs::symlink("wall.gif", at("soft.gif")).unwrap();
+        std::os::unix::fs::symlink(".", at("here")).unwrap();
+        let kept = Kept::default().and_files([at("wall.gif")], "the scene is made from it");
+        for name in ["wall.gif", "hard.gif", "soft.gif", "sub/../wall.gif", "here/here/wall.gif"] {
+            assert!(said(kept.check(&at(name))).ends_with("and the scene is made from it"), "{name}");
+        }
+        for name in ["new.gif", "sub/wall.gif", "no/such/folder/wall.gif"] {
+            assert_eq!(kept.check(&at(name)), Ok(()), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_jabuka_keeps_in_its_folders_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let kept = Kept::default().and_folder(&at("out/scene")).unwrap();
+        for name in
+            ["frame_0003.png", "FRAME_0003.PNG", "manifest.json", "x/../common.inc", "assets/a/wall.png"]
+        {
+            said(kept.check(&at("out/scene").join(name)));
+        }
+        for name in ["film.mp4", "frame_3.png", "images/frame_0003.png", "sheet.png"] {
+            assert_eq!(kept.check(&at("out/scene").join(name)), Ok(()), "{name}");
+        }
+        // Images that another command has rendered.
+        fs::create_dir_all(at("images/.jabuka")).unwrap();
+        said(Kept::default().check(&at("images/frame_0003.png")));
+        assert_eq!(Kept::default().check(&at("images/sheet.png")), Ok(()));
+    }
+
+    #[test]
+    fn a_folder_is_not_filled_over_what_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let reading = |name: &str| Kept::default().and_files([at(name)], "the scene is made from it");
+        assert!(reading("frame_0000.png").and_folder(folder.path()).is_err());
+        assert!(reading("common.inc").and_folder(&at("no/..")).is_err());
+        assert!(reading("heights.png").and_folder(folder.path()).is_ok());
+        assert!(reading("frame_0000.png").and_folder(&at("images")).is_ok());
+    }
+}
