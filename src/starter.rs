@@ -1,6 +1,6 @@
 //! The scene that a new one starts from.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +16,10 @@ pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
     if path.extension().is_none_or(|extension| extension != "toml") {
         path.as_mut_os_string().push(".toml");
     }
-    File::create_new(&path)?.write_all(STARTER.as_bytes())?;
+    let mut file = File::create_new(&path)?;
+    file.write_all(STARTER.as_bytes()).inspect_err(|_| {
+        // Half a scene is none; where this fails too, the error is said anyway.
+        let _ = fs::remove_file(&path);
+    })?;
     Ok(path)
 }

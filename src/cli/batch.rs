@@ -111,7 +111,10 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
         let seen = seen(&run, *view, &progress)?;
         let run = seen.as_ref().unwrap_or(&run);
         let write = |job: &JobFolder| {
-            output::write(run, &job.scripts()?, &selection, &|| progress.step())?;
+            let scripts = job.scripts()?;
+            let written = output::write(run, &scripts, &selection, &|| progress.step());
+            progress.above(|| say::edits(&scripts));
+            written?;
             Ok(([scene.output.width, scene.output.height], scene.output.transparent))
         };
         let said =
@@ -140,7 +143,10 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     }
     let name = from.file_name().unwrap_or(from.as_os_str()).to_string_lossy();
     let copy = |job: &JobFolder| {
-        batch::copy_scripts(from, &job.scripts()?)?;
+        let scripts = job.scripts()?;
+        let copied = batch::copy_scripts(from, &scripts);
+        say::edits(&scripts);
+        copied?;
         Ok(batch::size(from))
     };
     let head = output::Manifest::read(from).map(|manifest| manifest.head);
@@ -223,8 +229,8 @@ fn make(
         };
         said.push_str(&format!("kept      {name}, as you edited it{new}\n"));
     }
-    for name in &edits.moved {
-        said.push_str(&format!("replaced  {name}; as you edited it, it is {name}.old\n"));
+    for (name, old) in &edits.moved {
+        said.push_str(&format!("replaced  {name}; as you edited it, it is {old}\n"));
     }
     said.push_str(&match engine {
         batch::Engine::Slurm => format!("send      cd {word} && ./submit\n"),

@@ -67,8 +67,9 @@ fn write(
 ) -> Result<(), Failure> {
     let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     let written = output::write(run, &folder, selection, &|| progress.step());
-    let written = written.map_err(|error| progress.failed(&error))?;
+    let written = written.map_err(|error| progress.failed(&error)).inspect_err(|_| say::edits(&folder))?;
     progress.finish();
+    say::edits(&folder);
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     say::result(&summary::summary(run, folder.path(), &written, start.elapsed()));
     Ok(())

@@ -131,7 +131,9 @@ fn write_scripts(
             let run = seen.as_ref().unwrap_or(first);
             progress.phase("writing");
             let step = || progress.step();
-            output::write(run, &folder, selection, &step).map_err(|error| progress.failed(&error))?;
+            let written = output::write(run, &folder, selection, &step);
+            progress.above(|| say::edits(&folder));
+            written.map_err(|error| progress.failed(&error))?;
             (warnings, drift) = (run.warnings(), Some(run.survey().drift));
         }
         if folders.is_empty() {

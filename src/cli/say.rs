@@ -11,6 +11,7 @@ use std::process::ExitCode;
 
 use clap::error::ContextKind;
 use jabuka::diagnostic::{Report, is_invisible, visible, visible_lines};
+use jabuka::output::Folder;
 use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
@@ -59,6 +60,11 @@ pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failur
         report(&error.report());
         Failure::Errors
     })
+}
+
+/// Says which edited files of a folder were set aside, also where the command has failed after that.
+pub(super) fn edits(folder: &Folder) {
+    report(&Report { diagnostics: folder.edits().into_iter().collect(), ..Report::default() });
 }
 
 /// Says a list of things, each with what there is to know about it, in two columns.

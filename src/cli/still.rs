@@ -106,7 +106,9 @@ fn write_script(
     let run: &Run<'_> = seen.as_ref().unwrap_or(&run);
     let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     progress.phase("writing");
-    output::write_moment(run, &folder, arguments.time).map_err(|error| progress.failed(&error))?;
+    let written = output::write_moment(run, &folder, arguments.time);
+    progress.above(|| say::edits(&folder));
+    written.map_err(|error| progress.failed(&error))?;
     progress.finish();
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     Ok(folder)

@@ -50,8 +50,11 @@ pub fn write_templates(folder: &Path) -> io::Result<usize> {
     for (name, text) in files() {
         let path = folder.join(name);
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let mut file = fs::File::create_new(path)?;
-        io::Write::write_all(&mut file, text.as_bytes())?;
+        let mut file = fs::File::create_new(&path)?;
+        io::Write::write_all(&mut file, text.as_bytes()).inspect_err(|_| {
+            // Half a template is none.
+            let _ = fs::remove_file(&path);
+        })?;
     }
     Ok(TEMPLATES.len())
 }

@@ -44,6 +44,7 @@ impl OutputError {
             OutputError::Incomplete(_) => "incomplete-scripts",
             OutputError::Link(_) => "link",
             OutputError::Locked(_) => "folder-locked",
+            OutputError::Io(_, error) if is_full(error) => "disk-full",
             OutputError::Io(..) => "cannot-write",
             OutputError::Diverged(_) => "diverged",
             OutputError::Emit(EmitError::Indistinct(_)) => "indistinct",
@@ -80,9 +81,17 @@ impl OutputError {
                 Some("`jabuka compile` writes them; `jabuka batch SCENE.toml` does both")
             }
             OutputError::Incomplete(_) => Some("run `jabuka compile` again"),
+            OutputError::Io(_, error) if is_full(error) => Some(
+                "make room, and run the same command again; until then, its folder says that not all scripts are there",
+            ),
             _ => None,
         }
     }
+}
+
+/// Whether there is no room on a disk.
+fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
 }
 
 impl fmt::Display for OutputError {

@@ -3,8 +3,10 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::OutputError;
+use super::edited::SetAside;
 use super::manifest::{self, MANIFEST};
 use crate::emit::{COMMON, INI, MASTER, is_trail_file};
 
@@ -16,6 +18,8 @@ const LOCK: &str = ".jabuka-lock";
 pub struct Folder {
     path: PathBuf,
     _lock: File,
+    /// The edited files that were set aside since the folder was opened.
+    set_aside: Mutex<Vec<SetAside>>,
 }
 
 impl Folder {
@@ -39,7 +43,7 @@ impl Folder {
         if !is_ours(path, marked).map_err(io_error)? {
             return Err(OutputError::NotOurs(path.to_owned()));
         }
-        let folder = Folder { path: path.to_owned(), _lock: lock(path)? };
+        let folder = Folder { path: path.to_owned(), _lock: lock(path)?, set_aside: Mutex::default() };
         folder.sweep().map_err(io_error)?;
         Ok(folder)
     }
@@ -47,6 +51,10 @@ impl Folder {
     /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    pub(super) fn lock_set_aside(&self) -> MutexGuard<'_, Vec<SetAside>> {
+        self.set_aside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Puts a file into the folder, whole or not at all.
@@ -166,7 +174,7 @@ pub(super) fn script_number(name: &str) -> Option<usize> {
 
 /// Whether a file of this name in a folder of scripts is a script or belongs to them.
 pub(crate) fn is_own_name(name: &str) -> bool {
-    [MANIFEST, MASTER, INI, COMMON].contains(&name) || script_number(name).is_some()
+    [MANIFEST, MASTER, INI, COMMON].contains(&name) || script_number(name).is_some() || is_trail_file(name)
 }
 
 fn is_temporary(name: &str) -> bool {

@@ -30,8 +30,8 @@ const MAX_BYTES: u64 = 512 << 20;
 pub struct Manifest {
     /// What is said of the folder as a whole.
     pub head: Head,
-    /// The files: first those of the sequence as a whole, then the scripts in the order of their frames. Empty while
-    /// they are being written.
+    /// The files: first those of the sequence as a whole, then the scripts in the order of their frames. While some are
+    /// being written, those that stay as they are.
     pub files: Vec<Entry>,
 }
 

@@ -5,6 +5,7 @@
 
 mod assets;
 mod compare;
+mod edited;
 mod error;
 mod folder;
 mod manifest;
@@ -15,6 +16,7 @@ mod up_to_date;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
+pub(crate) use edited::free_name;
 pub use error::OutputError;
 pub use folder::Folder;
 pub(crate) use folder::{is_own_name, scripts, trail_files};

@@ -1,6 +1,6 @@
 //! The script of a single moment.
 
-use super::manifest::{self, Entry, Head, MANIFEST, State};
+use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
 use super::write::put_blurred;
 use super::{Folder, OutputError, assets};
@@ -21,6 +21,8 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     let script = run.script(&frame)?;
 
     let head = Head::new(run);
+    let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
+    folder.set_aside(old.iter())?;
     let begun = Head { state: State::Clearing, ..head.clone() };
     folder.write_with(MANIFEST, |file| manifest::write(file, &begun, &[]))?;
     folder.remove_scripts()?;
@@ -43,6 +45,7 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     entries.extend(trails.into_entries());
     entries.extend(assets::copy(folder, &scene.povray.assets)?);
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
+    folder.settle(false)?;
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
     Ok(frame.index)
 }

@@ -1,12 +1,12 @@
 //! All selected scripts of a run into a folder.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io::Write;
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-use super::manifest::{self, Entry, Head, MANIFEST, State};
+use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
 use super::{Folder, OutputError, Tally, assets};
 use crate::Run;
@@ -41,32 +41,42 @@ pub fn write(
     done: &(dyn Fn() + Sync),
 ) -> Result<Written, OutputError> {
     let head = Head::new(run);
-    let put_head = |state: State| {
+    let put_head = |state: State, untouched: &[Entry]| {
         let head = Head { state, planned: Some(selection.to_string()), ..head.clone() };
-        folder.write_with(MANIFEST, |file| manifest::write(file, &head, &[]))
+        folder.write_with(MANIFEST, |file| manifest::write(file, &head, untouched))
     };
     let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
+    let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
+    // What this run does not touch stays in the manifest, so that edits of it are known as such later.
+    let is_untouched =
+        |entry: &Entry| unchanged && entry.frame.is_some_and(|frame| !selection.contains(frame));
+    let (untouched, touched): (Vec<Entry>, Vec<Entry>) = old.into_iter().partition(is_untouched);
+    folder.set_aside(touched.iter())?;
+    let by_name = |entry: &Entry| (entry.name.clone(), entry.clone());
+    let known: HashMap<String, Entry> =
+        if unchanged { untouched.iter().chain(&touched).map(by_name).collect() } else { HashMap::new() };
     let mut removed = Vec::new();
     if !unchanged {
-        put_head(State::Clearing)?;
+        put_head(State::Clearing, &[])?;
         removed = folder.remove_scripts()?;
     }
-    put_head(State::Writing)?;
+    put_head(State::Writing, &untouched)?;
 
     let trails = TrailFiles::default();
     let mut entries = scripts(run, folder, selection, &trails, done)?;
     let scripts = frames(&entries);
     let trails = trails.into_entries();
-    let kept_trails = kept_trails(folder, &trails)?;
-    entries.extend(trails);
     for (name, text) in run.emitter().sequence(run.scene())? {
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
     }
     entries.extend(assets::copy(folder, &run.scene().povray.assets)?);
+    folder.settle(unchanged)?;
+    let kept_trails = kept_trails(folder, &trails, &known)?;
+    entries.extend(trails);
     removed.retain(|frame| !selection.contains(*frame));
     let bytes = entries.iter().map(|entry| entry.bytes).sum();
-    let kept = kept(folder, selection)?;
+    let kept = kept(folder, selection, &known)?;
     let written = Written { scripts, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
     entries.extend(kept_trails);
@@ -134,25 +144,39 @@ pub(super) fn put_blurred(
     Ok(digest.entry(Some(frame.index), name))
 }
 
-/// The files with parts of trails that were there before, of scripts that have stayed.
-fn kept_trails(folder: &Folder, written: &[Entry]) -> Result<Vec<Entry>, OutputError> {
+/// The files with parts of trails that were there before, of scripts that have stayed: as the manifest had them, if it did.
+fn kept_trails(
+    folder: &Folder,
+    written: &[Entry],
+    known: &HashMap<String, Entry>,
+) -> Result<Vec<Entry>, OutputError> {
     let written: HashSet<&str> = written.iter().map(|entry| entry.name.as_str()).collect();
     let others = folder.trail_files()?.into_iter().filter(|name| !written.contains(name.as_str()));
-    let entry = |name: String| {
-        let path = folder.path().join(&name);
-        let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
-        Ok(Entry::of(None, name, &bytes))
-    };
-    others.map(entry).collect()
+    others.map(|name| kept_entry(folder, None, name, known)).collect()
 }
 
-/// The scripts of the folder that were there before and have stayed.
-fn kept(folder: &Folder, selection: &Selection) -> Result<Vec<Entry>, OutputError> {
+/// The scripts of the folder that were there before and have stayed: as the manifest had them, if it did.
+fn kept(
+    folder: &Folder,
+    selection: &Selection,
+    known: &HashMap<String, Entry>,
+) -> Result<Vec<Entry>, OutputError> {
     let others = folder.scripts()?.into_iter().filter(|(frame, _)| !selection.contains(*frame));
-    let entry = |(frame, name): (usize, String)| {
-        let path = folder.path().join(&name);
-        let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
-        Ok(Entry::of(Some(frame), name, &bytes))
-    };
-    others.map(entry).collect()
+    others.map(|(frame, name)| kept_entry(folder, Some(frame), name, known)).collect()
+}
+
+/// The entry of a file that has stayed: the one that is known, so that an edited file is known as such later, or else that of
+/// its bytes.
+fn kept_entry(
+    folder: &Folder,
+    frame: Option<usize>,
+    name: String,
+    known: &HashMap<String, Entry>,
+) -> Result<Entry, OutputError> {
+    if let Some(entry) = known.get(&name) {
+        return Ok(entry.clone());
+    }
+    let path = folder.path().join(&name);
+    let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
+    Ok(Entry::of(frame, name, &bytes))
 }

@@ -43,6 +43,8 @@ pub struct Status {
     pub stale: Vec<Running>,
     /// Whether there is a film of all these images; `None` where none is asked for.
     pub film: Option<bool>,
+    /// Whether what wrote the scripts was broken off, so that some may be missing or of another version of the scene.
+    pub unfinished_scripts: bool,
 }
 
 /// A frame that is being rendered.
@@ -76,6 +78,7 @@ struct Place {
     options: Option<String>,
     files: Vec<PathBuf>,
     film: Option<(PathBuf, String)>,
+    unfinished_scripts: bool,
 }
 
 impl Status {
@@ -120,7 +123,8 @@ impl Status {
         })?;
         let compare = if place.options.is_some() { Compare::NotPovray } else { Compare::Scene };
         let options = place.options.as_deref().unwrap_or_default();
-        let mut status = Status { frames: place.frames.clone(), ..Status::default() };
+        let unfinished_scripts = place.unfinished_scripts;
+        let mut status = Status { frames: place.frames.clone(), unfinished_scripts, ..Status::default() };
         for &frame in &place.frames {
             let name = place.name(frame);
             let blurred = place.scripts.join(format!("{name}.pov").replacen("frame", "shutter", 1));
@@ -149,7 +153,7 @@ impl Status {
 
     /// Whether all images are there.
     pub fn is_complete(&self) -> bool {
-        self.done.len() == self.frames.len()
+        self.done.len() == self.frames.len() && !self.unfinished_scripts
     }
 
     /// The status as people read it: what there is how much of, and which.
@@ -166,7 +170,11 @@ impl Status {
             };
             visible(&hosts.iter().map(of).collect::<Vec<_>>().join("; "))
         };
-        let mut text = format!("done     {} of {}\n", self.done.len(), self.frames.len());
+        let mut text = String::new();
+        if self.unfinished_scripts {
+            text.push_str("scripts  not all there: what writes them was interrupted; run it again\n");
+        }
+        text.push_str(&format!("done     {} of {}\n", self.done.len(), self.frames.len()));
         if !self.changed.is_empty() {
             let frames = list(&self.changed);
             text.push_str(&format!("changed  {}: {frames}, since they were rendered\n", self.changed.len()));
@@ -219,6 +227,7 @@ impl Place {
         let head = output::read_manifest(&scripts.join(MANIFEST)).ok_or_else(|| {
             io::Error::new(io::ErrorKind::NotFound, "it holds no scripts that jabuka wrote")
         })?;
+        let unfinished_scripts = head.state != output::State::Complete;
         let digits = crate::emit::width(head.frames);
         if let Some(job) = job {
             let frames = (0..head.frames).filter(|frame| job.frames.contains(*frame)).collect();
@@ -231,6 +240,7 @@ impl Place {
                 options: Some(job.options),
                 files: job.files,
                 film,
+                unfinished_scripts,
             });
         }
         let found = output::scripts(&scripts).map_err(io::Error::other)?;
@@ -238,7 +248,7 @@ impl Place {
         let mut frames: Vec<usize> = found.into_iter().map(|(frame, _)| frame).collect();
         frames.dedup();
         let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
-        Ok(Place { scripts, images, frames, digits, options: None, files, film: None })
+        Ok(Place { scripts, images, frames, digits, options: None, files, film: None, unfinished_scripts })
     }
 }
 

@@ -6,8 +6,10 @@ mod support;
 
 mod assets;
 mod check;
+mod edited;
 mod folder;
 mod frames;
+mod full;
 mod kill;
 mod memory;
 mod meshes;

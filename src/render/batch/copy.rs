@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 
 use crate::emit::{COMMON, INI, MASTER};
-use crate::output::{self, Folder, Head, MANIFEST, OutputError};
+use crate::output::{self, Entry, Folder, Head, MANIFEST, Manifest, OutputError};
 use crate::render::files;
 
 /// What the manifest of a folder of scripts says of them.
@@ -37,6 +37,11 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     }
     let names = scripts(from).map_err(io_error)?;
     let old = scripts(to.path()).map_err(|error| OutputError::Io(to.path().to_owned(), error))?;
+    // What the folder's user has edited is set aside, if it would be replaced by something else.
+    let known = Manifest::read(to.path()).map(|manifest| manifest.files).unwrap_or_default();
+    let is_equal = |name: &str| matches!((fs::read(from.join(name)), fs::read(to.path().join(name))), (Ok(a), Ok(b)) if a == b);
+    let replaced: Vec<&Entry> = known.iter().filter(|entry| !is_equal(&entry.name)).collect();
+    to.set_aside(replaced.into_iter())?;
     for name in old.difference(&names).filter(|name| name.as_str() != MANIFEST) {
         let path = to.path().join(name);
         fs::remove_file(&path).map_err(|error| OutputError::Io(path, error))?;
@@ -49,19 +54,13 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
         if fs::read(to.path().join(name)).is_ok_and(|there| there == bytes) {
             continue;
         }
-        match name.rsplit_once('/') {
-            None => to.write(name, &bytes)?,
-            Some((folder, _)) => {
-                let path = to.path().join(name);
-                let copy = || {
-                    fs::create_dir_all(to.path().join(folder))?;
-                    fs::write(&path, &bytes)
-                };
-                copy().map_err(|error| OutputError::Io(path.clone(), error))?;
-            }
+        if let Some((folder, _)) = name.rsplit_once('/') {
+            let folder = to.path().join(folder);
+            fs::create_dir_all(&folder).map_err(|error| OutputError::Io(folder, error))?;
         }
+        to.write(name, &bytes)?;
     }
-    Ok(())
+    to.settle(false)
 }
 
 /// The names of everything in a folder of scripts that is ours.

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use super::Edits;
 use super::texts::Text;
-use crate::output::{Folder, OutputError};
+use crate::output::{self, Folder, OutputError};
 
 /// The file that marks a folder as a job of ours, and knows its files as jabuka wrote them.
 const MARKS: &str = ".jabuka-job.json";
@@ -60,8 +60,9 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
             }
         } else {
             if edited {
-                edits.moved.push(text.name);
-                let old = folder.path().join(format!("{}.old", text.name));
+                let name = output::free_name(folder.path(), &format!("{}.old", text.name));
+                let old = folder.path().join(&name);
+                edits.moved.push((text.name, name));
                 fs::rename(&path, &old).map_err(|error| OutputError::Io(old, error))?;
             }
             put(folder, text.name, text)?;
@@ -117,7 +118,10 @@ mod tests {
             fs::write(folder.path().join(name), "mine").unwrap();
         }
         let edits = write(&open(), &texts("2")).unwrap();
-        assert_eq!((edits.kept, edits.new, edits.moved), (vec!["render.sbatch"], vec![], vec!["submit"]));
+        assert_eq!(
+            (edits.kept, edits.new, edits.moved),
+            (vec!["render.sbatch"], vec![], vec![("submit", "submit.old".to_owned())])
+        );
         assert_eq!(["render.sbatch", "submit", "submit.old"].map(read), ["mine", "2", "mine"]);
         let edits = write(&open(), &texts("3")).unwrap();
         assert_eq!(

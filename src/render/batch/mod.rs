@@ -56,8 +56,8 @@ pub struct Edits {
     pub kept: Vec<&'static str>,
     /// Of those, the ones of which jabuka would write another text now: it is beside them, with the ending `.new`.
     pub new: Vec<&'static str>,
-    /// They were edited, and jabuka needs its own: the edited ones have the ending `.old` now.
-    pub moved: Vec<&'static str>,
+    /// They were edited, and jabuka needs its own: each with the name that the edited one has now, `submit.old`.
+    pub moved: Vec<(&'static str, String)>,
 }
 
 impl JobFolder {

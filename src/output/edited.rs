@@ -1,0 +1,181 @@
+//! Files of a folder that somebody has edited since jabuka wrote them: they are set aside before they are written anew.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use super::manifest::Entry;
+use super::{Folder, OutputError, Tally};
+use crate::diagnostic::Diagnostic;
+use crate::emit::ASSETS;
+
+/// A file that was edited, and where it is now.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct SetAside {
+    /// Its name.
+    name: String,
+    /// The name that it has now.
+    now: String,
+}
+
+impl Folder {
+    /// Sets aside the edited ones of some files, which are going to be written anew or removed: those that differ from what
+    /// jabuka has written, as its manifest says.
+    ///
+    /// # Errors
+    /// Where a file cannot be read or renamed.
+    pub(crate) fn set_aside<'a>(&self, files: impl Iterator<Item = &'a Entry>) -> Result<(), OutputError> {
+        let files: Vec<&Entry> = files.collect();
+        let is_edited = |entry: &&Entry| {
+            let path = self.path().join(&entry.name);
+            is_edited(&path, entry).map_err(|error| OutputError::Io(path, error))
+        };
+        let edited: Vec<bool> = files.par_iter().map(is_edited).collect::<Result<_, _>>()?;
+        for (entry, _) in files.into_iter().zip(edited).filter(|(_, edited)| *edited) {
+            let file = move_aside(self.path(), &entry.name)?;
+            self.lock_set_aside().push(file);
+        }
+        Ok(())
+    }
+
+    /// Removes what was set aside for nothing, since the file was written again with the same bytes. If files that are not
+    /// written anew belong to the same scene, they get their names back.
+    ///
+    /// # Errors
+    /// Where a file cannot be removed or renamed.
+    pub(crate) fn settle(&self, same_scene: bool) -> Result<(), OutputError> {
+        let mut set_aside = self.lock_set_aside();
+        for file in std::mem::take(&mut *set_aside) {
+            let now = self.path().join(&file.now);
+            let same = || Ok::<_, io::Error>(fs::read(&now)? == fs::read(self.path().join(&file.name))?);
+            let path = self.path().join(&file.name);
+            if same_scene && fs::symlink_metadata(&path).is_err() {
+                fs::rename(&now, &path).map_err(|error| OutputError::Io(path, error))?;
+                continue;
+            }
+            // What cannot be compared stays.
+            if same().unwrap_or(false) {
+                fs::remove_file(&now).map_err(|error| OutputError::Io(now, error))?;
+            } else {
+                set_aside.push(file);
+            }
+        }
+        Ok(())
+    }
+
+    /// The edited files that were set aside, as a warning; it names the first of them.
+    pub fn edits(&self) -> Option<Diagnostic> {
+        /// So many are named.
+        const SHOWN: usize = 3;
+        let set_aside = self.lock_set_aside();
+        let moves =
+            set_aside.iter().take(SHOWN).map(|SetAside { name, now }| format!("`{name}` is now `{now}`"));
+        let moves = moves.collect::<Vec<_>>().join(", ");
+        let others = match set_aside.len().saturating_sub(SHOWN) {
+            0 => String::new(),
+            others => format!(", and {others} more"),
+        };
+        let files = match set_aside.len() {
+            0 => return None,
+            1 => "a file was".to_owned(),
+            files => format!("{files} files were"),
+        };
+        let message = format!("{files} edited in `{}` and kept: {moves}{others}", self.path().display());
+        let help = "what the scene gives stands in their place; `jabuka render DIR` renders edited scripts as they are";
+        Some(Diagnostic::warning("edited-script", message).help(help))
+    }
+}
+
+/// Whether a file that is there differs from its entry.
+fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
+    match fs::symlink_metadata(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+        // A link is replaced, and what it leads to stays as it is.
+        Ok(metadata) if !metadata.is_file() => Ok(false),
+        Ok(metadata) if metadata.len() != entry.bytes => Ok(true),
+        Ok(_) => Ok(Tally::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
+    }
+}
+
+/// Renames a file of a folder: `frame_0002.pov` to `frame_0002.edited.pov`, or to the next name that is free.
+fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
+    // Scripts would read what stands among the assets, so edited ones go to a folder beside these.
+    let in_assets = name.strip_prefix(ASSETS).and_then(|name| name.strip_prefix('/'));
+    let now = match in_assets {
+        Some(name) => format!("{ASSETS}.edited/{name}"),
+        None => between(name, ".edited"),
+    };
+    let now = free_name(folder, &now);
+    let (from, to) = (folder.join(name), folder.join(&now));
+    let rename = || {
+        to.parent().map_or(Ok(()), fs::create_dir_all)?;
+        fs::rename(&from, &to)
+    };
+    rename().map_err(|error| OutputError::Io(from.clone(), error))?;
+    Ok(SetAside { name: name.to_owned(), now })
+}
+
+/// A name with something put in front of its ending.
+fn between(name: &str, inserted: &str) -> String {
+    match name.rsplit_once('.') {
+        Some((stem, ending)) => format!("{stem}{inserted}.{ending}"),
+        None => format!("{name}{inserted}"),
+    }
+}
+
+/// A name of no file in a folder: the given one, or one with a number, as `submit-2.old`.
+pub(crate) fn free_name(folder: &Path, name: &str) -> String {
+    let is_free = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
+    let numbered = (2_u64..).map(|number| between(name, &format!("-{number}")));
+    std::iter::once(name.to_owned()).chain(numbered).find(is_free).unwrap_or_else(|| name.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(name: &str, bytes: &[u8]) -> Entry {
+        Entry::of(None, name.to_owned(), bytes)
+    }
+
+    #[test]
+    fn an_edited_file_is_set_aside_under_a_name_that_is_free() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = Folder::open(temporary.path()).unwrap();
+        let at = |name: &str| temporary.path().join(name);
+        fs::create_dir(at("assets")).unwrap();
+        let entries =
+            ["frame_0002.pov", "frame_0003.pov", "gone.pov", "assets/a.png"].map(|name| entry(name, b"ours"));
+        for name in ["frame_0002.pov", "assets/a.png"] {
+            // As long as what jabuka wrote, and other bytes.
+            fs::write(at(name), "mine").unwrap();
+        }
+        fs::write(at("frame_0003.pov"), "ours").unwrap();
+        let now = || folder.lock_set_aside().iter().map(|file| file.now.clone()).collect::<Vec<_>>();
+        folder.set_aside(entries.iter()).unwrap();
+        assert_eq!(now(), ["frame_0002.edited.pov", "assets.edited/a.png"]);
+        assert!(!at("frame_0002.pov").exists() && at("frame_0003.pov").exists());
+        fs::write(at("frame_0002.pov"), "mine, once more").unwrap();
+        folder.set_aside(entries.iter()).unwrap();
+        assert_eq!(now().last().unwrap(), "frame_0002.edited-2.pov");
+        assert_eq!(fs::read_to_string(at("frame_0002.edited.pov")).unwrap(), "mine");
+        let said = folder.edits().unwrap().message;
+        assert!(said.starts_with("3 files were edited in `"), "{said}");
+    }
+
+    #[test]
+    fn an_edit_that_is_what_the_scene_gives_now_is_none() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = Folder::open(temporary.path()).unwrap();
+        let path = temporary.path().join("frame_0002.pov");
+        fs::write(&path, "new").unwrap();
+        folder.set_aside([entry("frame_0002.pov", b"old")].iter()).unwrap();
+        fs::write(&path, "new").unwrap();
+        folder.settle(false).unwrap();
+        assert!(folder.edits().is_none());
+        assert!(!temporary.path().join("frame_0002.edited.pov").exists());
+    }
+}
