@@ -4,7 +4,9 @@ use crate::diagnostic::Diagnostic;
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::scene::{Scene, Shutter, View};
-use crate::simulate::{Branch, Crossing, Diverged, Frame, Frames, Overlap, Selection, Survey, survey_watched};
+use crate::simulate::{
+    Branch, Crossing, Diverged, Frame, Frames, Overlap, Selection, Survey, survey_watched,
+};
 
 /// A scene whose run has been looked over, so that its frames can be made into scripts.
 pub struct Run<'a> {
