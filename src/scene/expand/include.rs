@@ -3,7 +3,7 @@
 //! What a file says itself counts more than what it includes; what two included files say of one key is an error, unless
 //! the file that includes them decides. A file that is included in several ways is there once.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::merge::{is_replaced, merge};
@@ -206,18 +206,23 @@ impl Includer<'_> {
     fn conflicts_inside(&mut self, first: &Table, second: &Table, own: &Table, kind: Option<&'static Kind>) {
         match kind {
             Some(Kind::Named(spec)) => {
+                // There may be ten thousand of them, too many to look for one by one.
+                let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
-                    let tables = (entry.node.as_table(), second.get(&entry.name.text));
+                    let name = entry.name.text.as_str();
+                    let tables = (entry.node.as_table(), second.get(name));
                     let (Some(first), Some(other)) = tables else { continue };
                     let Some(second) = other.node.as_table() else { continue };
-                    let own = own.get(&entry.name.text).and_then(|entry| entry.node.as_table());
+                    let own = own.get(name).and_then(|entry| entry.node.as_table());
                     self.conflicts(first, second, own.unwrap_or(&Table::default()), spec);
                 }
             }
             Some(Kind::Partial(spec)) => self.conflicts(first, second, own, spec),
             Some(Kind::Variables) => {
+                let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
-                    let other = second.get(&entry.name.text).filter(|_| own.get(&entry.name.text).is_none());
+                    let name = entry.name.text.as_str();
+                    let other = second.get(name).filter(|_| !own.contains_key(name));
                     if let Some(other) = other {
                         self.conflict(&entry.name.text, entry.name.span, other.name.span);
                     }
@@ -238,4 +243,9 @@ impl Includer<'_> {
         let error = error.at(first, "the other is here");
         self.diagnostics.push(error.help("say it in the file that includes both: that counts"));
     }
+}
+
+/// The entries of a table, to be found by their names.
+fn by_name(table: &Table) -> HashMap<&str, &Entry> {
+    table.entries.iter().map(|entry| (entry.name.text.as_str(), entry)).collect()
 }
