@@ -6,6 +6,7 @@
 mod support;
 
 use jabuka::Scene;
+use jabuka::diagnostic::Diagnostic;
 use support::{jabuka, stderr, stdout};
 
 /// So many times what is suggested may be taken over: one mistake can hide another.
@@ -19,7 +20,7 @@ fn each_mistake_is_mended_by_what_is_suggested() {
         for _ in 0..ROUNDS {
             let Err(report) = Scene::parse(&text) else { break };
             shown.push_str(&report.to_text(false));
-            let source = report.diagnostics.iter().find_map(|diagnostic| diagnostic.span()).unwrap().source;
+            let source = report.diagnostics.iter().find_map(Diagnostic::span).unwrap().source;
             let fixed = report.fixed(source);
             assert_ne!(fixed, text, "nothing is suggested for\n{shown}");
             text = fixed;

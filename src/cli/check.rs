@@ -67,9 +67,9 @@ fn look_at(path: &Path, options: &Options, simulate: bool) -> Report {
     };
     let mut report = scene.warnings.clone();
     if simulate {
-        let progress = Progress::new(scene.simulation.frames());
+        let progress = Progress::of_run(&scene, 0);
         progress.phase("simulating");
-        let run = Run::new_seeing(&scene, |_| progress.step());
+        let run = Run::new_watched(&scene, progress.effort(), |_| progress.step());
         progress.finish();
         report.diagnostics.extend(match run {
             Ok(run) => run.warnings(),

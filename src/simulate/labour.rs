@@ -19,9 +19,12 @@ impl Labour {
     /// That of a scene.
     pub fn of(scene: &Scene) -> Labour {
         let pairs = |kind: &ForceKind| match kind {
-            ForceKind::Gravitation { on, .. } | ForceKind::Coulomb { on, .. } => {
+            ForceKind::Gravitation { on, against, .. } | ForceKind::Coulomb { on, against, .. } => {
                 let count = on.len() as u64;
-                count.saturating_mul(count.saturating_sub(1)) / 2
+                match against {
+                    Some(others) => count.saturating_mul(others.len() as u64),
+                    None => count.saturating_mul(count.saturating_sub(1)) / 2,
+                }
             }
             _ => 0,
         };

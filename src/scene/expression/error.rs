@@ -16,7 +16,7 @@ pub struct ExpressionError {
     /// How to mend it, if there is more to say.
     pub help: Option<String>,
     /// What belongs in the place of those bytes, if that is known.
-    pub fix: Option<String>,
+    pub fix: Option<Box<str>>,
 }
 
 /// A mistake of the given kind.
@@ -42,7 +42,7 @@ impl ExpressionError {
     }
 
     #[must_use]
-    pub(super) fn fix(mut self, text: impl Into<String>) -> ExpressionError {
+    pub(super) fn fix(mut self, text: impl Into<Box<str>>) -> ExpressionError {
         self.fix = Some(text.into());
         self
     }

@@ -104,9 +104,7 @@ pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
     fn within(table: &'static TableSpec, name: &str) -> Option<&'static str> {
         let inside = |kind: &'static Kind| match kind {
             Kind::Table(table) | Kind::Named(table) => within(table, name),
-            Kind::Either(kinds) => {
-                kinds.iter().find_map(|kind| kind.table()).and_then(|table| within(table, name))
-            }
+            Kind::Either(kinds) => kinds.iter().find_map(Kind::table).and_then(|table| within(table, name)),
             Kind::List { of, .. } => of.table().and_then(|table| within(table, name)),
             _ => None,
         };

@@ -22,10 +22,10 @@ impl Reader<'_, '_> {
         able: impl Fn(usize) -> bool,
     ) -> (Vec<usize>, Option<Vec<usize>>) {
         let bodies = self.bodies;
-        let able = |i: usize| !bodies[i].shape.is_unbounded() && able(i);
+        let able = &|i: usize| !bodies[i].shape.is_unbounded() && able(i);
         let numbers = |group: &[Member]| group.iter().map(|(body, _)| *body).collect::<Vec<_>>();
         if let Some([first, second]) = self.groups(view) {
-            let (first, second) = (self.usable(first, &able), self.usable(second, &able));
+            let (first, second) = (self.usable(first, able), self.usable(second, able));
             let moves = |group: &[Member]| group.iter().any(|&(i, _)| !bodies[i].start.fixed);
             if first.is_empty() || second.is_empty() {
                 self.acts_on_nothing("each of the two groups needs a body");
@@ -43,7 +43,7 @@ impl Reader<'_, '_> {
         }
         let on: Vec<Member> = match self.named(view) {
             None => (0..bodies.len()).filter(|&i| able(i)).map(|i| (i, None)).collect(),
-            Some(named) => self.usable(named, &able),
+            Some(named) => self.usable(named, able),
         };
         let moving = on.iter().any(|&(i, _)| !bodies[i].start.fixed);
         if on.len() < 2 && !view.has("on") || on.len() == 1 {
