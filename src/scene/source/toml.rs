@@ -61,13 +61,24 @@ fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagno
 
 /// Adds what the line should have been, if that can be told.
 fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
-    let at = at.min(text.len());
-    let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
-    let end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
+    let line = line_at(text, at);
     let is_duplicate = diagnostic.code == "duplicate-key";
-    let Some(mended) = habits::mend(&text[start..end]).filter(|_| !is_duplicate) else { return diagnostic };
+    let Some(mended) = habits::mend(&text[line.clone()]).filter(|_| !is_duplicate) else {
+        return diagnostic;
+    };
     diagnostic.help = Some(mended.why.to_owned());
-    diagnostic.fix(Span::new(source, start + mended.range.start..start + mended.range.end), mended.text)
+    let (start, end) = (line.start + mended.range.start, line.start + mended.range.end);
+    diagnostic.fix(Span::new(source, start..end), mended.text)
+}
+
+/// The line around a byte, without its end.
+fn line_at(text: &str, at: usize) -> std::ops::Range<usize> {
+    let bytes = text.as_bytes();
+    let at = at.min(bytes.len());
+    let start = bytes[..at].iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
+    let end =
+        bytes[start..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |length| start + length);
+    start..end
 }
 
 /// Parses a text that is one value, as it would stand after `key = `.
