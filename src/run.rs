@@ -3,6 +3,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
+use crate::picture::{Largest, Plan, number};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{
     Branch, Crossing, Diverged, Frame, Frames, Overlap, Selection, Survey, survey_watched,
@@ -122,15 +123,14 @@ impl<'a> Run<'a> {
                 format!("POV-Ray may not draw `{body}`: it is too thin against the size of the whole scene");
             Diagnostic::warning("too-thin", message).help("look from nearer, or make the body larger")
         });
-        let small = self.emitter.too_small().map(|pixels| {
-            let message = format!("the largest body is {pixels:.1} pixels wide in the picture");
-            let help = "the motion is far longer than the bodies: shorten `simulation.duration`, or give a `[camera]`";
-            Diagnostic::warning("too-small", message).help(help)
-        });
+        let plan = self.emitter.plan();
+        let small = plan.too_small().map(|largest| too_small(self.scene, plan, largest));
+        let grid = plan.too_fine_grid().map(grid_too_fine);
         crossings
             .chain(self.survey.overlap.iter().map(overlap))
             .chain(thin)
             .chain(small)
+            .chain(grid)
             .chain(drift(self.survey.drift))
             .collect()
     }
@@ -190,7 +190,8 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [&str; 5] = ["crossing", "overlap", "too-thin", "too-small", "energy-drift"];
+pub(crate) const RUN_WARNINGS: [&str; 6] =
+    ["crossing", "overlap", "too-thin", "too-small", "too-fine", "energy-drift"];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
 fn drift(drift: f64) -> Option<Diagnostic> {
@@ -198,6 +199,41 @@ fn drift(drift: f64) -> Option<Diagnostic> {
     let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
     let help = "take a smaller `simulation.step`, or an `integrator` of higher order";
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning("energy-drift", message).help(help))
+}
+
+/// That the largest body is too small to be seen in the picture, or would be in one of the whole run.
+fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
+    let name = &largest.name;
+    let message = match plan.framed_until() {
+        Some(end) => format!(
+            "the camera frames only the first {} s: in a picture of the whole run, the largest body, `{name}`, would \
+             be {:.1} pixels wide",
+            rounded(end),
+            largest.pixels_in_whole,
+        ),
+        None => format!("the largest body, `{name}`, is {:.1} pixels wide in the picture", largest.pixels),
+    };
+    let is_followed = scene.camera.motion.follow.is_some();
+    let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
+    let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
+                  a `[camera]`";
+    let help = if is_followed { others.to_owned() } else { format!("{follow}; {others}") };
+    Diagnostic::warning("too-small", message).help(help)
+}
+
+/// That a grid has fewer lines than the scene asks for.
+fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
+    let (given, drawn) = (rounded(given), rounded(drawn));
+    let message =
+        format!("the grid has a line every {drawn} m, not every {given} m: those would be too many");
+    Diagnostic::warning("too-fine", message).help(format!("give `spacing = {drawn}` or more in [grid]"))
+}
+
+/// A number with three digits.
+fn rounded(number: f64) -> String {
+    let mut out = String::new();
+    number::write(&mut out, number, 3);
+    out
 }
 
 /// That a body goes through a plane.

@@ -147,10 +147,10 @@ impl MaterialText {
 
     /// What stands in a body that is made of it.
     ///
-    /// A pattern is made for a ball of radius 1. On a body it is as large as for a ball of the same volume: a crate has
-    /// as many rings of wood as a matchbox.
+    /// A pattern is made for a ball of radius 1. On a body it is as large as for a ball of the volume that is drawn: a
+    /// crate has as many rings of wood as a matchbox.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
-        let (Pattern::Centred | Pattern::Cut, Some(volume)) = (self.pattern, body.shape.volume()) else {
+        let (Pattern::Centred | Pattern::Cut, Some(volume)) = (self.pattern, body.drawn().volume()) else {
             return self.usage();
         };
         let mut place = String::new();
@@ -192,6 +192,14 @@ mod tests {
         assert_eq!(usage(1.0, 1.0), "material { Material_striped scale 0.6204 }");
         assert_eq!(usage(10.0, 1.0), "material { Material_striped scale 6.204 }");
         assert_eq!(usage(10.0, 10.0), usage(1.0, 1.0));
+    }
+
+    #[test]
+    fn a_body_that_is_drawn_larger_has_a_larger_pattern() {
+        let text = "[body.earth]\nshape.sphere.radius = 2\nlook.scale = 100\nmaterial = \"earth\"";
+        let scene = Scene::parse(text).unwrap();
+        let usage = texts(&scene)[0].usage_in(&scene.bodies[0], Style { unit: 1.0, digits: 4 });
+        assert!(usage.ends_with("scale 200 }"), "{usage}");
     }
 
     #[test]

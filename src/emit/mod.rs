@@ -105,11 +105,6 @@ impl Emitter {
         self.unit.too_thin.map(|body| self.names[body].as_str())
     }
 
-    /// How many pixels the largest body is wide, if that is too little to be seen.
-    pub fn too_small(&self) -> Option<f64> {
-        self.plan.too_small()
-    }
-
     /// The script of a frame.
     ///
     /// # Errors

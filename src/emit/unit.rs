@@ -46,7 +46,7 @@ pub(super) struct Reach {
 
 /// How far a scene reaches.
 pub(super) fn reach(plan: &Plan) -> Reach {
-    let Bounds { min, max } = rounded_outward(plan.stage().scenery.bounds);
+    let Bounds { min, max } = rounded_outward(plan.stage().whole);
     let farthest = |points: [glam::DVec3; 2], least: f64| {
         points.into_iter().map(|point| point.abs().max_element()).fold(least, f64::max)
     };

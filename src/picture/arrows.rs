@@ -41,15 +41,25 @@ pub struct Axes {
     pub length: f64,
 }
 
+/// The longest arrow without a scale is so long, as part of the width of the picture.
+const LONGEST: f64 = 0.13;
+/// The radius of a shaft, in strokes.
+const SHAFT: f64 = 0.6;
+/// An arrow that is shorter than this part of the width of the picture is less than a tenth of a pixel long.
+const NOTHING: f64 = 5e-5;
+
+/// How long arrows without a scale are for one unit of velocity, acceleration and force, m.
+pub(super) type Scales = [f64; 3];
+
 /// The arrows and axes of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Arrows {
-    /// The radius of a shaft, m.
-    radius: f64,
     /// The bodies that have any, in the order of their numbers.
     bodies: Vec<(usize, Body)>,
     /// Their arrows, in the order of the bodies.
     arrows: Vec<Planned>,
+    /// The longest vector of each kind whose arrows have no scale, in its own unit.
+    longest: [f64; 3],
 }
 
 /// An arrow of one of the bodies.
@@ -58,13 +68,43 @@ struct Planned {
     /// The number of its body among those that have any.
     of: usize,
     quantity: Quantity,
-    /// Its length for one unit of the quantity, m.
-    scale: f64,
+    /// The number of the quantity among all.
+    kind: usize,
+    /// Its length for one unit of the quantity, m, if it is given.
+    scale: Option<f64>,
     color: Color,
 }
 
+/// How large arrows are in the picture of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ArrowSizes {
+    /// The width of what the camera sees, m.
+    view: f64,
+    /// The radius of a shaft, m.
+    radius: f64,
+    scales: Scales,
+}
+
+/// The scales of arrows in a picture that shows a width of `view` (m), if the longest vectors are as given.
+fn scales(longest: [f64; 3], view: f64) -> Scales {
+    longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
+}
+
+/// Round [`scales`], which do not change with every small edit of a scene.
+pub(super) fn round_scales(longest: [f64; 3], view: f64) -> Scales {
+    scales(longest, view).map(round_down)
+}
+
+/// The largest number with a single digit, or 1.5, times a power of ten, that is not larger than a positive number.
+fn round_down(number: f64) -> f64 {
+    let decade = libm::pow(10.0, libm::floor(libm::log10(number) + 1e-12));
+    let digits = [8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5];
+    let digit = digits.into_iter().find(|digit| digit * decade <= number * (1.0 + 1e-9));
+    if decade.is_finite() && decade > 0.0 { digit.unwrap_or(1.0) * decade } else { 1.0 }
+}
+
 impl Arrows {
-    pub(super) fn new(scene: &Scene, scales: [f64; 3], stroke: f64) -> Arrows {
+    pub(super) fn new(scene: &Scene, longest: [f64; 3]) -> Arrows {
         let shows =
             |body: &Body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some);
         let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| shows(body));
@@ -74,16 +114,26 @@ impl Arrows {
         for (of, (_, body)) in bodies.iter().enumerate() {
             for (kind, quantity) in Quantity::ALL.into_iter().enumerate() {
                 let Some(arrow) = body.showing.arrows[kind] else { continue };
-                let scale = arrow.scale.unwrap_or(scales[kind]);
-                arrows.push(Planned { of, quantity, scale, color: arrow.color.unwrap_or(colors[kind]) });
+                let color = arrow.color.unwrap_or(colors[kind]);
+                arrows.push(Planned { of, quantity, kind, scale: arrow.scale, color });
             }
         }
-        Arrows { radius: 0.6 * stroke, bodies, arrows }
+        Arrows { bodies, arrows, longest }
+    }
+
+    /// The sizes in all pictures of a camera that stands still, by scales for which it has made room.
+    pub(super) fn still_sizes(&self, scales: Scales, view: f64, stroke: f64) -> ArrowSizes {
+        ArrowSizes { view, radius: SHAFT * stroke, scales }
+    }
+
+    /// The sizes in a picture of a camera that moves. They change smoothly with the width that it sees.
+    pub(super) fn sizes(&self, view: f64, stroke: f64) -> ArrowSizes {
+        ArrowSizes { view, radius: SHAFT * stroke, scales: scales(self.longest, view) }
     }
 
     /// The arrows of a frame.
-    pub(super) fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
-        let arrow = |arrow: &Planned| self.arrow(arrow, &frame.bodies[self.bodies[arrow.of].0]);
+    pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes) -> Vec<Arrow> {
+        let arrow = |arrow: &Planned| self.arrow(arrow, &frame.bodies[self.bodies[arrow.of].0], sizes);
         self.arrows.iter().filter_map(arrow).collect()
     }
 
@@ -97,7 +147,7 @@ impl Arrows {
     }
 
     /// The arrows of a body as it was, if its ghosts have any.
-    pub(super) fn of_ghost(&self, ghost: &BodyFrame) -> Vec<Arrow> {
+    pub(super) fn of_ghost(&self, ghost: &BodyFrame, sizes: ArrowSizes) -> Vec<Arrow> {
         let Ok(of) = self.bodies.binary_search_by_key(&ghost.id, |(number, _)| *number) else {
             return Vec::new();
         };
@@ -106,17 +156,29 @@ impl Arrows {
         }
         let first = self.arrows.partition_point(|arrow| arrow.of < of);
         let its = self.arrows[first..].iter().take_while(|arrow| arrow.of == of);
-        its.filter_map(|arrow| self.arrow(arrow, ghost)).collect()
+        its.filter_map(|arrow| self.arrow(arrow, ghost, sizes)).collect()
     }
 
-    fn arrow(&self, arrow: &Planned, at: &BodyFrame) -> Option<Arrow> {
+    fn arrow(&self, arrow: &Planned, at: &BodyFrame, sizes: ArrowSizes) -> Option<Arrow> {
         let (number, body) = &self.bodies[arrow.of];
         let vector = shown(arrow.quantity, body, at);
         let from = root(body, at, vector);
-        let to = from + vector * arrow.scale;
-        // One that is shorter than it is wide says nothing.
-        let is_seen = to.is_finite() && from.distance(to) >= self.radius;
-        let (quantity, color) = (arrow.quantity, arrow.color);
-        is_seen.then_some(Arrow { body: *number, quantity, from, to, radius: self.radius, color })
+        let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.kind]);
+        let is_seen = to.is_finite() && from.distance(to) > NOTHING * sizes.view;
+        let Planned { quantity, color, .. } = *arrow;
+        is_seen.then_some(Arrow { body: *number, quantity, from, to, radius: sizes.radius, color })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_round() {
+        for (number, round) in [(0.37, 0.3), (0.5, 0.5), (7.0, 6.0), (1.0, 1.0), (1.9e-9, 1.5e-9), (0.0, 1.0)]
+        {
+            assert!((round_down(number) / round - 1.0).abs() < 1e-12, "{number}");
+        }
     }
 }

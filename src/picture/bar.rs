@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::framing::decimal_step;
-use super::grid::SIZE;
+use super::grid::{LEAST_PIXELS, SIZE};
 use super::length::{prefixed, value};
 use super::screen::Screen;
 use super::stage::Scenery;
-use super::text::{MARGIN, Text, Vertical, across, is_top};
+use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};
 use crate::scene::{Color, ScaleBar, Scene};
 
 /// A scale bar on the plane before the camera, on which the picture is 2 wide.
@@ -42,7 +42,8 @@ impl ScaleBars {
     pub(super) fn new(scene: &Scene, bar: ScaleBar, scenery: &Scenery, ink: Color) -> ScaleBars {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
-        ScaleBars { bar, middle, height: SIZE * 2.0 * aspect, ink }
+        let height = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
+        ScaleBars { bar, middle, height, ink }
     }
 
     /// The bar on the plane before a camera, and its number; none if the middle of the motion is behind the camera.

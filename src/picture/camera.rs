@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::framing::{self, Field, Framing};
 use super::screen::Screen;
-use crate::scene::{Blur, Camera, Output, Projection, Scene};
+use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
 /// A camera that has its place, in metres.
@@ -33,16 +33,17 @@ pub enum Lens {
 }
 
 impl Placed {
-    /// The camera of a picture of the given size; what is not given follows from the bounds of the motion.
-    fn new(camera: &Camera, bounds: Bounds, output: Output) -> Placed {
+    /// The camera of a picture of the given size. A place that is not given is such that the bounds are seen from the
+    /// direction `towards`.
+    fn new(camera: &Camera, bounds: Bounds, towards: DVec3, output: Output) -> Placed {
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
                 let field = Field::new(angle, output);
-                (Lens::Perspective { angle }, framing::perspective(bounds, field, camera.look_at))
+                (Lens::Perspective { angle }, framing::perspective(bounds, field, camera.look_at, towards))
             }
             Projection::Orthographic { width } => {
-                let towards =
-                    camera.location.zip(camera.look_at).map(|(location, look_at)| location - look_at);
+                let given = camera.location.zip(camera.look_at).map(|(location, look_at)| location - look_at);
+                let towards = given.unwrap_or(towards);
                 let (auto, seen) = framing::orthographic(bounds, output, camera.look_at, towards);
                 (Lens::Orthographic { width: width.unwrap_or(seen) }, auto)
             }
@@ -122,14 +123,18 @@ impl Placed {
         self.output.width > WIDE * self.output.height
     }
 
-    /// How many pixels a ball is wide whose centre is so far from the camera, m.
-    pub(super) fn pixels(&self, radius: f64, distance: f64) -> f64 {
-        let width = f64::from(self.output.width);
+    /// The width of what is seen, m, as far away as what it looks at. It may look at a point before or behind
+    /// everything that happens within the bounds; then it counts how far away the bounds are there.
+    pub(super) fn width_of_view(&self, bounds: Bounds) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => {
-                radius / distance / Field::new(angle, self.output).horizontal * width
+                let sight = self.look_at - self.location;
+                let middle = self.look_at.clamp(bounds.min, bounds.max);
+                let depth = (middle - self.location).dot(sight.normalize_or_zero());
+                let depth = if depth > 0.0 { depth } else { sight.length() };
+                2.0 * depth * Field::new(angle, self.output).horizontal
             }
-            Lens::Orthographic { width: seen } => 2.0 * radius / seen * width,
+            Lens::Orthographic { width } => width,
         }
     }
 
@@ -167,15 +172,14 @@ struct Moving {
 }
 
 impl Eye {
-    /// A camera of a scene; what is not given follows from the bounds of the motion.
-    pub(super) fn new(camera: &Camera, bounds: Bounds, scene: &Scene) -> Eye {
+    /// A camera of a scene. A place that is not given is such that the bounds are seen from the direction `towards`.
+    pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Eye {
         let followed = camera.motion.follow.map(|follow| {
             let body = &scene.bodies[follow.body];
-            let size = body.drawn().support(DQuat::IDENTITY, DVec3::Y).unwrap_or(1.0);
-            (follow.body, body.start.location, size)
+            (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
         let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed });
-        Eye { placed: Placed::new(camera, bounds, scene.output), moving }
+        Eye { placed: Placed::new(camera, bounds, towards, scene.output), moving }
     }
 
     /// The camera before it moves.
@@ -186,6 +190,13 @@ impl Eye {
     /// Whether it is not the same in all frames.
     pub(super) fn moves(&self) -> bool {
         self.moving.is_some()
+    }
+
+    /// The camera at a time (s), if what it follows were still where it starts.
+    pub(super) fn early(&self, time: f64) -> Placed {
+        let Some(Moving { camera, followed }) = &self.moving else { return self.placed };
+        let (_, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
+        self.placed.moved(camera, size, time, [start, start])
     }
 
     /// The camera of a frame.
@@ -202,6 +213,13 @@ impl Eye {
         };
         self.placed.moved(camera, size, frame.time, [start, here])
     }
+}
+
+/// Half the width of a body as it is drawn, in the direction of its own axes in which it is widest, m; none for a plane.
+pub(super) fn half_width(body: &Body) -> Option<f64> {
+    let drawn = body.drawn();
+    let reach = |direction| drawn.support(DQuat::IDENTITY, direction);
+    [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).reduce(f64::max)
 }
 
 /// What a camera looks at whose place alone is given: the middle of the motion, or from there straight ahead.

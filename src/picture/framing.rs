@@ -5,9 +5,23 @@ use glam::DVec3;
 use crate::scene::Output;
 use crate::simulate::Bounds;
 
-/// From the middle of the motion towards a camera that the scene does not place: in front, a little to the right
-/// and a little above.
-const TOWARDS_CAMERA: DVec3 = DVec3::new(0.16, 0.11, 1.0);
+/// Far to the front, a little to the side, a little above.
+const FRONT: f64 = 1.0;
+const ASIDE: f64 = 0.16;
+const ABOVE: f64 = 0.11;
+/// High above: a circle on the ground is seen as an ellipse, and not from its edge.
+const HIGH_ABOVE: f64 = 0.7;
+
+/// From the middle of the motion towards a camera that the scene does not place. It looks onto the plane in which most
+/// happens: usually from the front; along x where everything moves in y and z; from above where it moves in x and z.
+pub(super) fn towards_camera(moving: Bounds) -> DVec3 {
+    let extent = moving.max - moving.min;
+    let from_the_side = extent.z > 2.0 * extent.x;
+    let (across, depth) = if from_the_side { (extent.z, extent.x) } else { (extent.x, extent.z) };
+    let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
+    let above = if is_flat { HIGH_ABOVE } else { ABOVE };
+    if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
+}
 
 /// How much of the picture, each way, the motion may fill.
 const FILL: f64 = 0.86;
@@ -36,8 +50,8 @@ impl Field {
 }
 
 /// Places the camera so that the bounds fill the picture. With `look_at` given, only the distance is chosen.
-pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>) -> Framing {
-    let (right, up, back) = axes(TOWARDS_CAMERA);
+pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, towards: DVec3) -> Framing {
+    let (right, up, back) = axes(towards);
     let corners = corners(bounds);
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
@@ -53,15 +67,15 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>) 
     rounded(aim, back, distance)
 }
 
-/// Places a camera without perspective, and tells the width that it has to see. With `towards` given, it looks from
-/// there.
+/// Places a camera without perspective that is seen in the direction `towards`, and says the width (m) that it has to
+/// see.
 pub(super) fn orthographic(
     bounds: Bounds,
     output: Output,
     look_at: Option<DVec3>,
-    towards: Option<DVec3>,
+    towards: DVec3,
 ) -> (Framing, f64) {
-    let (right, up, back) = axes(towards.unwrap_or(TOWARDS_CAMERA));
+    let (right, up, back) = axes(towards);
     let aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let aspect = f64::from(output.width) / f64::from(output.height);
     let half = |corner: DVec3| {
@@ -167,7 +181,7 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = perspective(bounds, field, None);
+            let framing = perspective(bounds, field, None, towards_camera(bounds));
             let (right, up, back) = axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
@@ -185,9 +199,9 @@ mod tests {
     #[test]
     fn without_perspective_all_corners_are_in_the_picture_too() {
         let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
-        for towards in [None, Some(DVec3::Y), Some(DVec3::Z), Some(DVec3::new(1.0, 1.0, 1.0))] {
+        for towards in [towards_camera(bounds), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)] {
             let (framing, width) = orthographic(bounds, WIDE, None, towards);
-            let (right, up, _) = axes(towards.unwrap_or(TOWARDS_CAMERA));
+            let (right, up, _) = axes(towards);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
                 let offset = corner - framing.look_at;
@@ -196,6 +210,23 @@ mod tests {
             }
             assert!((fullest - FILL).abs() < 0.03, "{towards:?} fills {fullest}");
         }
+    }
+
+    #[test]
+    fn the_camera_looks_onto_the_plane_in_which_most_happens() {
+        let towards = |size: [f64; 3]| {
+            let half = DVec3::from_array(size) / 2.0;
+            towards_camera(Bounds { min: -half, max: half }).to_array()
+        };
+        let front = [ASIDE, ABOVE, FRONT];
+        for size in [[9.0, 5.0, 1.0], [1.0, 1.0, 1.0], [5.0, 3.0, 3.0], [100.0, 0.8, 1.2], [0.2, 100.0, 0.2]]
+        {
+            assert_eq!(towards(size), front, "{size:?}");
+        }
+        assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
+        assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
+        assert_eq!(towards([0.5, 6.0, 20.0]), [-FRONT, ABOVE, ASIDE]);
+        assert_eq!(towards([2.0, 0.1, 20.0]), [-FRONT, HIGH_ABOVE, ASIDE]);
     }
 
     #[test]

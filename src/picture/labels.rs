@@ -1,13 +1,25 @@
 //! Texts in the picture, with the numbers of the moment.
 
-use super::number;
+use super::arrows::Arrow;
+use super::room::{Rectangle, Room};
 use super::screen::Screen;
-use super::text::{MARGIN, Text, Vertical, across, is_top};
+use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
+use super::{grid, number};
 use crate::dynamics::Balance;
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
 use crate::simulate::{BodyFrame, Frame};
+
+/// The usual height of a line, as part of the picture's height.
+const SIZE: f64 = 0.055;
+/// The least height of a line where none is given, pixels.
+const LEAST_PIXELS: f64 = 13.0;
+/// The distance from the base line of one line of text to the next, in heights of a line.
+const LINE: f64 = 1.15;
+/// How far the letters reach above and below their base line, in heights of a line.
+const ABOVE: f64 = 0.75;
+const BELOW: f64 = 0.25;
 
 /// The labels of a scene.
 #[derive(Clone, Debug)]
@@ -15,6 +27,8 @@ pub(super) struct Labels {
     labels: Vec<Planned>,
     /// The bodies of the scene, if labels look at any.
     bodies: Vec<Body>,
+    /// The height of the picture, as part of its width.
+    aspect: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -39,42 +53,63 @@ impl Labels {
     /// Plans the labels for pictures of a height, as part of their width.
     pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-        let mut used = [0.0; Corner::ALL.len()];
+        let mut taken: Vec<Taken> =
+            scene.scale_bar.map(|bar| under_bar(bar.corner, aspect)).into_iter().collect();
         let plan = |label: &Label| {
-            let height = label.size * 2.0 * aspect;
+            let usual = (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, scene.output));
+            let mut height = label.size.map_or(usual, |size| 2.0 * aspect * size);
             let mut inset = 0.0;
             if let LabelPlace::Corner(corner) = label.place {
-                let used = &mut used[corner as usize];
-                inset = MARGIN + *used + height / 2.0;
-                *used += 1.15 * height;
+                // A line that is wider than the picture is made smaller.
+                let wide = width(&longest(label), 1.0);
+                height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
+                inset = inset_without_overlap(&mut taken, corner, wide * height, height);
             }
             Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let bodies = if labels.is_empty() { Vec::new() } else { scene.bodies.clone() };
-        Labels { labels, bodies }
+        Labels { labels, bodies, aspect }
     }
 
-    /// The labels of a frame, on the plane before its camera.
-    pub(super) fn at<'a>(&'a self, frame: &Frame, screen: &Screen) -> Vec<Text<'a>> {
+    /// The labels of a frame, on the plane before its camera. Those beside bodies keep off its arrows and other texts.
+    pub(super) fn at<'a>(
+        &'a self,
+        frame: &Frame,
+        screen: &Screen,
+        arrows: &[Arrow],
+        others: &[Text<'_>],
+    ) -> Vec<Text<'a>> {
         let now = Moment {
             time: frame.time,
             frame: frame.index,
             balance: Some(&frame.balance),
             bodies: &frame.bodies,
         };
+        let mut room = Room::new(self.aspect);
+        others.iter().for_each(|text| room.dislike(area(text, self.aspect)));
         let mut texts = Vec::new();
         for planned in &self.labels {
-            match planned.label.place {
-                LabelPlace::Corner(corner) => texts.push(self.in_corner(planned, corner, &now)),
-                LabelPlace::Body { body, side, ghosts } => {
-                    for ghost in frame.past.ghosts.iter().filter(|ghost| ghosts && ghost.body.id == body) {
-                        let bodies = std::slice::from_ref(&ghost.body);
-                        let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
-                        texts.extend(self.beside(planned, (&ghost.body, side), &then, screen));
-                    }
-                    texts.extend(self.beside(planned, (&frame.bodies[body], side), &now, screen));
+            if let LabelPlace::Corner(corner) = planned.label.place {
+                let text = self.in_corner(planned, corner, &now);
+                room.take(area(&text, self.aspect));
+                texts.push(text);
+            }
+        }
+        if texts.len() < self.labels.len() {
+            for arrow in arrows {
+                if let (Some(from), Some(to)) = (screen.spot(arrow.from), screen.spot(arrow.to)) {
+                    room.cross([from.x, from.y], [to.x, to.y], 4.0 * arrow.radius * to.metre);
                 }
+            }
+        }
+        for planned in &self.labels {
+            let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
+            texts.extend(self.beside(planned, (&frame.bodies[body], side), &now, screen, &mut room));
+            for ghost in frame.past.ghosts.iter().filter(|ghost| ghosts && ghost.body.id == body) {
+                let bodies = std::slice::from_ref(&ghost.body);
+                let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
+                texts.extend(self.beside(planned, (&ghost.body, side), &then, screen, &mut room));
             }
         }
         texts
@@ -89,27 +124,70 @@ impl Labels {
         self.text(planned, (x, y), align, now)
     }
 
+    /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
+    /// or farther away where it would lie on an arrow or on another text.
     fn beside<'a>(
         &'a self,
         planned: &'a Planned,
         (at, side): (&BodyFrame, Side),
         moment: &Moment<'_>,
         screen: &Screen,
+        room: &mut Room,
     ) -> Option<Text<'a>> {
         let shape = self.bodies[at.id].drawn();
         let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0);
         let spot = screen.spot(at.location)?;
         let (up, right) = (screen.up(), screen.right());
-        let (x, y, align) = match side {
-            Side::Above => (0.0, reach(up) * spot.metre + 0.3 * planned.height, 0.5),
-            Side::Below => (0.0, -reach(-up) * spot.metre - 0.9 * planned.height, 0.5),
-            Side::Left => (-reach(-right) * spot.metre - 0.35 * planned.height, -0.3 * planned.height, 1.0),
-            Side::Right => (reach(right) * spot.metre + 0.35 * planned.height, -0.3 * planned.height, 0.0),
+        let [above, below, to_right, to_left] =
+            [up, -up, right, -right].map(|direction| reach(direction) * spot.metre);
+        if spot.x + to_right < -1.0
+            || spot.x - to_left > 1.0
+            || spot.y + above < -self.aspect
+            || spot.y - below > self.aspect
+        {
+            return None;
+        }
+        let height = planned.height;
+        let at_side = |side: Side, farther: f64| match side {
+            Side::Above => (0.0, above + 0.3 * height + farther, 0.5),
+            Side::Below => (0.0, -below - 0.9 * height - farther, 0.5),
+            Side::Left => (-to_left - 0.35 * height - farther, -0.3 * height, 1.0),
+            Side::Right => (to_right + 0.35 * height + farther, -0.3 * height, 0.0),
         };
-        let (x, y) = (spot.x + x, spot.y + y);
-        // What is out of the picture may be far out.
-        let is_near = x.abs() < 2.0 && y.abs() < 2.0;
-        is_near.then(|| self.text(planned, (x, Vertical::Middle(y)), align, moment))
+        let candidate = |side: Side, lines: f64| {
+            let (x, y, align) = at_side(side, lines * LINE * height);
+            let text = self.text(planned, (spot.x + x, Vertical::Middle(spot.y + y)), align, moment);
+            self.kept_inside(text)
+        };
+        let others = match side {
+            Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
+            Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
+        };
+        let near = others.map(|side| candidate(side, 0.0));
+        let far = (1..=8).flat_map(|lines| others.map(|side| candidate(side, f64::from(lines))));
+        let is_free = |text: &&Text<'_>| room.is_free(area(text, self.aspect));
+        let best = near.iter().find(|text| is_free(text) && room.is_liked(area(text, self.aspect)));
+        let free = best.or_else(|| near.iter().find(is_free)).cloned();
+        let free = free.or_else(|| far.into_iter().find(|text| room.is_free(area(text, self.aspect))));
+        let text = free.unwrap_or_else(|| candidate(side, 0.0));
+        room.take(area(&text, self.aspect));
+        Some(text)
+    }
+
+    /// A text that would leave the picture, moved to its edge.
+    fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
+        let area = area(&text, self.aspect);
+        let edge = 1.0 - MARGIN / 2.0;
+        let shift = |low: f64, high: f64, edge: f64| {
+            if high - low > 2.0 * edge {
+                -(low + high) / 2.0
+            } else {
+                (edge - high).min(0.0) + (-edge - low).max(0.0)
+            }
+        };
+        let x = text.x + shift(area.left, area.right, edge);
+        let y = text.y.raised(shift(area.bottom, area.top, self.aspect - MARGIN / 2.0));
+        Text { x, y, ..text }
     }
 
     fn text<'a>(
@@ -163,6 +241,83 @@ impl Labels {
                     bodies.find(|body| body.id == number)
                 };
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
+            }
+        }
+    }
+}
+
+/// The other side of a body.
+fn opposite(side: Side) -> Side {
+    match side {
+        Side::Above => Side::Below,
+        Side::Below => Side::Above,
+        Side::Left => Side::Right,
+        Side::Right => Side::Left,
+    }
+}
+
+/// The part of the picture that a text takes.
+fn area(text: &Text<'_>, aspect: f64) -> Rectangle {
+    let wide = width(&text.says, text.height);
+    let (left, base) = (text.x - text.align * wide, text.y.above_middle(aspect));
+    Rectangle {
+        left,
+        right: left + wide,
+        bottom: base - BELOW * text.height,
+        top: base + ABOVE * text.height,
+    }
+}
+
+/// A text as long as what a label may say at any moment: numbers have up to four digits before their point.
+fn longest(label: &Label) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Words(words) => words.clone(),
+        Piece::Value { format: Format::Short, .. } => "0.0000".to_owned(),
+        Piece::Value { format: Format::Decimals(decimals), .. } => "0".repeat(decimals + 3),
+        Piece::Value { format: Format::Scientific(decimals), .. } => "0".repeat(decimals + 5),
+    };
+    label.text.iter().map(piece).collect()
+}
+
+/// What is taken at the upper edge, or at the lower one.
+struct Taken {
+    is_top: bool,
+    /// From where to where across the picture.
+    across: [f64; 2],
+    /// From how far to how far from the edge.
+    inset: [f64; 2],
+}
+
+/// What a scale bar takes, whose length is about a fifth of the picture.
+fn under_bar(corner: Corner, aspect: f64) -> Taken {
+    let (x, align) = across(corner);
+    let left = x - 0.6 * align;
+    Taken {
+        is_top: is_top(corner),
+        across: [left, left + 0.6],
+        inset: [0.0, MARGIN + 4.0 * aspect * grid::SIZE],
+    }
+}
+
+/// How far the middle of a line of text in a corner is from the edge: as near as the lines there leave room.
+fn inset_without_overlap(taken: &mut Vec<Taken>, corner: Corner, wide: f64, height: f64) -> f64 {
+    let (x, align) = across(corner);
+    let across = [x - align * wide, x - align * wide + wide];
+    let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] - 1e-9 && b[0] < a[1] - 1e-9;
+    let mut begin = MARGIN;
+    loop {
+        let down = [begin, begin + LINE * height];
+        let hidden = taken.iter().filter(|line| {
+            let [left, right] = line.across;
+            line.is_top == is_top(corner)
+                && overlap([left - height / 2.0, right + height / 2.0], across)
+                && overlap(line.inset, down)
+        });
+        match hidden.map(|line| line.inset[1]).reduce(f64::max) {
+            Some(end) => begin = end,
+            None => {
+                taken.push(Taken { is_top: is_top(corner), across, inset: down });
+                return begin + height / 2.0;
             }
         }
     }

@@ -18,8 +18,12 @@ mod length;
 mod lights;
 pub(crate) mod number;
 mod plan;
+mod room;
+mod scope;
 mod screen;
 mod stage;
+#[cfg(test)]
+mod tests;
 mod text;
 mod trails;
 
@@ -31,8 +35,8 @@ pub use colors::{of_look, pale};
 pub(crate) use framing::{decimal_step, rounded_outward};
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};
-pub use plan::Plan;
 pub(crate) use plan::has_texts;
+pub use plan::{Largest, Plan};
 pub use screen::{Screen, Spot};
 pub use stage::{Scenery, Stage, StageGround};
 pub use text::{Text, Vertical};

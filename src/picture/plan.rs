@@ -1,22 +1,23 @@
 //! What all frames of a run have in common, and with it what the picture of each shows.
 
-use glam::DQuat;
+use std::borrow::Cow;
 
-use super::arrows::{Arrow, Arrows, Axes};
+use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
-use super::camera::{Eye, Placed};
+use super::camera::{Eye, Placed, half_width};
 use super::coils::{Coil, Coils};
 use super::ghosts::Ghosts;
-use super::grid::{Grid, Ruled};
+use super::grid::{Grid, Ruled, Ruler};
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
+use super::scope::{Scope, largest};
 use super::screen::Screen;
-use super::stage::{self, Stage};
+use super::stage::{Scenery, Stage, stroke};
 use super::text::Text;
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
 use crate::scene::{Body, Camera, Scene};
-use crate::simulate::{BodyFrame, Frame, Ghost, Survey};
+use crate::simulate::{BodyFrame, Bounds, Frame, Ghost, Survey};
 
 /// What all frames of a run, seen by one camera, have in common; made once.
 #[derive(Clone, Debug)]
@@ -29,12 +30,39 @@ pub struct Plan {
     coils: Coils,
     ghosts: Ghosts,
     trails: Trails,
-    grid: Option<Ruled>,
+    ruler: Option<Ruler>,
+    /// The whole grid, if the camera stands still.
+    ruled: Option<Ruled>,
     bar: Option<ScaleBars>,
     labels: Labels,
     /// The plane before the camera as it is at the start, if anything is written on it.
     screen: Option<Screen>,
-    largest_in_pixels: Option<f64>,
+    /// The sizes of what is drawn beside the bodies, as the camera sees them at the start.
+    sizes: Sizes,
+    largest: Option<Largest>,
+    /// The end of what the camera frames, s, if that is only the start of the run.
+    framed_until: Option<f64>,
+}
+
+/// How large things are in a picture.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    /// The width of what the camera sees, m.
+    view: f64,
+    /// The width of a line that is well seen, m.
+    stroke: f64,
+    arrows: ArrowSizes,
+}
+
+/// The largest body, and how small it is in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Largest {
+    /// Its name.
+    pub name: String,
+    /// How many pixels it is wide in the picture, where it is largest there.
+    pub pixels: f64,
+    /// How many pixels it would be wide if the camera framed the whole run.
+    pub pixels_in_whole: f64,
 }
 
 /// Whether a scene writes anything into its pictures.
@@ -45,31 +73,71 @@ pub(crate) fn has_texts(scene: &Scene) -> bool {
 impl Plan {
     /// The plan of a scene that one of its cameras sees, and whose run has been looked over.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
-        let exact = stage::bounds(survey);
-        // What stands around is made for the bodies; arrows and axes are no reason to lower the ground.
-        let seen = framing::rounded_outward(survey.seen.unwrap_or(exact));
-        let eye = Eye::new(camera, seen, scene);
+        let scope = Scope::new(scene, camera, survey);
+        let (span, whole) = (&scope.span, scope.whole);
+        let towards = framing::towards_camera(span.moving);
+        let eye_on = |bounds: Bounds| Eye::new(camera, framing::rounded_outward(bounds), towards, scene);
+        // Arrows and grid are as large as a camera asks for that sees the bodies; then the camera is placed so that it
+        // sees their ends, too.
+        let first = eye_on(span.seen);
+        let view = first.early(0.0).width_of_view(whole);
+        let ink = colors::ink(scene);
+        let scenery = Scenery::new(scene, span.bounds, whole, view);
+        let part = first.moves().then_some(view);
+        let ruler = scene.grid.map(|grid| Ruler::new(scene, grid, &scenery, part, ink));
+        let longest = [0, 1, 2].map(|kind: usize| span.arrows[kind].largest);
+        let scales = round_scales(longest, view);
+        let mut seen = span.seen;
+        for tips in (0..3).filter_map(|kind| span.arrows[kind].tips(scales[kind])) {
+            seen = seen.union(tips);
+        }
+        if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {
+            seen = seen.union(grid.bounds());
+        }
+        let eye = eye_on(seen);
         let placed = eye.placed();
-        let stage = Stage::new(scene, exact, placed);
+        let early = eye.early(0.0).width_of_view(whole);
+        let arrows = Arrows::new(scene, longest);
+        let width = stroke(early, scene.output);
+        let sizes = Sizes {
+            view: early,
+            stroke: width,
+            // The round scales are those for which the camera has made room.
+            arrows: arrows.still_sizes(scales, early, width),
+        };
+        // The ground is made for the bodies; arrows and axes are no reason to lower it.
+        let stage = Stage::new(scene, scenery, whole, placed);
         let distance = placed.location().distance(stage.center);
         let lights = Lights::new(scene, stage.center, stage.size.max(distance));
-        let stroke = stage.scenery.stroke;
-        let ink = colors::ink(scene);
+        let still = ruler.as_ref().filter(|_| !eye.moves());
         Plan {
             lights_move: lights.moves(),
             lights,
-            arrows: Arrows::new(scene, survey.arrow_scales, stroke),
+            arrows,
             coils: Coils::new(scene),
             ghosts: Ghosts::new(scene),
-            trails: Trails::new(scene, stroke),
-            grid: scene.grid.and_then(|grid| Ruled::new(scene, grid, &stage.scenery, ink)),
+            trails: Trails::new(scene, stroke(narrowest_view(scene, &eye, whole), scene.output)),
+            ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
+            ruler,
             bar: scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &stage.scenery, ink)),
             labels: Labels::new(scene, ink),
             screen: has_texts(scene).then(|| placed.screen()),
-            largest_in_pixels: largest_in_pixels(scene, placed, distance),
+            largest: largest_seen(scene, camera, survey, &eye),
+            framed_until: scope.is_start.then_some(span.until),
+            sizes,
             stage,
             eye,
         }
+    }
+
+    /// The sizes of what is drawn beside the bodies of a frame: the same in all frames, if the camera stands still.
+    fn sizes(&self, frame: &Frame) -> Sizes {
+        if !self.eye.moves() {
+            return self.sizes;
+        }
+        let view = self.eye.at(frame).width_of_view(self.stage.whole);
+        let stroke = self.sizes.stroke * (view / self.sizes.view);
+        Sizes { view, stroke, arrows: self.arrows.sizes(view, stroke) }
     }
 
     /// What surrounds the bodies.
@@ -122,7 +190,7 @@ impl Plan {
 
     /// The arrows of a frame, in the order of the bodies.
     pub fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
-        self.arrows.arrows(frame)
+        self.arrows.arrows(frame, self.sizes(frame).arrows)
     }
 
     /// The axes that are drawn on bodies of a frame, in the order of the bodies.
@@ -140,33 +208,58 @@ impl Plan {
         self.ghosts.drawn(frame)
     }
 
-    /// The arrows of a body as it was, if its ghosts have any.
-    pub fn ghost_arrows(&self, ghost: &BodyFrame) -> Vec<Arrow> {
-        self.arrows.of_ghost(ghost)
+    /// The arrows of a body as it was, in the picture of a frame, if its ghosts have any.
+    pub fn ghost_arrows(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
+        self.arrows.of_ghost(ghost, self.sizes(frame).arrows)
     }
 
     /// The trails up to a frame.
     pub fn trails(&self, frame: &Frame) -> Vec<Trail> {
-        self.trails.up_to(frame)
+        self.trails.up_to(frame, self.stroke(frame))
     }
 
-    /// The trails that are asked for, without their points.
-    pub fn planned_trails(&self) -> &[Trail] {
-        self.trails.planned()
+    /// The width of a line that is well seen in a frame, m: that of trails without a width.
+    pub fn stroke(&self, frame: &Frame) -> f64 {
+        self.sizes(frame).stroke
+    }
+
+    /// The trails that are asked for, without their points, as wide as at the start.
+    pub fn planned_trails(&self) -> Vec<Trail> {
+        self.trails.planned(self.sizes.stroke).collect()
     }
 
     /// What is written in a frame: the numbers of the grid, that of the scale bar, the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
         let Some(screen) = self.screen(frame) else { return Vec::new() };
-        let mut texts = self.numbers(&screen);
-        texts.extend(self.bar_on(&screen).map(|(_, number)| number));
-        texts.extend(self.labels(frame, &screen));
-        texts
+        let numbers = self.numbers(frame, &screen);
+        let labels = self.labels(frame, &screen, &numbers);
+        let bar = self.bar_on(&screen).map(|(_, number)| number);
+        numbers.into_iter().chain(bar).chain(labels).collect()
     }
 
-    /// The lines of the grid, which are the same in all frames.
-    pub fn grid(&self) -> Option<&Grid> {
-        self.grid.as_ref().map(Ruled::grid)
+    /// The lines of the grid, if they are the same in all frames: if the camera stands still.
+    pub fn still_grid(&self) -> Option<&Grid> {
+        self.ruled.as_ref().map(Ruled::grid)
+    }
+
+    /// The lines of the grid in a frame.
+    pub fn grid(&self, frame: &Frame) -> Option<Grid> {
+        Some(self.ruled(frame)?.grid().clone())
+    }
+
+    /// The grid in a frame: around what the camera looks at, if the camera moves.
+    fn ruled(&self, frame: &Frame) -> Option<Cow<'_, Ruled>> {
+        if let Some(ruled) = &self.ruled {
+            return Some(Cow::Borrowed(ruled));
+        }
+        let sizes = self.sizes(frame);
+        let point = self.eye.at(frame).look_at();
+        self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.around(point, sizes.stroke, sizes.view)))
+    }
+
+    /// The spacing that the scene gives the grid and the one that is drawn, m, if the first would make too many lines.
+    pub fn too_fine_grid(&self) -> Option<(f64, f64)> {
+        self.ruler.as_ref()?.too_fine()
     }
 
     /// The scale bar of a frame.
@@ -180,9 +273,9 @@ impl Plan {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
     }
 
-    /// The numbers of the grid on a plane.
-    pub(crate) fn numbers(&self, screen: &Screen) -> Vec<Text<'_>> {
-        self.grid.as_ref().map_or_else(Vec::new, |grid| grid.numbers(screen))
+    /// The numbers of the grid of a frame on a plane.
+    pub(crate) fn numbers(&self, frame: &Frame, screen: &Screen) -> Vec<Text<'static>> {
+        self.ruled(frame).map_or_else(Vec::new, |grid| grid.numbers(screen))
     }
 
     /// The scale bar on a plane, and its number.
@@ -190,25 +283,52 @@ impl Plan {
         self.bar.as_ref()?.on(screen)
     }
 
-    /// The labels of a frame on a plane.
-    pub(crate) fn labels<'a>(&'a self, frame: &Frame, screen: &Screen) -> Vec<Text<'a>> {
-        self.labels.at(frame, screen)
+    /// The labels of a frame on a plane, where other texts stand already.
+    pub(crate) fn labels<'a>(&'a self, frame: &Frame, screen: &Screen, others: &[Text<'_>]) -> Vec<Text<'a>> {
+        let mut arrows = self.arrows(frame);
+        let ghosts = self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body));
+        arrows.extend(ghosts);
+        self.labels.at(frame, screen, &arrows, others)
     }
 
-    /// How many pixels the largest body is wide in the middle of the picture, if that is too little to be seen.
-    pub fn too_small(&self) -> Option<f64> {
-        self.largest_in_pixels.filter(|&pixels| pixels < SMALLEST_SEEN)
+    /// The end of what the camera frames, s, if that is only the start of the run: the whole of it would leave the
+    /// bodies too small.
+    pub fn framed_until(&self) -> Option<f64> {
+        self.framed_until
+    }
+
+    /// The largest body, if it is too small to be seen, or would be if the camera framed the whole run.
+    pub fn too_small(&self) -> Option<&Largest> {
+        let is_small = |largest: &&Largest| largest.pixels < SMALLEST_SEEN || self.framed_until.is_some();
+        self.largest.as_ref().filter(is_small)
     }
 }
 
 /// So many pixels across, a body is a dot.
 const SMALLEST_SEEN: f64 = 4.0;
 
-/// The width of the largest body in the picture, if it is as far from the camera as the middle of the motion.
-fn largest_in_pixels(scene: &Scene, camera: &Placed, distance: f64) -> Option<f64> {
-    let reach = |body: &Body| body.drawn().support(DQuat::IDENTITY, glam::DVec3::Y);
-    let largest = scene.bodies.iter().filter_map(reach).reduce(f64::max)?;
-    Some(camera.pixels(largest, distance))
+/// The narrowest view of a camera in a run that takes place within bounds, m. One that moves is looked through at 33 times.
+fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
+    let times = if eye.moves() { 32 } else { 0 };
+    let views = (0..=times).map(|number| {
+        let time = scene.simulation.duration * f64::from(number) / 32.0;
+        eye.early(time).width_of_view(bounds)
+    });
+    views.fold(f64::MAX, f64::min)
+}
+
+/// How wide the largest body is in the picture of a camera.
+fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
+    let body: &Body = largest(scene)?;
+    let whole = survey.spans.last()?;
+    let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
+    let towards = framing::towards_camera(whole.moving);
+    let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
+    Some(Largest {
+        name: body.name.clone(),
+        pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
+        pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
+    })
 }
 
 #[cfg(test)]
@@ -234,7 +354,7 @@ mod tests {
         assert!(plan.arrows(&frame).is_empty() && plan.axes(&frame).is_empty());
         assert!(plan.coils(&frame).is_empty() && plan.trails(&frame).is_empty());
         assert!(plan.texts(&frame).is_empty() && plan.ghosts(&frame).next().is_none());
-        assert!(plan.grid().is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
+        assert!(plan.grid(&frame).is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
         assert!(plan.lights(0.5).is_empty() && !plan.camera_moves() && !plan.lights_move());
     }
 
@@ -258,7 +378,7 @@ mod tests {
         let ghosts: Vec<f64> = plan.ghosts(&frame).map(|ghost| ghost.time).collect();
         assert_eq!(ghosts, [0.0, 0.25]);
         for ghost in plan.ghosts(&frame) {
-            let [arrow] = plan.ghost_arrows(&ghost.body)[..] else { panic!("they have arrows") };
+            let [arrow] = plan.ghost_arrows(&frame, &ghost.body)[..] else { panic!("they have arrows") };
             assert!(arrow.from.distance(ghost.body.location) < 0.1 + 1e-9);
         }
     }
@@ -269,7 +389,7 @@ mod tests {
         let texts = plan.texts(&frame);
         let says = |name: &str| texts.iter().find(|text| text.name == name).map(|text| text.says.as_ref());
         assert_eq!((says("now"), says("scale bar")), (Some("0.5 s"), Some("1 m")));
-        assert!(says("grid").is_some() && plan.grid().is_some_and(|grid| !grid.lines.is_empty()));
+        assert!(says("grid").is_some() && plan.grid(&frame).is_some_and(|grid| !grid.lines.is_empty()));
         let (bar, number) = plan.bar_on(&plan.screen(&frame).unwrap()).unwrap();
         assert_eq!(Some(bar), plan.bar(&frame));
         assert!(number.y.above_middle(0.5) > bar.y.above_middle(0.5));

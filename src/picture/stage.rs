@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::camera::Placed;
 use super::framing;
-use crate::scene::{Color, Environment, Preset, Scene, Sky};
-use crate::simulate::{Bounds, Survey};
+use crate::scene::{Color, Environment, Output, Preset, Scene, Sky};
+use crate::simulate::Bounds;
 
 /// What surrounds the bodies. Lengths are in metres.
 #[derive(Clone, Debug)]
@@ -34,6 +34,8 @@ pub struct Stage {
     pub fog: bool,
     /// Where everything takes place, for what is measured there.
     pub scenery: Scenery,
+    /// The box of the whole run, not rounded, also where the camera frames only its start.
+    pub whole: Bounds,
 }
 
 /// The ground. Lengths are in metres.
@@ -56,35 +58,49 @@ pub struct Scenery {
     pub ground: f64,
     /// The edge of one of its tiles.
     pub tile: f64,
-    /// The width of a line that is well seen in the middle of the motion.
-    pub stroke: f64,
+    /// The edge of a tile where none is given.
+    pub usual_tile: f64,
 }
 
-/// Where there is nothing to see, this is looked at.
-const NOTHING: Bounds = Bounds { min: DVec3::NEG_ONE, max: DVec3::ONE };
+impl Scenery {
+    /// What is measured where a camera frames the bounds `framed` and sees a width of `view` (m). The whole run takes
+    /// place within `whole`.
+    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64) -> Scenery {
+        let around = scene.environment.ground.as_ref();
+        let size = size(framed);
+        // A camera near to a long motion sees little of it: then tiles are as large as fits its picture.
+        let usual_tile = tile(size.min(two_digits_up(view)));
+        Scenery {
+            bounds: framed,
+            ground: around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, size)),
+            tile: around.and_then(|ground| ground.tile).unwrap_or(usual_tile),
+            usual_tile,
+        }
+    }
+}
+
+/// The width of a line that is well seen in a picture that shows a width of `view`, m.
+pub(super) fn stroke(view: f64, output: Output) -> f64 {
+    STROKE.max(LEAST_STROKE / f64::from(output.width)) * view
+}
+
+/// The diagonal of a box, rounded up.
+fn size(bounds: Bounds) -> f64 {
+    two_digits_up(framing::rounded_outward(bounds).diagonal())
+}
 
 /// The width of lines, as part of the picture's: four pixels of 1280.
 const STROKE: f64 = 0.0031;
-
-/// The box in which a run takes place, not rounded.
-pub(super) fn bounds(survey: &Survey) -> Bounds {
-    survey.bounds.unwrap_or(NOTHING)
-}
+/// The least width of lines, pixels.
+const LEAST_STROKE: f64 = 1.5;
 
 impl Stage {
-    /// The surroundings of a scene whose run has taken place within exact bounds, and of which a camera sees all.
-    pub(super) fn new(scene: &Scene, exact: Bounds, camera: &Placed) -> Stage {
-        let bounds = framing::rounded_outward(exact);
-        let center = (bounds.min + bounds.max) / 2.0;
-        let size = two_digits_up((bounds.max - bounds.min).length());
+    /// The surroundings of a scene that a camera sees, whose whole run takes place within bounds.
+    pub(super) fn new(scene: &Scene, scenery: Scenery, whole: Bounds, camera: &Placed) -> Stage {
+        let bounds = framing::rounded_outward(scenery.bounds);
+        let (center, size) = (bounds.middle(), size(scenery.bounds));
         let distance = camera.location().distance(center);
         let around = scene.environment.ground.as_ref();
-        let scenery = Scenery {
-            bounds: exact,
-            ground: around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(exact.min.y, size)),
-            tile: around.and_then(|ground| ground.tile).unwrap_or_else(|| tile(size)),
-            stroke: STROKE * camera.width_at(distance),
-        };
         let ground = around.filter(|_| !scene.output.transparent).map(|_| StageGround {
             height: scenery.ground,
             tile: scenery.tile,
@@ -95,7 +111,7 @@ impl Stage {
             size,
             center,
             ground,
-            tile: tile(size),
+            tile: scenery.usual_tile,
             tiles_fade: 4.5 * size,
             // From far away, more of the ground is to be seen.
             fade: 11.0 * size.max(distance / 2.0),
@@ -108,6 +124,7 @@ impl Stage {
             transparent: scene.output.transparent,
             fog: scene.environment.fog,
             scenery,
+            whole,
         }
     }
 }

@@ -52,6 +52,12 @@ pub struct Stretch {
 }
 
 impl Trail {
+    /// The same, as wide as a stroke (m) if no width is given.
+    fn of_width(self, stroke: f64) -> Trail {
+        let radius = if self.radius > 0.0 { self.radius } else { stroke / 2.0 };
+        Trail { radius, ..self }
+    }
+
     /// Half its width at one of its points, m.
     #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub fn radius_at(&self, number: usize) -> f64 {
@@ -65,43 +71,53 @@ impl Trail {
 /// The trails of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Trails {
-    /// Trails without points, in the order of their bodies.
-    trails: Vec<Trail>,
+    /// In the order of their bodies.
+    trails: Vec<Planned>,
+}
+
+#[derive(Clone, Debug)]
+struct Planned {
+    /// The trail without points. Its radius is 0 if no width is given.
+    trail: Trail,
+    /// The least distance between its points, m. It is the same in all frames, so that stretches are.
+    least: f64,
 }
 
 impl Trails {
-    pub(super) fn new(scene: &Scene, stroke: f64) -> Trails {
+    /// The trails of a scene. The narrowest stroke of the run (m) decides how fine those without a width are.
+    pub(super) fn new(scene: &Scene, narrowest: f64) -> Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
             let Some(trail) = body.showing.trail else { continue };
             let of_body = body.material.and_then(|material| colors::of_look(&scene.materials[material].look));
-            let radius = trail.width.unwrap_or(stroke) / 2.0;
-            trails.push(Trail {
+            let least = trail.width.unwrap_or(narrowest) / 2.0;
+            let trail = Trail {
                 body: number,
                 points: Vec::new(),
                 stretches: Vec::new(),
-                radius,
-                fineness: decimal_step(radius / FINEST),
+                radius: trail.width.unwrap_or(0.0) / 2.0,
+                fineness: decimal_step(least / FINEST),
                 tapers: trail.duration.is_some(),
                 color: trail.color.or(of_body).unwrap_or(AMBER),
-            });
+            };
+            trails.push(Planned { trail, least });
         }
         Trails { trails }
     }
 
-    /// All that are asked for, without points.
-    pub(super) fn planned(&self) -> &[Trail] {
-        &self.trails
+    /// All that are asked for, without points. Those without a width are as wide as a stroke, m.
+    pub(super) fn planned(&self, stroke: f64) -> impl Iterator<Item = Trail> {
+        self.trails.iter().map(move |planned| planned.trail.clone().of_width(stroke))
     }
 
-    /// The trails up to a frame.
-    pub(super) fn up_to(&self, frame: &Frame) -> Vec<Trail> {
+    /// The trails up to a frame. Those without a width are as wide as a stroke, m.
+    pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
         let trail = |way: &Way| {
-            let of = self.trails.binary_search_by_key(&way.body, |trail| trail.body).ok()?;
-            let trail = &self.trails[of];
-            let Line { points, stretches, .. } = Line::along(way, trail.radius);
+            let of = self.trails.binary_search_by_key(&way.body, |planned| planned.trail.body).ok()?;
+            let Planned { trail, least } = &self.trails[of];
+            let Line { points, stretches, .. } = Line::along(way, *least);
             let is_line = points.len() >= 2 && points.iter().all(|point| point.is_finite());
-            is_line.then(|| Trail { points, stretches, ..trail.clone() })
+            is_line.then(|| Trail { points, stretches, ..trail.clone().of_width(stroke) })
         };
         frame.past.trails.iter().filter_map(trail).collect()
     }

@@ -114,9 +114,10 @@ struct Stage {
     timestep: f64,
     steps_per_frame: u32,
     drift: f64,
-    /// Half the width of trails, and their colors in sRGB, by the numbers of their bodies.
+    /// The trails, with colors in sRGB, by the numbers of their bodies.
     trails: Vec<Trail>,
-    grid: Vec<Line>,
+    /// Of each camera: the grid that it sees, if it stands still.
+    grids: Vec<Vec<super::shown::Line>>,
     /// Of each camera: where it stands before it moves.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
@@ -133,17 +134,10 @@ struct Ground {
 #[derive(Serialize)]
 struct Trail {
     body: usize,
-    radius: f64,
+    /// None where the width is not given: then it is a stroke of the frame.
+    radius: Option<f64>,
     color: Color3,
     tapers: bool,
-}
-
-#[derive(Serialize)]
-struct Line {
-    from: [f64; 3],
-    to: [f64; 3],
-    radius: f64,
-    color: Color3,
 }
 
 /// Describes a run as far as it is known.
@@ -178,7 +172,7 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
         views: scene.views.iter().map(|view| view.name.as_str()).collect(),
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
-        stage: outcome.map(stage),
+        stage: outcome.map(|outcome| stage(run, outcome)),
     }
 }
 
@@ -288,16 +282,23 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         .forces
         .iter()
         .any(|force| matches!(force.kind, crate::scene::ForceKind::Spring { coil: Some(_), .. }));
+    let trails = scene.bodies.iter().any(|body| body.showing.trail.is_some());
     let texts = !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some();
     let moves = |plan: &Plan| plan.camera_moves() || plan.lights_move();
-    bodies || springs || texts || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
+    bodies || springs || trails || texts || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
 }
 
 fn lights(lights: &[PlacedLight]) -> Vec<super::shown::Light> {
     lights.iter().map(super::shown::Light::of).collect()
 }
 
-fn stage(outcome: &Outcome) -> Stage {
+fn trail(scene: &Scene, planned: &crate::picture::Trail) -> Trail {
+    let width = scene.bodies[planned.body].showing.trail.and_then(|trail| trail.width);
+    let radius = width.map(|width| width / 2.0);
+    Trail { body: planned.body, radius, color: planned.color.0, tapers: planned.tapers }
+}
+
+fn stage(run: &Simulation, outcome: &Outcome) -> Stage {
     let (plan, survey) = (&outcome.plans[0], &outcome.survey);
     let stage = plan.stage();
     Stage {
@@ -316,20 +317,12 @@ fn stage(outcome: &Outcome) -> Stage {
         timestep: survey.timestep,
         steps_per_frame: survey.steps_per_frame,
         drift: survey.drift,
-        trails: plan
-            .planned_trails()
+        trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
+        grids: outcome
+            .plans
             .iter()
-            .map(|t| Trail { body: t.body, radius: t.radius, color: t.color.0, tapers: t.tapers })
+            .map(|plan| plan.still_grid().map_or_else(Vec::new, super::shown::lines))
             .collect(),
-        grid: plan.grid().map_or_else(Vec::new, |grid| {
-            let line = |line: &crate::picture::Line| Line {
-                from: line.from.to_array(),
-                to: line.to.to_array(),
-                radius: line.radius,
-                color: grid.color.0,
-            };
-            grid.lines.iter().map(line).collect()
-        }),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
         lights: match plan.lights(0.0) {
             given if given.is_empty() => lights(&plan.usual_lights()),

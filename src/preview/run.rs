@@ -153,7 +153,7 @@ impl Simulation {
                 told = Instant::now();
             }
         }
-        let survey = surveyor.finish().map_err(diverged)?;
+        let survey = surveyor.finish();
         let plan = |camera| Plan::new(scene, camera, &survey);
         let views = scene.views.iter().map(|view| plan(&view.camera));
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();

@@ -18,6 +18,10 @@ pub(super) struct Shown {
     camera: Camera,
     /// Given only where they move.
     lights: Option<Vec<Light>>,
+    /// The width of trails without one of their own.
+    stroke: f64,
+    /// Given only where the camera moves.
+    grid: Option<Vec<Line>>,
     arrows: Vec<Arrow>,
     axes: Vec<Axes>,
     coils: Vec<Coil>,
@@ -45,6 +49,15 @@ pub(super) struct Light {
     shadows: bool,
     /// Whether its rays are parallel; then it is far away in the direction of its location.
     sun: bool,
+}
+
+/// A line of a grid.
+#[derive(Serialize)]
+pub(super) struct Line {
+    from: Vector,
+    to: Vector,
+    radius: f64,
+    color: Vector,
 }
 
 #[derive(Serialize)]
@@ -151,7 +164,7 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
     let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
     let height = |y: Vertical| y.above_middle(aspect);
     let mut arrows = plan.arrows(frame);
-    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows(&ghost.body)));
+    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows(frame, &ghost.body)));
     let arrow = |arrow: &picture::Arrow| Arrow {
         from: arrow.from.to_array(),
         to: arrow.to.to_array(),
@@ -193,12 +206,25 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
     Shown {
         camera: Camera::of(&plan.camera(frame)),
         lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
+        stroke: plan.stroke(frame),
+        grid: plan.grid(frame).filter(|_| plan.camera_moves()).map(|grid| lines(&grid)),
         arrows: arrows.iter().map(arrow).collect(),
         axes: plan.axes(frame).iter().map(axes).collect(),
         coils: plan.coils(frame).iter().map(coil).collect(),
         texts: plan.texts(frame).iter().map(text).collect(),
         bar: plan.bar(frame).map(bar),
     }
+}
+
+/// The lines of a grid.
+pub(super) fn lines(grid: &picture::Grid) -> Vec<Line> {
+    let line = |line: &picture::Line| Line {
+        from: line.from.to_array(),
+        to: line.to.to_array(),
+        radius: line.radius,
+        color: grid.color.0,
+    };
+    grid.lines.iter().map(line).collect()
 }
 
 /// The body beside which a label of a name stands.

@@ -12,8 +12,8 @@ pub struct Label {
     pub text: Vec<Piece>,
     /// Where it stands.
     pub place: LabelPlace,
-    /// The height of its lines, as part of the picture's height.
-    pub size: f64,
+    /// The height of its lines, as part of the picture's height; none: as is well read.
+    pub size: Option<f64>,
     /// Its color; none: dark, or light before a dark background.
     pub color: Option<Color>,
 }

@@ -20,10 +20,8 @@ const COLORS: [(&str, Color); 8] = [
 /// The materials that a scene does not declare, each made when it is first needed.
 #[derive(Default)]
 pub(super) struct Palette {
-    /// How many bodies have had their turn; the copies of one have a single turn.
+    /// How many bodies have had their turn, copies included.
     turns: usize,
-    /// The number of the body whose turn it is among the copies of one.
-    copy: usize,
     /// The numbers of the materials that have been made.
     colors: [Option<usize>; COLORS.len()],
     checkered: Option<usize>,
@@ -41,21 +39,13 @@ pub(super) enum Usual {
 }
 
 impl Palette {
-    /// Says which copy of a body the next one is, from 0.
-    pub(super) fn copy(&mut self, copy: usize) {
-        self.copy = copy;
-    }
-
-    /// The usual look of the next body in the file. A body added at the end changes no other's, and neither does a copy: copies go on
-    /// from the color of the first.
+    /// The usual look of the next body, in the order of the file. A body added at the end changes no other's.
     pub(super) fn next(&mut self, shape: &Shape) -> Usual {
         if matches!(shape, Shape::Plane { .. }) {
             return Usual::Checkered;
         }
-        if self.copy == 0 {
-            self.turns += 1;
-        }
-        Usual::Color((self.turns + self.copy - 1) % COLORS.len())
+        self.turns += 1;
+        Usual::Color((self.turns - 1) % COLORS.len())
     }
 
     /// The number of a material of the library.

@@ -2,31 +2,35 @@
 //!
 //! This is the only place where a [`Scene`] meets the [`dynamics`](crate::dynamics).
 
-mod arrows;
 mod build;
 mod frame;
 mod labour;
 mod lag;
 mod moments;
 mod overlap;
+mod reach;
 mod selection;
+mod span;
 mod survey;
 mod track;
+mod vectors;
 
 use self::track::Track;
 use crate::dynamics::{Dynamics, Effort};
 use crate::scene::Scene;
 
-pub use arrows::{axis, root, shown, surface};
 pub use build::world;
 pub use frame::{BodyFrame, Frame};
 pub use labour::Labour;
 pub use lag::Lagging;
 pub use moments::Branch;
 pub use overlap::Overlap;
+pub use reach::Reach;
 pub use selection::Selection;
-pub use survey::{Bounds, Crossing, Survey, Surveyor, survey, survey_watched};
+pub use span::{Bounds, Span};
+pub use survey::{Crossing, Survey, Surveyor, survey, survey_watched};
 pub use track::{Ghost, Passed, Past, Way};
+pub use vectors::{axis, root, shown, surface};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.
 ///
@@ -59,11 +63,6 @@ impl<'a> Frames<'a> {
         let mut world = world(scene);
         world.watch(effort);
         Frames { scene, dynamics: Box::new(world), next: 0, track: Track::new(scene) }
-    }
-
-    /// The same frames, which know nothing of what has been before.
-    pub(crate) fn without_past(scene: &'a Scene) -> Frames<'a> {
-        Frames::new(scene).without_track()
     }
 
     /// The same frames, which remember nothing of what has been before.

@@ -5,22 +5,18 @@
 
 use glam::DVec3;
 
-use super::arrows::{self, Largest};
 use super::overlap::{Overlap, Watch};
-use super::{BodyFrame, Diverged, Frame, Frames, world};
+use super::span::Spans;
+use super::{BodyFrame, Bounds, Diverged, Frame, Frames, Span, world};
 use crate::dynamics::{Effort, Shape};
 use crate::scene::{Body, Scene};
 
 /// What is known of a run as a whole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// The box in which everything takes place, until a body goes through a plane; none if the scene has no body but
-    /// planes.
-    pub bounds: Option<Bounds>,
-    /// The box of all that is seen there: of the bodies, and of their arrows and axes.
-    pub seen: Option<Bounds>,
-    /// The length of arrows that have no scale of their own, m for a unit of velocity, acceleration and force.
-    pub arrow_scales: [f64; 3],
+    /// Where everything takes place, from the start until several moments; the last is the end. A body counts until
+    /// it goes through a plane. Empty if the scene has no body but planes.
+    pub spans: Vec<Span>,
     /// The first passage of a body through each plane or ground that is given.
     pub crossings: Vec<Crossing>,
     /// The first two bodies that go into each other.
@@ -33,15 +29,6 @@ pub struct Survey {
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
     pub steps_per_frame: u32,
-}
-
-/// A box along the axes, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// The corner with the smallest coordinates.
-    pub min: DVec3,
-    /// The corner with the largest coordinates.
-    pub max: DVec3,
 }
 
 /// That bodies go through a plane, since nothing keeps them from it.
@@ -80,13 +67,13 @@ pub fn survey_watched(
         surveyor.see(&frame);
         seen(&frame);
     }
-    surveyor.finish()
+    Ok(surveyor.finish())
 }
 
 /// Looks over a run whose frames somebody else makes.
 pub struct Surveyor<'a> {
     scene: &'a Scene,
-    bounds: Option<Bounds>,
+    spans: Spans,
     /// The planes that are watched; from the first frame on, each knows the bodies that may go through it.
     planes: Vec<Watched>,
     has_begun: bool,
@@ -96,7 +83,13 @@ pub struct Surveyor<'a> {
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
-    largest: Largest,
+}
+
+impl Survey {
+    /// The box in which everything takes place; none if the scene has no body but planes.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.spans.last().map(|span| span.bounds)
+    }
 }
 
 impl<'a> Surveyor<'a> {
@@ -104,21 +97,19 @@ impl<'a> Surveyor<'a> {
     pub fn new(scene: &'a Scene) -> Surveyor<'a> {
         Surveyor {
             scene,
-            bounds: None,
+            spans: Spans::default(),
             planes: planes(scene),
             has_begun: false,
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
             error: 0.0,
             largest_kinetic: 0.0,
-            largest: Largest::default(),
         }
     }
 
     /// Looks at the next frame of the run.
     pub fn see(&mut self, frame: &Frame) {
         let scene = self.scene;
-        self.largest.see(scene, &frame.bodies);
         if !std::mem::replace(&mut self.has_begun, true) {
             // Only these can go through a plane. A scene of many planes has few of them.
             let free = |body: &&BodyFrame| {
@@ -132,15 +123,9 @@ impl<'a> Surveyor<'a> {
             plane.watch(scene, frame, &mut self.crossed);
         }
         self.overlaps.see(frame);
-        for body in &frame.bodies {
-            // What has gone through a plane is behind the scenery, and the camera need not follow.
-            if self.crossed[body.id] {
-                continue;
-            }
-            if let Some(here) = Bounds::of(&scene.bodies[body.id], body) {
-                self.bounds = Some(self.bounds.map_or(here, |all| all.union(here)));
-            }
-        }
+        // A body that has gone through a plane is behind the scenery: the camera need not follow it.
+        let counts = |body: &&BodyFrame| !self.crossed[body.id];
+        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts));
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;
         if error_now.abs() > self.error.abs() {
@@ -149,51 +134,23 @@ impl<'a> Surveyor<'a> {
     }
 
     /// What is known after the last frame.
-    ///
-    /// # Errors
-    /// Where the run leaves the numbers.
-    pub fn finish(self) -> Result<Survey, Diverged> {
-        let Surveyor { scene, bounds, planes, overlaps, error, largest_kinetic, largest, .. } = self;
+    pub fn finish(self) -> Survey {
+        let Surveyor { scene, spans, planes, overlaps, error, largest_kinetic, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
-        let arrow_scales = largest.scales(bounds.map_or(1.0, |bounds| (bounds.max - bounds.min).length()));
-        let mut seen = bounds;
-        if let (Some(all), true) = (&mut seen, arrows::any(scene)) {
-            *all = arrows::with_arrows(scene, *all, arrow_scales)?;
-        }
-        for point in arrows::anchors(scene) {
-            seen = seen.map(|all| all.union(Bounds { min: point, max: point }));
-        }
-        Ok(Survey {
-            bounds,
-            seen,
-            arrow_scales,
+        Survey {
+            spans: spans.finish(),
             crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
             overlap: overlaps.finish(),
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,
-        })
+        }
     }
 
     /// The box in which everything has taken place so far.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.bounds
-    }
-}
-
-impl Bounds {
-    /// The box around a body as it is drawn; none for a plane, which has no bounds.
-    fn of(Body { shape, look, .. }: &Body, body: &BodyFrame) -> Option<Bounds> {
-        let reach =
-            |direction: DVec3| shape.support(body.orientation, direction).map(|reach| reach * look.scale);
-        let max = DVec3::new(reach(DVec3::X)?, reach(DVec3::Y)?, reach(DVec3::Z)?);
-        let min = DVec3::new(reach(-DVec3::X)?, reach(-DVec3::Y)?, reach(-DVec3::Z)?);
-        Some(Bounds { min: body.location - min, max: body.location + max })
-    }
-
-    pub(super) fn union(self, other: Bounds) -> Bounds {
-        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+        self.spans.bounds()
     }
 }
 
@@ -303,7 +260,7 @@ mod tests {
             location = [0, -9, 0]
             ",
         );
-        let Bounds { min, max } = survey.bounds.unwrap();
+        let Bounds { min, max } = survey.bounds().unwrap();
         assert!((min - DVec3::new(-2f64.sqrt(), -0.5, -1.0)).length() < 1e-12, "{min}");
         assert!((max - DVec3::new(6.5, 4.0 + 2f64.sqrt(), 1.0)).length() < 1e-12, "{max}");
     }
@@ -320,7 +277,7 @@ mod tests {
             ground.height = -3
             ",
         );
-        let Bounds { min, max } = survey.bounds.unwrap();
+        let Bounds { min, max } = survey.bounds().unwrap();
         assert!((min - DVec3::splat(-5.0)).length() < 1e-12, "{min}");
         assert!((max - DVec3::new(15.0, 5.0, 5.0)).length() < 1e-12, "{max}");
         assert_eq!(survey.crossings, []);
@@ -345,8 +302,8 @@ mod tests {
 
     #[test]
     fn a_scene_of_nothing_but_planes_has_no_bounds() {
-        assert_eq!(surveyed("[body.floor]\nshape.plane = {}").bounds, None);
-        assert_eq!(surveyed("").bounds, None);
+        assert_eq!(surveyed("[body.floor]\nshape.plane = {}").bounds(), None);
+        assert_eq!(surveyed("").bounds(), None);
     }
 
     #[test]
@@ -398,7 +355,7 @@ mod tests {
             location = [0, 2, 0]
             ",
         );
-        let bounds = survey.bounds.unwrap();
+        let bounds = survey.bounds().unwrap();
         assert!(bounds.min.y > -0.2 && bounds.max.y == 2.5, "{bounds:?}");
     }
 

@@ -30,7 +30,8 @@ fn arrows_begin_at_the_surface_and_are_as_long_as_their_scale_says() {
             "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [2, 0, 0]\nforce = [0, -3, 0]\nmass = 3\n";
         let arrows = "arrows = { velocity = { scale = 0.5, color = 'red' }, \
              acceleration = { color = 'lime' , scale = 1 }, force = { scale = 0.1, color = 'blue' } }\n";
-        script(&format!("{ball}{arrows}{}{DARK}{unit}", front().toml()))
+        let size = format!("[output]\nsize = [{}, {}]\n", SIZE[0], SIZE[1]);
+        script(&format!("{ball}{arrows}{}{DARK}{size}{unit}", front().toml()))
     };
     let images = render_all([scene(""), scene("[povray]\nunit = 0.1\n")], SIZE);
     let sees = |x: f64, y: f64| front().sees(DVec3::new(x, y, 0.0));
@@ -39,8 +40,12 @@ fn arrows_begin_at_the_surface_and_are_as_long_as_their_scale_says() {
             assert!(near(image, sees(x, 0.0), is_red), "velocity at {x}");
         }
         assert!(!near(image, sees(1.6, 0.0), is_red), "0.5 m + 2 m/s × 0.5 is the end");
-        // The acceleration of 1 m/s² is 1 m long, and covers the force of 3 N, 0.3 m.
-        for y in [-0.7, -1.0, -1.4] {
+        // The acceleration of 1 m/s² is 1 m long. The force of 3 N is 0.3 m long and lies in it: its head is wider.
+        assert!(
+            near(image, sees(0.0, -0.7), |[r, g, b]| b > r.saturating_add(40) && b > g.saturating_add(40)),
+            "the head of the force"
+        );
+        for y in [-1.0, -1.4] {
             assert!(near(image, sees(0.0, y), is_green), "acceleration at {y}");
         }
         assert!(!near(image, sees(0.0, -1.7), is_green));

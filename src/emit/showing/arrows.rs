@@ -17,9 +17,16 @@ pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[Strin
     arrows.for_each(|left| arrow(out, &left, names, style));
 }
 
-/// Appends the arrows of a body as it was, if its ghosts have any.
-pub(super) fn write_ghost(out: &mut String, plan: &Plan, ghost: &BodyFrame, names: &[String], style: Style) {
-    plan.ghost_arrows(ghost).iter().for_each(|its| arrow(out, its, names, style));
+/// Appends the arrows of a body as it was, in the picture of a frame, if its ghosts have any.
+pub(super) fn write_ghost(
+    out: &mut String,
+    plan: &Plan,
+    frame: &Frame,
+    ghost: &BodyFrame,
+    names: &[String],
+    style: Style,
+) {
+    plan.ghost_arrows(frame, ghost).iter().for_each(|its| arrow(out, its, names, style));
 }
 
 fn axes(out: &mut String, axes: &Axes, names: &[String], style: Style) {

@@ -1,4 +1,4 @@
-//! The lines of the grid, which are the same in all frames.
+//! The lines of the grid.
 
 use super::super::sdl::Style;
 use super::color;

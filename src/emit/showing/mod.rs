@@ -26,7 +26,7 @@ pub use trails::{TrailFile, is_trail_file};
 pub(super) struct Showing {
     ghosts: Ghosts,
     trails: Trails,
-    /// The lines of the grid.
+    /// The lines of the grid, if the camera stands still.
     grid: String,
     style: Style,
 }
@@ -68,7 +68,7 @@ impl Showing {
         Showing {
             ghosts: Ghosts::new(scene, materials, meshes, style),
             trails: Trails::new(scene.output.layout, style),
-            grid: plan.grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
+            grid: plan.still_grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
             style,
         }
     }
@@ -89,18 +89,22 @@ impl Showing {
         coils::write(out, plan, frame, style);
         self.ghosts.write(out, plan, frame);
         for ghost in plan.ghosts(frame) {
-            arrows::write_ghost(out, plan, &ghost.body, names, style);
+            arrows::write_ghost(out, plan, frame, &ghost.body, names, style);
         }
         self.trails.write(out, plan, frame, names);
         arrows::write(out, plan, frame, names, style);
         if let Some(screen) = plan.screen(frame) {
             out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));
-            out.push_str(&self.grid);
-            plan.numbers(&screen).iter().for_each(|text| texts::write(out, text, style));
+            match plan.camera_moves() {
+                true => out.extend(plan.grid(frame).map(|grid| grid::lines(&grid, style))),
+                false => out.push_str(&self.grid),
+            }
+            let numbers = plan.numbers(frame, &screen);
+            numbers.iter().for_each(|text| texts::write(out, text, style));
             if let Some((bar, number)) = plan.bar_on(&screen) {
                 texts::write_bar(out, &bar, &number, style);
             }
-            plan.labels(frame, &screen).iter().for_each(|text| texts::write(out, text, style));
+            plan.labels(frame, &screen, &numbers).iter().for_each(|text| texts::write(out, text, style));
         }
     }
 }

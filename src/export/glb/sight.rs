@@ -84,7 +84,7 @@ struct Seen {
 impl Seen {
     fn see(&mut self, camera: &Placed, stage: &Stage) {
         self.lens.get_or_insert(camera.lens());
-        let (location, bounds) = (camera.location(), stage.scenery.bounds);
+        let (location, bounds) = (camera.location(), stage.whole);
         let mut near = location.clamp(bounds.min, bounds.max).distance(location);
         if let Some(ground) = stage.ground.filter(|ground| ground.height < location.y) {
             near = near.min(location.y - ground.height);

@@ -102,8 +102,10 @@ function triads(run, shown, at) {
 
 function drawLines(lines, run, shown, at, view) {
   const stage = run.description.stage;
-  stage?.grid.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
-  stage?.trails.forEach((each) => trail(lines, run, each, player.position, MOST_POINTS / stage.trails.length));
+  const grid = shown?.grid ?? stage?.grids[Math.min(open.view, stage.grids.length - 1)];
+  grid?.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
+  const stroke = shown?.stroke ?? 0;
+  stage?.trails.forEach((each) => trail(lines, run, { ...each, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length));
   shown?.coils.forEach((each) => coil(lines, each));
   shown?.arrows.forEach((each) => arrow(lines, each));
   shown?.axes.forEach((each) => axes(lines, each));

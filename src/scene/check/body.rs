@@ -23,13 +23,8 @@ pub(super) fn read(
 ) -> Vec<Body> {
     let tables = root.named("body");
     let mut palette = Palette::default();
-    // Copies are named at one and the same place.
-    let (mut last, mut copy) = (None, 0);
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        copy = if last == Some(span) { copy + 1 } else { 0 };
-        last = Some(span);
         let before = context.diagnostics.len();
-        palette.copy(copy);
         let shape = shape::read(name, &view.table("shape"), context);
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let mut start = start(name, span, &view, &shape, context);

@@ -25,7 +25,7 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) 
             name: name.to_owned(),
             text: text.unwrap_or_default(),
             place,
-            size: view.number("size").unwrap_or(0.055),
+            size: view.number("size"),
             color: view.color("color"),
         }
     };

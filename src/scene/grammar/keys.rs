@@ -213,7 +213,7 @@ static BODY: TableSpec = TableSpec {
             Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
             "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md); or its keys, here",
         )
-        .default("a color of the palette, after its place in the file")
+        .default("the next color of the palette, in the order of the file")
         .also(&["texture"]),
         Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
         Key::new(

@@ -49,10 +49,8 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
 
 /// That a text is YAML, with the TOML that says the same.
 fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
-    let start = error
-        .span()
-        .map_or(0, |range| text[..range.start.min(text.len())].rfind('\n').map_or(0, |at| at + 1));
-    let end = text[start..].find('\n').map_or(text.len(), |at| start + at);
+    let line = line_at(text, error.span().map_or(0, |range| range.start));
+    let (start, end) = (line.start, line.end);
     let error = Diagnostic::error("toml-syntax", "this is YAML; a scene is TOML");
     let error =
         error.at(Span::new(source, start..end), "TOML writes `key = value`, below headers in brackets");

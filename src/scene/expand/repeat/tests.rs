@@ -220,7 +220,7 @@ fn forces_name_one_copy_or_many() {
 }
 
 #[test]
-fn copies_go_on_from_the_color_of_the_first_and_take_one_turn() {
+fn copies_and_bodies_get_the_colors_of_the_palette_in_the_order_of_the_file() {
     let material = |text: &str, name: &str| {
         let scene = scene(text);
         scene.materials[body(&scene, name).material.unwrap()].name.clone()
@@ -232,7 +232,8 @@ fn copies_go_on_from_the_color_of_the_first_and_take_one_turn() {
     };
     assert_eq!(material(&text(3), "a[0]"), "palette red");
     assert_eq!(material(&text(3), "a[2]"), "palette amber");
-    assert_eq!(material(&text(3), "b"), material(&text(5), "b"));
+    assert_eq!(material(&text(3), "b"), "palette teal");
+    assert_eq!(material(&text(8), "b"), "palette red");
 }
 
 #[test]

@@ -1,0 +1,182 @@
+//! Sizes follow what the camera sees, and texts stay in the picture.
+
+use glam::DVec3;
+
+use super::{Plan, Text};
+use crate::scene::{Options, Override, Scene};
+use crate::simulate::{Frame, Frames, survey};
+
+fn plan(text: &str) -> (Scene, Plan) {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    (scene, plan)
+}
+
+/// A ball that flies 600 m; the camera goes along with it.
+fn flight(keys: &str) -> (Scene, Plan) {
+    plan(&format!(
+        "simulation = {{ duration = 10, gravity = [0, -9.81, 0] }}
+        [body.ball]\nshape.sphere.radius = 0.1\nvelocity = [60, 49, 0]
+        trail = true\narrows.velocity = true\n{keys}
+        [camera]\nfollow = {{ body = 'ball' }}\n[grid]\nplane = 'wall'"
+    ))
+}
+
+fn frames(scene: &Scene) -> impl Iterator<Item = Frame> {
+    Frames::new(scene).map(Result::unwrap)
+}
+
+#[test]
+fn a_camera_that_follows_sees_arrows_trails_and_grids_in_its_own_size() {
+    let (scene, plan) = flight("arrows.force.scale = 0.002");
+    for frame in frames(&scene).skip(1).step_by(25) {
+        let [velocity, force] = plan.arrows(&frame)[..] else { panic!("two are asked for") };
+        assert!(velocity.radius < 0.02 && velocity.from.distance(velocity.to) < 0.2, "{velocity:?}");
+        // As long as the scene says, however short that is.
+        assert!(force.from.distance(force.to) < 0.1, "{force:?}");
+        let stroke = plan.stroke(&frame);
+        assert!(stroke < 0.01, "{stroke}");
+        assert!(plan.trails(&frame).iter().all(|trail| (trail.radius - stroke / 2.0).abs() < 1e-15));
+        let grid = plan.grid(&frame).unwrap();
+        assert!((6..40).contains(&grid.lines.len()), "{}", grid.lines.len());
+        assert!(grid.lines.iter().all(|line| line.from.distance(frame.bodies[0].location) < 2.0));
+    }
+    assert_eq!(plan.too_small(), None);
+    assert!((0.02..0.3).contains(&plan.stage().tile), "{}", plan.stage().tile);
+}
+
+#[test]
+fn a_camera_that_stands_still_sees_one_size_and_the_tips_of_all_arrows() {
+    let text = "simulation = { duration = 2, gravity = [0, -9.81, 0] }
+        [body.ball]\nshape.sphere.radius = 0.2\nvelocity = [3, 9.81, 0]
+        arrows = { velocity = true, force = true }\n[label.x]\ntext = 'x'";
+    let (scene, plan) = plan(text);
+    let first = plan.arrows(&frames(&scene).next().unwrap());
+    for frame in frames(&scene) {
+        let arrows = plan.arrows(&frame);
+        assert_eq!(arrows.iter().map(|arrow| arrow.radius).collect::<Vec<_>>(), [first[0].radius; 2]);
+        for arrow in arrows {
+            let spot = plan.screen(&frame).unwrap().spot(arrow.to).unwrap();
+            assert!(spot.x.abs() < 0.95 && spot.y.abs() < 0.95 * 9.0 / 16.0, "{spot:?}");
+        }
+    }
+    let longest = first[0].from.distance(first[0].to);
+    let view = plan.stage().size;
+    assert!((0.05..0.35).contains(&(longest / view)), "{longest} of {view}");
+}
+
+#[test]
+fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
+    let fall = |keys: &str| {
+        format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}")
+    };
+    let (_, start) = plan(&fall(""));
+    let end = start.framed_until().unwrap();
+    assert!((0.5..2.0).contains(&end), "{end}");
+    assert!(start.too_small().is_some_and(|largest| largest.name == "ball" && largest.pixels_in_whole < 1.0));
+    assert!(start.too_small().unwrap().pixels > 8.0);
+    // It goes on falling through the air: the ground is below all of it.
+    assert!(start.stage().ground.unwrap().height < -490.0);
+    for keys in [
+        "trail = true",
+        "look.scale = 100",
+        "[camera]\nlocation = [0, 0, 900]",
+        "[camera]\nfollow.body = 'ball'",
+    ] {
+        let (_, whole) = plan(&fall(keys));
+        assert_eq!(whole.framed_until(), None, "{keys}");
+    }
+}
+
+/// From where to where a text reaches, across and upward.
+fn extent(text: &Text<'_>) -> [f64; 4] {
+    let wide = super::text::width(&text.says, text.height);
+    let left = text.x - text.align * wide;
+    let base = text.y.above_middle(9.0 / 16.0);
+    [left, left + wide, base - 0.2 * text.height, base + 0.7 * text.height]
+}
+
+fn assert_legible(texts: &[Text<'_>], what: &str) {
+    for (number, text) in texts.iter().enumerate() {
+        let [left, right, bottom, top] = extent(text);
+        assert!(left > -1.0 && right < 1.0 && bottom > -0.5625 && top < 0.5625, "{what}: {text:?}");
+        for other in &texts[..number] {
+            let [l, r, b, t] = extent(other);
+            let apart = right <= l || r <= left || top <= b || t <= bottom;
+            assert!(apart, "{what}: {text:?} lies on {other:?}");
+        }
+    }
+}
+
+#[test]
+fn texts_neither_overlap_nor_leave_the_picture() {
+    let text = "simulation = { duration = 3, gravity = [0, -9.81, 0] }
+        [body.left]\nshape.sphere.radius = 0.3\nlocation = [-1, 0, 0]\nvelocity = [0, 9, 0]\narrows.velocity = true
+        [body.right]\nshape.sphere.radius = 0.3\nlocation = [1, 0, 0]\nvelocity = [0, 9, 0]
+        [label.head]\ncorner = 'top'\ntext = 'Two balls are thrown upward with the same velocity of 9 m/s, one beside the other, and fall again'
+        [label.clock]\ntext = 't = ${t:.2} s'
+        [label.energy]\ncorner = 'top-right'\ntext = 'E = ${energy:.2} J'
+        [label.l]\nbody = 'left'\ntext = 'the left ball is at y = ${left.y:.2} m'
+        [label.r]\nbody = 'right'\ntext = 'the right ball is at y = ${right.y:.2} m'
+        [label.foot]\ncorner = 'bottom-left'\ntext = 'no air'
+        [grid]\nplane = 'wall'\n[scale_bar]";
+    for size in ["[1280, 720]", "[640, 360]", "[320, 180]"] {
+        let overrides = vec![Override::new(format!("output.size={size}"))];
+        let scene = Scene::parse_with(text, &Options { overrides, ..Options::default() }).unwrap();
+        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        for frame in frames(&scene).step_by(15) {
+            let texts = plan.texts(&frame);
+            assert!(
+                texts.iter().any(|text| text.says == "x (m)")
+                    && texts.iter().any(|text| text.says == "y (m)")
+            );
+            let labels: Vec<_> = texts.into_iter().filter(|text| text.name != "grid").collect();
+            assert_eq!(labels.len(), 7);
+            assert_legible(&labels, size);
+            let least = 10.9 * 2.0 / f64::from(scene.output.width);
+            assert!(labels.iter().all(|label| label.height > least || label.name == "head"), "{size}");
+        }
+    }
+}
+
+#[test]
+fn a_label_stands_where_no_arrow_crosses_it() {
+    let text = "simulation = { duration = 2, gravity = [0, -9.81, 0] }
+        [body.ball]\nshape.sphere.radius = 0.2\nvelocity = [0, 9.81, 0]\narrows.velocity = true
+        [label.name]\nbody = 'ball'\ntext = 'the ball'";
+    let (scene, plan) = plan(text);
+    let side = |time: f64| {
+        let frame = Frames::at(&scene, time).unwrap();
+        let ball = plan.screen(&frame).unwrap().spot(frame.bodies[0].location).unwrap();
+        plan.texts(&frame)[0].y.above_middle(9.0 / 16.0) - ball.y
+    };
+    assert!(side(0.2) < 0.0, "below the ball, whose arrow points up");
+    assert!(side(1.8) > 0.0, "above the ball, whose arrow points down");
+}
+
+#[test]
+fn a_grid_of_too_many_lines_is_drawn_coarser_and_lines_are_as_thick_as_pixels() {
+    let grid =
+        |keys: &str| plan(&format!("[body.ball]\nshape.sphere.radius = 1\nvelocity = [10, 0, 0]\n{keys}"));
+    let (scene, fine) = grid("[grid]\nspacing = 0.001");
+    let (given, drawn) = fine.too_fine_grid().unwrap();
+    assert!(given == 0.001 && (0.2..=0.5).contains(&drawn), "{drawn}");
+    let frame = frames(&scene).next().unwrap();
+    assert!((100..1000).contains(&fine.grid(&frame).unwrap().lines.len()));
+    let (scene, small) = grid("[grid]\n[output]\nsize = [320, 180]");
+    assert_eq!(small.too_fine_grid(), None);
+    let frame = frames(&scene).next().unwrap();
+    let placed = small.placed();
+    let pixel = placed.width_of_view(small.stage().whole) / 320.0;
+    let lines = small.grid(&frame).unwrap().lines;
+    assert!(lines.iter().all(|line| line.radius >= 0.59 * pixel), "{pixel} {}", lines[0].radius);
+}
+
+#[test]
+fn a_camera_nearby_sees_small_tiles_though_the_motion_is_long() {
+    let (_, plan) = plan(
+        "[body.ball]\nshape.sphere.radius = 0.1\nvelocity = [100, 0, 0]\n[camera]\nlocation = [0, 1, 5]\nlook_at = [0, 0, 0]",
+    );
+    assert!((0.1..=0.5).contains(&plan.stage().tile), "{}", plan.stage().tile);
+    assert_eq!(plan.placed().location(), DVec3::new(0.0, 1.0, 5.0));
+}

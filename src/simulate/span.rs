@@ -1,0 +1,149 @@
+//! Where everything takes place, from the start of a run until several moments.
+
+use glam::{DMat3, DVec3};
+
+use super::vectors::{anchors, axis, root, shown};
+use super::{BodyFrame, Reach};
+use crate::scene::{Body, Quantity, Scene};
+
+/// A span is kept whenever the place that the run takes has grown by this factor.
+const GROWTH: f64 = 1.2;
+
+/// A box along the axes, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub min: DVec3,
+    /// The corner with the largest coordinates.
+    pub max: DVec3,
+}
+
+/// Where everything takes place from the start of a run until a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Span {
+    /// The time of its last frame, s.
+    pub until: f64,
+    /// The box around all bodies.
+    pub bounds: Bounds,
+    /// The box around the bodies that are not fixed; around all, if all are fixed.
+    pub moving: Bounds,
+    /// The box around all bodies, their axes, their arrows of a given scale, and the fixed points of springs.
+    pub seen: Bounds,
+    /// How far arrows without a scale reach, in the order of [`Quantity::ALL`].
+    pub arrows: [Reach; 3],
+}
+
+/// The spans of a run whose frames are seen one after another.
+#[derive(Default)]
+pub(super) struct Spans {
+    kept: Vec<Span>,
+    /// The span until now, whose box of what moves may be empty.
+    now: Option<(Span, Option<Bounds>)>,
+}
+
+impl Spans {
+    /// Adds a frame at a time (s), with the bodies that still count.
+    pub(super) fn see<'a>(&mut self, scene: &Scene, time: f64, bodies: impl Iterator<Item = &'a BodyFrame>) {
+        for frame in bodies {
+            let body = &scene.bodies[frame.id];
+            let Some(here) = Bounds::of(body, frame) else { continue };
+            let (span, moving) = self.now.get_or_insert_with(|| {
+                let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
+                let arrows = Default::default();
+                (Span { until: time, bounds: here, moving: here, seen, arrows }, None)
+            });
+            span.bounds = span.bounds.union(here);
+            if !body.start.fixed {
+                *moving = Some(moving.map_or(here, |all| all.union(here)));
+            }
+            span.see_showing(here, body, frame);
+        }
+        let Some((span, _)) = &mut self.now else { return };
+        span.until = time;
+        let grown = |last: &Span| span.seen.diagonal() > GROWTH * last.seen.diagonal();
+        if self.kept.last().is_none_or(grown) {
+            self.kept.extend(self.now());
+        }
+    }
+
+    /// The box around all bodies so far; none if there is no body but planes.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.now.as_ref().map(|(span, _)| span.bounds)
+    }
+
+    /// All spans, each longer than the one before. The last is the whole run.
+    pub(super) fn finish(mut self) -> Vec<Span> {
+        let whole = self.now();
+        if self.kept.last().map(|last| last.until) == whole.as_ref().map(|whole| whole.until) {
+            self.kept.pop();
+        }
+        self.kept.extend(whole);
+        self.kept
+    }
+
+    fn now(&self) -> Option<Span> {
+        let (span, moving) = self.now.as_ref()?;
+        Some(Span { moving: moving.unwrap_or(span.bounds), ..span.clone() })
+    }
+}
+
+impl Span {
+    /// Adds a body, what is drawn on it, and its arrows.
+    fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodyFrame) {
+        let mut seen = self.seen.union(here);
+        for ((quantity, arrow), reach) in
+            Quantity::ALL.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
+        {
+            let Some(arrow) = arrow else { continue };
+            let vector = shown(quantity, body, frame);
+            let root = root(body, frame, vector);
+            match arrow.scale {
+                Some(scale) => seen = seen.union_if_finite(root + vector * scale),
+                None => reach.add(root, vector),
+            }
+        }
+        if let Some(length) = axis(body) {
+            for axis in DMat3::from_quat(frame.orientation).to_cols_array_2d() {
+                seen = seen.union_if_finite(frame.location + DVec3::from_array(axis) * length * 1.1);
+            }
+        }
+        self.seen = seen;
+    }
+}
+
+impl Bounds {
+    /// The box around a body as it is drawn; none for a plane, which has no bounds.
+    fn of(body: &Body, frame: &BodyFrame) -> Option<Bounds> {
+        let (shape, factor) = (&body.shape, body.look.scale);
+        let reach =
+            |direction: DVec3| shape.support(frame.orientation, direction).map(|reach| reach * factor);
+        let max = DVec3::new(reach(DVec3::X)?, reach(DVec3::Y)?, reach(DVec3::Z)?);
+        let min = DVec3::new(reach(-DVec3::X)?, reach(-DVec3::Y)?, reach(-DVec3::Z)?);
+        Some(Bounds { min: frame.location - min, max: frame.location + max })
+    }
+
+    /// The box that is a single point.
+    fn point(point: DVec3) -> Bounds {
+        Bounds { min: point, max: point }
+    }
+
+    /// The box around two boxes.
+    #[must_use]
+    pub fn union(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The length of its diagonal, m.
+    pub fn diagonal(self) -> f64 {
+        (self.max - self.min).length()
+    }
+
+    /// Its middle.
+    pub fn middle(self) -> DVec3 {
+        (self.min + self.max) / 2.0
+    }
+
+    fn union_if_finite(self, point: DVec3) -> Bounds {
+        if point.is_finite() { self.union(Bounds::point(point)) } else { self }
+    }
+}

@@ -1,0 +1,86 @@
+//! The vectors of bodies that arrows show, and where their arrows begin.
+
+use glam::{DQuat, DVec3};
+
+use super::BodyFrame;
+use crate::dynamics::Shape;
+use crate::scene::{Body, ForceKind, Quantity, Scene, SpringEnd};
+
+/// What an arrow of a body shows, in SI units.
+pub fn shown(quantity: Quantity, body: &Body, frame: &BodyFrame) -> DVec3 {
+    match quantity {
+        Quantity::Velocity => frame.velocity,
+        Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
+        Quantity::Acceleration => frame.force / body.start.mass,
+        Quantity::Force => frame.force,
+    }
+}
+
+/// How far it is from the centre of a shape to its surface in a direction (a unit vector in world axes), m; 0 for a
+/// plane.
+///
+/// A convex shape ends where the first of its tangent planes is met. Those are tried that matter for balls, boxes and
+/// whatever is round about its y; of other shapes the result is a little too large at most.
+pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
+    let axis = orientation * DVec3::Y;
+    let sideways = (direction - axis * axis.dot(direction)).normalize_or_zero();
+    let [x, z] = [orientation * DVec3::X, orientation * DVec3::Z];
+    let met = |normal: DVec3| {
+        let slope = normal.dot(direction);
+        (slope > 1e-9).then(|| shape.support(orientation, normal).map(|reach| reach / slope)).flatten()
+    };
+    let normals = [direction, sideways, axis, -axis, x, -x, z, -z];
+    let nearest = normals.into_iter().filter_map(met).fold(f64::MAX, f64::min);
+    if nearest < f64::MAX { nearest } else { 0.0 }
+}
+
+/// Where an arrow for a vector begins, m: at the surface of the body, so that all of it is seen.
+pub fn root(body: &Body, frame: &BodyFrame, vector: DVec3) -> DVec3 {
+    let along = vector.normalize_or_zero();
+    frame.location + along * surface(&body.drawn(), frame.orientation, along)
+}
+
+/// How long an axis of a body is drawn, m, if it is.
+pub fn axis(body: &Body) -> Option<f64> {
+    let axes = body.showing.axes?;
+    let reach = |direction| body.drawn().support(DQuat::IDENTITY, direction);
+    let reach = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).fold(0.0, f64::max);
+    Some(axes.length.unwrap_or(2.0 * reach))
+}
+
+/// The fixed points of the springs that are drawn, m.
+pub(super) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
+    let links = scene.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Spring { links, coil: Some(_), .. } => Some(links),
+        _ => None,
+    });
+    links.flatten().flat_map(|link| link.between).filter_map(|end| match end {
+        SpringEnd::Point(point) => Some(point),
+        SpringEnd::Body(_) => None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_are_where_they_are() {
+        let beam = Shape::Box { size: DVec3::new(4.0, 0.2, 1.0) };
+        let can = Shape::Cylinder { radius: 0.5, height: 2.0 };
+        let slanted = DVec3::new(3.0, 4.0, 0.0) / 5.0;
+        let turned = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
+        for (shape, orientation, direction, distance) in [
+            (Shape::Sphere { radius: 2.0 }, turned, slanted, 2.0),
+            (beam.clone(), DQuat::IDENTITY, slanted, 0.125),
+            (beam.clone(), DQuat::IDENTITY, DVec3::X, 2.0),
+            (beam, turned, DVec3::Y, 2.0),
+            (can.clone(), DQuat::IDENTITY, slanted, 0.5 / 0.6),
+            (can, turned, slanted, 0.5 / 0.8),
+            (Shape::Plane { normal: DVec3::Y }, DQuat::IDENTITY, DVec3::Y, 0.0),
+        ] {
+            let found = surface(&shape, orientation, direction);
+            assert!((found - distance).abs() < 1e-9, "{shape:?} {direction}: {found}");
+        }
+    }
+}
