@@ -15,6 +15,10 @@ const STEP: f64 = 1.0 / 16_777_216.0;
 /// What is smaller is nothing to POV-Ray's parser, in its units; its own limit is 10⁻¹⁰.
 const NOTHING: f64 = 1e-8;
 
+/// A camera that is nearer to the point that it looks at has no direction, in POV-Ray's units: the square is compared
+/// with 10⁻¹⁰.
+const NEAREST: f64 = 2e-5;
+
 /// How many of POV-Ray's units a scene may reach, from the first to the second.
 const UNITS: [f64; 2] = [1e-3, 1e9];
 
@@ -45,7 +49,7 @@ pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
         number::write(&mut text, number, digits);
         text
     };
-    from.distance(to) > NOTHING.max(STEP * farthest)
+    from.distance(to) > NEAREST.max(STEP * farthest)
         && from.to_array().map(written) != to.to_array().map(written)
 }
 

@@ -111,6 +111,14 @@ fn wide_pictures_and_wide_parallel_rays_are_drawn_without_a_warning() {
 }
 
 #[test]
+fn a_camera_nearer_to_its_aim_than_povray_can_tell_is_refused() {
+    let scene = "simulation.duration = 0\n[body.ball]\nshape.sphere.radius = 1e4\nlocation = [1e9, 0, 0]\n\
+        [camera]\nlocation = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = 'orthographic'\n";
+    assert_eq!(script(scene), None);
+    parse(&[script(&scene.replace("0, 4]", "0, 400]")).unwrap()], 64, 36);
+}
+
+#[test]
 fn what_is_too_far_away_is_an_error_at_its_line() {
     let text = "simulation.duration = 0\n[grid]\n\n[body.near]\nshape.sphere.radius = 1e4\n\n\
         [body.far]\nshape.sphere.radius = 1\nlocation = [1e16, 0, 0]\n";
