@@ -149,7 +149,7 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
 fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
     text.match_indices('.').filter_map(move |(at, _)| {
-        let begin = text[..at].rfind(|c| !is_part(c)).map_or(0, |before| before + 1);
+        let begin = text[..at].trim_end_matches(is_part).len();
         let rest = &text[at + 1..];
         let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
         let (body, member) = (&text[begin..at], &text[at + 1..end]);
