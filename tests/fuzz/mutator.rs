@@ -1,0 +1,128 @@
+//! Inputs that are almost right: texts and files of the project, changed at some places.
+
+/// Random numbers that are the same on every machine. Source: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable
+/// pseudorandom number generators*, OOPSLA 2014 (SplitMix64).
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Random {
+        Random(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^ (bits >> 31)
+    }
+
+    /// A number below a limit; 0 if that is 0.
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
+        usize::try_from(self.next() % (limit.max(1) as u64)).unwrap()
+    }
+
+    pub(crate) fn choose<'a, T>(&mut self, all: &'a [T]) -> &'a T {
+        &all[self.below(all.len())]
+    }
+}
+
+/// What breaks programs: numbers at the edge, letters of several bytes, signs of the languages that are read.
+const TOKENS: [&str; 64] = [
+    "0",
+    "-1",
+    "1e308",
+    "-1e999",
+    "1e-320",
+    "nan",
+    "inf",
+    "9223372036854775808",
+    "0x10",
+    "1_000",
+    "\"",
+    "'''",
+    "\\",
+    "\\u0000",
+    "\n",
+    "\r\n",
+    "\t",
+    "\u{0}",
+    "·",
+    "π.x",
+    "−1",
+    "é",
+    "𝕏",
+    "\u{202e}",
+    "[",
+    "]",
+    "[[",
+    "{",
+    "}",
+    "=",
+    ".",
+    ",",
+    "#",
+    "#end",
+    "#macro A()",
+    "#include \"x.inc\"",
+    "include",
+    "/*",
+    "*/",
+    "//",
+    "${",
+    "}",
+    "${ball.x}",
+    "sin(",
+    ")",
+    "^",
+    "t",
+    "i",
+    "uniform(0,1)",
+    "repeat = 3",
+    "repeat = 1000000",
+    "[body.x]",
+    "shape.sphere.radius",
+    "f 1 2 3",
+    "v 1 2 3",
+    "vn nan",
+    "solid",
+    "endfacet",
+    "t,x,y,z",
+    "\u{feff}",
+    "save_file",
+    "between = ['a[i]', 'b']",
+    "Infinity",
+    "e",
+];
+
+/// Changes bytes at one to eight places; what is inserted may come from another input.
+pub(crate) fn mutate(random: &mut Random, input: &[u8], other: &[u8]) -> Vec<u8> {
+    let mut bytes = input.to_vec();
+    for _ in 0..=random.below(8) {
+        let at = random.below(bytes.len() + 1);
+        let end = (at + random.below(40)).min(bytes.len());
+        match random.below(7) {
+            0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
+            1 => drop(bytes.drain(at..end)),
+            2 => {
+                let copy = bytes[at..end].to_vec();
+                let to = random.below(bytes.len() + 1);
+                bytes.splice(to..to, copy);
+            }
+            3 => {
+                let from = random.below(other.len());
+                let piece = &other[from..(from + random.below(200)).min(other.len())];
+                bytes.splice(at..at, piece.iter().copied());
+            }
+            4 => drop(bytes.splice(at..end, random.choose(&TOKENS).bytes())),
+            5 => bytes.truncate(at.max(1)),
+            _ => drop(bytes.splice(at..at, random.choose(&TOKENS).bytes())),
+        }
+    }
+    bytes
+}
+
+/// The same for a text: it stays UTF-8.
+pub(crate) fn mutate_text(random: &mut Random, input: &str, other: &str) -> String {
+    String::from_utf8_lossy(&mutate(random, input.as_bytes(), other.as_bytes())).into_owned()
+}
