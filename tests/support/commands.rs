@@ -55,7 +55,9 @@ pub(crate) fn tree() -> BTreeMap<String, BTreeSet<String>> {
         "help" => BTreeSet::new(),
         name => options(&help(&[name])),
     };
-    names.map(|name| (name.to_owned(), options_of(name))).collect()
+    // `sandbox` is hidden: only jabuka itself starts it.
+    let tree = names.chain(["sandbox"]).map(|name| (name.to_owned(), options_of(name)));
+    tree.chain([(String::new(), options(&top))]).collect()
 }
 
 /// The long options that a text names: `--video`.

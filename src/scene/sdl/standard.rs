@@ -79,7 +79,7 @@ pub(super) const IMAGES: [&str; 11] = [
 ];
 
 /// Macros of the include files that write files, by themselves or by others that they call, apart from those of
-/// [`WRITING_INCLUDES`].
+/// `WRITING_INCLUDES`.
 pub const WRITING_MACROS: [&str; 8] = [
     "ARRAYS_Temp_WriteDF3",
     "ARRAYS_WriteDF3",
