@@ -68,7 +68,7 @@ pub struct Outcome {
     pub up_to_date: usize,
     /// The frames whose images had changed since they were rendered, and were not kept.
     pub changed: Vec<usize>,
-    /// The frames whose images could not be verified, since their records have no digest, and were not kept.
+    /// Frames that are rendered again because the records of their images have no digest to verify.
     pub unverified: Vec<usize>,
     /// The frames that failed, in the order of their numbers.
     pub failed: Vec<Fault>,
