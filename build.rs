@@ -1,7 +1,5 @@
-//! Makes a table of the files in `explanations/`, so that adding one is dropping a file there; and a digest of all
-//! that the scripts depend on, by which jabuka knows those that it would write again.
+//! Makes a digest of all that the scripts depend on, by which jabuka knows those that it would write again.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
@@ -14,10 +12,6 @@ const SOURCES: [&str; 3] = ["Cargo.lock", "src", "templates"];
 fn main() -> io::Result<()> {
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other(format!("{name} is not set")));
     let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
-    println!("cargo::rerun-if-changed=explanations");
-    let table = explanations(&root.join("explanations"))?;
-    fs::write(Path::new(&variable("OUT_DIR")?).join("explanations.rs"), table)?;
-
     let mut digest = Sha256::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
@@ -42,20 +36,4 @@ fn add(path: &Path, digest: &mut Sha256) -> io::Result<()> {
         digest.update(&bytes);
     }
     Ok(())
-}
-
-/// The table of all explanations, as Rust.
-fn explanations(folder: &Path) -> io::Result<String> {
-    let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "md"));
-    paths.sort();
-
-    let mut table = String::from("&[\n");
-    for path in &paths {
-        let code = path.file_stem().unwrap_or_default().to_string_lossy();
-        let path = path.to_string_lossy();
-        let _ = writeln!(table, "    Explanation {{ code: {code:?}, text: include_str!({path:?}) }},");
-    }
-    table.push(']');
-    Ok(table)
 }

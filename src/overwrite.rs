@@ -9,7 +9,7 @@ use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Component, Path, PathBuf};
 
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::ASSETS;
 use crate::output::{self, MANIFEST};
 use crate::render;
@@ -55,7 +55,7 @@ impl CannotOverwrite {
     /// The error as a diagnostic.
     pub fn report(&self) -> Report {
         let help = "name another file";
-        let diagnostic = Diagnostic::error("cannot-overwrite", self.to_string()).help(help);
+        let diagnostic = Diagnostic::error(Code::CannotOverwrite, self.to_string()).help(help);
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 }

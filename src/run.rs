@@ -1,6 +1,6 @@
 //! A scene on its way to scripts.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::picture::{Largest, Plan, number};
@@ -121,7 +121,7 @@ impl<'a> Run<'a> {
         let thin = self.emitter.too_thin().map(|body| {
             let message =
                 format!("POV-Ray may not draw `{body}`: it is too thin against the size of the whole scene");
-            Diagnostic::warning("too-thin", message).help("look from nearer, or make the body larger")
+            Diagnostic::warning(Code::TooThin, message).help("look from nearer, or make the body larger")
         });
         let plan = self.emitter.plan();
         let small = plan.too_small().map(|largest| too_small(self.scene, plan, largest));
@@ -190,15 +190,15 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [&str; 6] =
-    ["crossing", "overlap", "too-thin", "too-small", "too-fine", "energy-drift"];
+pub(crate) const RUN_WARNINGS: [Code; 6] =
+    [Code::Crossing, Code::Overlap, Code::TooThin, Code::TooSmall, Code::TooFine, Code::EnergyDrift];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
 fn drift(drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
     let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
     let help = "take a smaller `simulation.step`, or an `integrator` of higher order";
-    (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning("energy-drift", message).help(help))
+    (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 
 /// That the largest body is too small to be seen in the picture, or would be in one of the whole run.
@@ -218,7 +218,7 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
                   a `[camera]`";
     let help = if is_followed { others.to_owned() } else { format!("{follow}; {others}") };
-    Diagnostic::warning("too-small", message).help(help)
+    Diagnostic::warning(Code::TooSmall, message).help(help)
 }
 
 /// That a grid has fewer lines than the scene asks for.
@@ -226,7 +226,7 @@ fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
     let (given, drawn) = (rounded(given), rounded(drawn));
     let message =
         format!("the grid has a line every {drawn} m, not every {given} m: those would be too many");
-    Diagnostic::warning("too-fine", message).help(format!("give `spacing = {drawn}` or more in [grid]"))
+    Diagnostic::warning(Code::TooFine, message).help(format!("give `spacing = {drawn}` or more in [grid]"))
 }
 
 /// A number with three digits.
@@ -245,14 +245,14 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
         others => format!(", and {others} other bodies later"),
     };
     let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
-    Diagnostic::warning("crossing", message).help("bodies do not collide yet: nothing stops it")
+    Diagnostic::warning(Code::Crossing, message).help("bodies do not collide yet: nothing stops it")
 }
 
 /// That two bodies go into each other.
 fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
-    Diagnostic::warning("overlap", message).help("bodies do not collide yet: they go through each other")
+    Diagnostic::warning(Code::Overlap, message).help("bodies do not collide yet: they go through each other")
 }
 
 impl From<Diverged> for RunError {

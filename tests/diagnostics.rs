@@ -10,18 +10,19 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use jabuka::diagnostic::Code;
 use support::{jabuka, root, stderr, stdout};
 
 /// Codes that no scene alone can show: each with the place of its test.
-const ELSEWHERE: [(&str, &str); 8] = [
-    ("no-templates", "a_folder_without_templates_is_said_to_be_so"),
-    ("cannot-read", "a_missing_file_is_said_to_be_missing"),
-    ("not-a-file", "a_folder_is_no_scene"),
-    ("not-utf8", "what_is_not_utf_8_is_refused_at_its_first_byte"),
-    ("file-too-large", "a_huge_file_is_refused_before_it_is_read"),
-    ("computed-include", "trusted_sdl_that_computes_what_it_includes_gets_a_warning_wherever_it_stands"),
-    ("same-asset", "two_files_cannot_be_copied_to_one_place"),
-    ("bad-set", "a_setting_is_refused_at_its_place_in_the_argument"),
+const ELSEWHERE: [(Code, &str); 8] = [
+    (Code::NoTemplates, "a_folder_without_templates_is_said_to_be_so"),
+    (Code::CannotRead, "a_missing_file_is_said_to_be_missing"),
+    (Code::NotAFile, "a_folder_is_no_scene"),
+    (Code::NotUtf8, "what_is_not_utf_8_is_refused_at_its_first_byte"),
+    (Code::FileTooLarge, "a_huge_file_is_refused_before_it_is_read"),
+    (Code::ComputedInclude, "trusted_sdl_that_computes_what_it_includes_gets_a_warning_wherever_it_stands"),
+    (Code::SameAsset, "two_files_cannot_be_copied_to_one_place"),
+    (Code::BadSet, "a_setting_is_refused_at_its_place_in_the_argument"),
 ];
 
 /// Every scene, what is said of it to people, and that an error fails the command.
@@ -64,14 +65,14 @@ fn a_folder_without_templates_is_said_to_be_so() {
 #[test]
 fn every_code_that_a_scene_can_get_is_in_some_snapshot() {
     let source = root().join("src/scene");
-    let codes = support::codes(&source);
-    assert!(codes.len() > 25, "{codes:?}");
+    let made = support::codes(&source);
+    assert!(made.len() > 25, "{made:?}");
     let mut snapshots = String::new();
     for entry in std::fs::read_dir(root().join("tests/snapshots")).unwrap() {
         snapshots.push_str(&std::fs::read_to_string(entry.unwrap().path()).unwrap());
     }
     let tests = include_str!("diagnostics.rs");
-    for code in codes {
+    for code in made {
         let shown = snapshots.contains(&format!("[{code}]: "));
         match ELSEWHERE.iter().find(|(elsewhere, _)| *elsewhere == code) {
             Some((_, test)) => assert!(tests.contains(&format!("fn {test}()")), "{test} is not there"),

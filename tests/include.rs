@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use jabuka::Scene;
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Code, Report};
 use jabuka::scene::{Options, Override};
 
 /// Writes files below a folder.
@@ -111,7 +111,7 @@ fn nothing_outside_of_the_folder_of_the_scene_is_included_without_trust() {
     write(folder.path(), &[("inner/scene.toml", "include = ['../ball.toml']"), BALL]);
     let scene = folder.path().join("inner/scene.toml");
     let report = Scene::from_path(&scene).unwrap_err();
-    assert_eq!(report.diagnostics[0].code, "untrusted-path", "{report}");
+    assert_eq!(report.diagnostics[0].code, Code::UntrustedPath, "{report}");
     let options = Options { trust: true, ..Options::default() };
     assert_eq!(names(&Scene::from_path_with(&scene, &options).unwrap()), ["ball"]);
 }

@@ -6,7 +6,7 @@ mod support;
 use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
-use jabuka::diagnostic::Diagnostic;
+use jabuka::diagnostic::{Code, Diagnostic};
 use serde_json::{Value, json};
 use support::{jabuka, root, stdout};
 use toml::de::{DeTable, DeValue};
@@ -17,21 +17,21 @@ const BEYOND: [&str; 4] =
     ["axis_without_angle", "date_and_time", "formula_not_finite", "formula_with_a_value_out_of_range"];
 
 /// The codes of mistakes that a key or a value alone makes.
-const STRUCTURAL: [&str; 14] = [
-    "unknown-key",
-    "missing-key",
-    "exclusive-keys",
-    "wrong-type",
-    "wrong-length",
-    "out-of-range",
-    "not-finite",
-    "zero-length",
-    "unknown-color",
-    "bad-identifier",
-    "bad-include",
-    "bad-asset",
-    "number-too-large",
-    "unnamed-table",
+const STRUCTURAL: [Code; 14] = [
+    Code::UnknownKey,
+    Code::MissingKey,
+    Code::ExclusiveKeys,
+    Code::WrongType,
+    Code::WrongLength,
+    Code::OutOfRange,
+    Code::NotFinite,
+    Code::ZeroLength,
+    Code::UnknownColor,
+    Code::BadIdentifier,
+    Code::BadInclude,
+    Code::BadAsset,
+    Code::NumberTooLarge,
+    Code::UnnamedTable,
 ];
 
 #[test]

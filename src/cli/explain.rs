@@ -1,6 +1,6 @@
 //! `jabuka explain`: what the code of an error or a warning means.
 
-use jabuka::explain::{EXPLANATIONS, Explanation};
+use jabuka::explain::{Explanation, explanations};
 
 use super::{Failure, say};
 
@@ -13,7 +13,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(code) = &arguments.code else {
-        let rows: Vec<_> = EXPLANATIONS.iter().map(|entry| (entry.code, entry.title())).collect();
+        let rows: Vec<_> = explanations().map(|entry| (entry.code.name(), entry.title())).collect();
         say::rows(&rows);
         return Ok(());
     };

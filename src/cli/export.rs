@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-use jabuka::diagnostic::{Diagnostic, Report, visible_path};
+use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
 use jabuka::export::{ExportError, Exported, write_csv, write_glb};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
@@ -104,7 +104,7 @@ fn report(error: ExportError, path: &Path) -> Report {
         ExportError::Diverged(error) => OutputError::from(error).report(),
         ExportError::TooLarge(_) | ExportError::OutOfRange { .. } => {
             let message = format!("`{}`: {error}", visible_path(path));
-            let diagnostic = Diagnostic::error("cannot-export", message);
+            let diagnostic = Diagnostic::error(Code::CannotExport, message);
             let help = error.help();
             Report {
                 diagnostics: vec![match help {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use jabuka::diagnostic::{Report, visible_path};
+use jabuka::diagnostic::{Code, Report, visible_path};
 
 use super::{Failure, say};
 
@@ -17,7 +17,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.folder;
     let written = jabuka::emit::write_templates(folder).map_err(|error| {
         let message = format!("cannot write templates into `{}`: {error}", visible_path(folder));
-        say::report(&Report::of_error("cannot-write", message));
+        say::report(&Report::of_error(Code::CannotWrite, message));
         Failure::Errors
     })?;
     say::result(&format!(

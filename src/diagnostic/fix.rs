@@ -48,7 +48,7 @@ impl Edit {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Diagnostic, Sources};
+    use super::super::{Code, Diagnostic, Sources};
     use super::*;
 
     #[test]
@@ -56,7 +56,9 @@ mod tests {
         let mut sources = Sources::default();
         let id = sources.add("scene.toml", "a = 1\nb = 22\n");
         let error = |range, text: &str| {
-            Diagnostic::error("test", "wrong").at(Span::new(id, 0..1), "").fix(Span::new(id, range), text)
+            Diagnostic::error(Code::UnknownKey, "wrong")
+                .at(Span::new(id, 0..1), "")
+                .fix(Span::new(id, range), text)
         };
         let diagnostics =
             vec![error(10..12, "333"), error(4..5, "0"), error(10..11, "9"), error(13..13, "c = 4\n")];

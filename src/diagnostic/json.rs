@@ -61,7 +61,7 @@ pub(super) fn entries<'a>(report: &'a Report) -> Vec<Entry<'a>> {
             Severity::Error => "error",
             Severity::Warning => "warning",
         },
-        code: diagnostic.code,
+        code: diagnostic.code.name(),
         message: &diagnostic.message,
         help: diagnostic.help.as_deref(),
         place: diagnostic.labels.first().map(|label| place(label, &report.sources)),

@@ -1,5 +1,6 @@
 //! What jabuka has to say about a scene or a run: errors and warnings, each at its place.
 
+mod code;
 mod fix;
 mod json;
 mod nearest;
@@ -7,6 +8,7 @@ mod source;
 mod text;
 mod visible;
 
+pub use code::Code;
 pub use fix::{Edit, Fix};
 pub use json::Entry;
 pub use nearest::nearest;
@@ -36,8 +38,8 @@ pub struct Label {
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
-    /// The kind of mistake, for machines and for looking it up: `unknown-key`.
-    pub code: &'static str,
+    /// The kind of mistake.
+    pub code: Code,
     /// What is wrong, in one line.
     pub message: String,
     /// The places: first the one that is wrong, then those that it has to do with.
@@ -50,7 +52,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error of the given kind.
-    pub fn error(code: &'static str, message: impl Into<String>) -> Diagnostic {
+    pub fn error(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
             severity: Severity::Error,
             code,
@@ -62,7 +64,7 @@ impl Diagnostic {
     }
 
     /// A warning of the given kind.
-    pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
+    pub fn warning(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
@@ -111,7 +113,7 @@ pub struct Report {
 
 impl Report {
     /// A report of one error that has no place in a text.
-    pub fn of_error(code: &'static str, message: impl Into<String>) -> Report {
+    pub fn of_error(code: Code, message: impl Into<String>) -> Report {
         Report { sources: Sources::default(), diagnostics: vec![Diagnostic::error(code, message)] }
     }
 

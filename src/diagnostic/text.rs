@@ -43,7 +43,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code));
+    let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code.name()));
     let mut rest = diagnostic.labels.as_slice();
     while let Some(first) = rest.first() {
         // Labels of one text share a snippet, so that they are shown in one piece.
@@ -127,7 +127,7 @@ fn boundary(text: &str, byte: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Span;
+    use super::super::{Code, Span};
     use super::*;
 
     #[test]
@@ -135,14 +135,14 @@ mod tests {
         let mut sources = Sources::default();
         let id = sources.add("scene.toml", "a = 1\nb = 2\nc = 3\n");
         let set = sources.add("--set", "b=4");
-        let diagnostic = Diagnostic::error("test", "three things")
+        let diagnostic = Diagnostic::error(Code::UnknownKey, "three things")
             .at(Span::new(id, 6..7), "this")
             .at(Span::new(id, 12..13), "and this")
             .at(Span::new(set, 2..3), "and that")
             .help("mend it");
         let report = Report { sources, diagnostics: vec![diagnostic] };
         insta::assert_snapshot!(report.to_text(false), @r"
-        error[test]: three things
+        error[unknown-key]: three things
          --> scene.toml:2:1
           |
         2 | b = 2
@@ -164,7 +164,7 @@ mod tests {
         let mut sources = Sources::default();
         let hostile = "a\u{1b}[2J\u{9b}1m\u{202e}b\u{200f}c\u{61c}";
         let id = sources.add(format!("x\n{hostile}.toml"), format!("{hostile} = 1\n"));
-        let diagnostic = Diagnostic::error("test", format!("unknown `{hostile}`"))
+        let diagnostic = Diagnostic::error(Code::UnknownKey, format!("unknown `{hostile}`"))
             .at(Span::new(id, 0..1), hostile)
             .help(format!("not {hostile}"));
         let report = Report { sources, diagnostics: vec![diagnostic; MOST_OF_A_LINE + 1] };
@@ -186,10 +186,10 @@ mod tests {
     fn of_a_line_with_very_many_mistakes_not_all_are_shown() {
         let mut sources = Sources::default();
         let id = sources.add("scene.toml", "a = 1\n");
-        let error = Diagnostic::error("test", "wrong").at(Span::new(id, 0..1), "");
+        let error = Diagnostic::error(Code::UnknownKey, "wrong").at(Span::new(id, 0..1), "");
         let report = Report { sources, diagnostics: vec![error; MOST_OF_A_LINE + 3] };
         let text = report.to_text(false);
-        assert_eq!(text.matches("error[test]").count(), MOST_OF_A_LINE);
+        assert_eq!(text.matches("error[unknown-key]").count(), MOST_OF_A_LINE);
         assert!(text.ends_with("… and 3 more in line 1 of scene.toml\n\n"), "{text}");
     }
 
@@ -198,7 +198,7 @@ mod tests {
         let mut sources = Sources::default();
         let id = sources.add("scene.toml", "π = 1\nü");
         for (start, end) in [(1, 1), (1, 2), (0, 1), (8, 99), (99, 120), (3, 1)] {
-            let error = Diagnostic::error("test", "wrong").at(Span::new(id, start..end), "here");
+            let error = Diagnostic::error(Code::UnknownKey, "wrong").at(Span::new(id, start..end), "here");
             let report = Report { sources: sources.clone(), diagnostics: vec![error] };
             assert!(report.to_text(false).contains("scene.toml:"), "{start}..{end}");
         }

@@ -5,7 +5,7 @@
 
 use super::EmitError;
 use super::unit::{Reach, reach};
-use crate::diagnostic::{Diagnostic, Report, Span};
+use crate::diagnostic::{Code, Diagnostic, Report, Span};
 use crate::picture::{Placed, Plan, number};
 use crate::scene::{Camera, Scene};
 
@@ -54,7 +54,7 @@ pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
 }
 
 fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
-    let error = Diagnostic::error("indistinct", message);
+    let error = Diagnostic::error(Code::Indistinct, message);
     match place {
         Some(place) => error.at(place, label),
         None => error,

@@ -1,6 +1,6 @@
 //! Why a script cannot be written.
 
-use crate::diagnostic::{Diagnostic, Report, Span};
+use crate::diagnostic::{Code, Diagnostic, Report, Span};
 
 /// Why a script cannot be written.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ impl EmitError {
             };
         }
         let mut report = Report::default();
-        let diagnostic = Diagnostic::error("bad-template", message);
+        let diagnostic = Diagnostic::error(Code::BadTemplate, message);
         let place = innermost.name().and_then(text_of);
         report.diagnostics.push(match place {
             None => diagnostic,

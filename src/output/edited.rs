@@ -8,7 +8,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::manifest::Entry;
 use super::{Folder, OutputError, Tally};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::ASSETS;
 
 /// A file that was edited, and where it is now.
@@ -84,7 +84,7 @@ impl Folder {
         };
         let message = format!("{files} edited in `{}` and kept: {moves}{others}", self.path().display());
         let help = "what the scene gives stands in their place; `jabuka render DIR` renders edited scripts as they are";
-        Some(Diagnostic::warning("edited-script", message).help(help))
+        Some(Diagnostic::warning(Code::EditedScript, message).help(help))
     }
 }
 

@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::RunError;
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
 use crate::simulate::Diverged;
 
@@ -36,19 +36,19 @@ pub enum OutputError {
 
 impl OutputError {
     /// The kind of mistake, as a diagnostic's code.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> Code {
         match self {
-            OutputError::NotOurs(_) => "folder-not-ours",
-            OutputError::NotAFolder(_) | OutputError::NoFolder(_) => "no-folder",
-            OutputError::NoScripts(_) => "no-scripts",
-            OutputError::Incomplete(_) => "incomplete-scripts",
-            OutputError::Link(_) => "link",
-            OutputError::Locked(_) => "folder-locked",
-            OutputError::Io(_, error) if is_full(error) => "disk-full",
-            OutputError::Io(..) => "cannot-write",
-            OutputError::Diverged(_) => "diverged",
-            OutputError::Emit(EmitError::Indistinct(_)) => "indistinct",
-            OutputError::Emit(_) => "cannot-emit",
+            OutputError::NotOurs(_) => Code::FolderNotOurs,
+            OutputError::NotAFolder(_) | OutputError::NoFolder(_) => Code::NoFolder,
+            OutputError::NoScripts(_) => Code::NoScripts,
+            OutputError::Incomplete(_) => Code::IncompleteScripts,
+            OutputError::Link(_) => Code::Link,
+            OutputError::Locked(_) => Code::FolderLocked,
+            OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
+            OutputError::Io(..) => Code::CannotWrite,
+            OutputError::Diverged(_) => Code::Diverged,
+            OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
+            OutputError::Emit(_) => Code::CannotEmit,
         }
     }
 

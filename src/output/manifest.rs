@@ -139,12 +139,12 @@ pub struct Warning {
 impl Warning {
     fn of(diagnostic: Diagnostic) -> Warning {
         let Diagnostic { code, message, help, .. } = diagnostic;
-        Warning { code: code.to_owned(), message, help }
+        Warning { code: code.name().to_owned(), message, help }
     }
 
     /// The warning, to be said again; `None` where its kind is none that there is.
     fn diagnostic(&self) -> Option<Diagnostic> {
-        let code = RUN_WARNINGS.iter().find(|code| **code == self.code)?;
+        let code = RUN_WARNINGS.into_iter().find(|code| code.name() == self.code)?;
         let warning = Diagnostic::warning(code, self.message.clone());
         Some(match &self.help {
             Some(help) => warning.help(help.clone()),

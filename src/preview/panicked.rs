@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 
 /// Does a piece of work. If it panics, the report says so, and the thread goes on.
 ///
@@ -13,7 +13,7 @@ pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -
         let message = format!("jabuka failed while {doing}: {}", message_of(&*panic));
         let help = "this is a mistake in jabuka: please report it with the scene and with what the terminal shows; \
             the scene is read again when you change it";
-        let error = Diagnostic::error("internal-error", message).help(help);
+        let error = Diagnostic::error(Code::InternalError, message).help(help);
         Err(Report { diagnostics: vec![error], ..Report::default() })
     })
 }

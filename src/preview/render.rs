@@ -10,7 +10,7 @@ use serde::Deserialize;
 use super::failed::Failed;
 use super::run::{RunId, Simulation};
 use crate::Run;
-use crate::diagnostic::Report;
+use crate::diagnostic::{Code, Report};
 use crate::output::{self, Folder, OutputError};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
@@ -90,7 +90,7 @@ impl Renderer {
     ) -> Result<Vec<u8>, Failed> {
         let Some(Ok(outcome)) = run.outcome() else {
             let message = "the run is not finished: where the camera stands is not known yet";
-            return Err(Report::of_error("not-finished", message).into());
+            return Err(Report::of_error(Code::NotFinished, message).into());
         };
         let _turn = self.one_at_a_time.lock().unwrap_or_else(PoisonError::into_inner);
         if stop.load(Ordering::Relaxed) {

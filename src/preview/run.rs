@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::panicked::caught;
 use super::recording::Recording;
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::output::OutputError;
 use crate::picture::Plan;
 use crate::simulate::{Bounds, Diverged, Frame, Frames, Ghost, Lagging, Survey, Surveyor};
@@ -184,5 +184,8 @@ fn failed(error: RunError) -> Report {
 pub(super) fn no_room(error: &io::Error) -> Report {
     let message = format!("the frames cannot be kept: {error}");
     let help = "they go to a file below /var/tmp, or where TMPDIR says; take fewer frames, or another folder";
-    Report { diagnostics: vec![Diagnostic::error("cannot-write", message).help(help)], ..Report::default() }
+    Report {
+        diagnostics: vec![Diagnostic::error(Code::CannotWrite, message).help(help)],
+        ..Report::default()
+    }
 }

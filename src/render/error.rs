@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 
 /// Why rendering had to stop. What concerns one frame only is a [`Fault`](super::Fault), and stops nothing.
 #[derive(Debug)]
@@ -35,18 +35,18 @@ pub enum RenderError {
 
 impl RenderError {
     /// The kind of mistake, as a diagnostic's code.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> Code {
         match self {
-            RenderError::NoPovray(_) => "no-povray",
-            RenderError::NotPovray(..) => "wrong-povray",
-            RenderError::NoScripts(_) | RenderError::NoSuchFrames(..) => "no-scripts",
-            RenderError::Incomplete(_) => "incomplete-scripts",
-            RenderError::NotOurs(_) => "folder-not-ours",
-            RenderError::Link(_) => "link",
-            RenderError::Locked(_) => "folder-locked",
-            RenderError::DiskFull(_) => "disk-full",
-            RenderError::Io(..) => "cannot-write",
-            RenderError::AllFail(_) => "all-frames-fail",
+            RenderError::NoPovray(_) => Code::NoPovray,
+            RenderError::NotPovray(..) => Code::WrongPovray,
+            RenderError::NoScripts(_) | RenderError::NoSuchFrames(..) => Code::NoScripts,
+            RenderError::Incomplete(_) => Code::IncompleteScripts,
+            RenderError::NotOurs(_) => Code::FolderNotOurs,
+            RenderError::Link(_) => Code::Link,
+            RenderError::Locked(_) => Code::FolderLocked,
+            RenderError::DiskFull(_) => Code::DiskFull,
+            RenderError::Io(..) => Code::CannotWrite,
+            RenderError::AllFail(_) => Code::AllFramesFail,
         }
     }
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::PovRay;
-use crate::diagnostic::{Diagnostic, Report, Span};
+use crate::diagnostic::{Code, Diagnostic, Report, Span};
 
 /// Why one frame could not be rendered; others can.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,8 +67,8 @@ impl Fault {
     }
 
     /// The kind of mistake, as a diagnostic's code.
-    pub fn code(&self) -> &'static str {
-        if self.outside { "outside-sandbox" } else { "bad-frame" }
+    pub fn code(&self) -> Code {
+        if self.outside { Code::OutsideSandbox } else { Code::BadFrame }
     }
 
     /// The fault as an error at its place in the script.

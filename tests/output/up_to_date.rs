@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use jabuka::diagnostic::Report;
+use jabuka::diagnostic::{Code, Report};
 use jabuka::output::{Folder, Manifest, up_to_date, write};
 use jabuka::scene::{Options, Override};
 use jabuka::simulate::Selection;
@@ -69,7 +69,7 @@ fn what_was_written_is_known_with_what_was_noticed() {
     assert_eq!(manifest.head.drift, Some(run.survey().drift));
     let said = |warnings| Report { diagnostics: warnings, ..Report::default() }.to_text(false);
     assert_eq!(said(manifest.warnings()), said(run.warnings()));
-    assert!(manifest.warnings().iter().any(|warning| warning.code == "energy-drift"));
+    assert!(manifest.warnings().iter().any(|warning| warning.code == Code::EnergyDrift));
     // Fewer frames are there too, another camera's are not.
     assert!(place.found(&scene, &"3-5".parse().unwrap()).is_some());
     let view = &scene.views[0];

@@ -7,6 +7,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use jabuka::diagnostic::Code;
+
 /// The `jabuka` command, as built for the tests.
 pub(crate) fn jabuka() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_jabuka"));
@@ -54,34 +56,20 @@ pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// Every code in the sources below a folder, of whatever is made there: the word in quotes after what makes it.
-pub(crate) fn codes(folder: &Path) -> BTreeSet<String> {
+/// Every code that is named in the sources below a folder, but for the list of all.
+pub(crate) fn codes(folder: &Path) -> BTreeSet<Code> {
     let mut codes = BTreeSet::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
             codes.extend(self::codes(&path));
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).unwrap();
-        let text = text.split("#[cfg(test)]").next().unwrap();
-        for maker in
-            ["Diagnostic::error(", "Diagnostic::warning(", "of_error(", " error(", "(error(", ".error("]
-        {
-            for (at, _) in text.match_indices(maker) {
-                let after = text[at + maker.len()..].trim_start();
-                codes.extend(
-                    after.strip_prefix('"').and_then(|code| code.split('"').next()).map(str::to_owned),
-                );
-            }
-        }
-        // Where the code is one of several, all words of a code's form are codes.
-        for (choice, end) in [("let code =", ";"), ("fn code(", "\n    }\n")] {
-            for (at, _) in text.match_indices(choice) {
-                let words = text[at..].split(end).next().unwrap().split('"').skip(1).step_by(2);
-                let of_form = |c: char| c.is_ascii_lowercase() || c == '-';
-                codes.extend(words.filter(|word| word.chars().all(of_form)).map(str::to_owned));
-            }
+        } else if !path.ends_with("diagnostic/code.rs") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let text = text.split("#[cfg(test)]").next().unwrap();
+            let words = text.split("Code::").skip(1);
+            let variants: Vec<_> =
+                words.map(|word| word.split(|c: char| !c.is_alphanumeric()).next().unwrap()).collect();
+            codes.extend(Code::ALL.iter().filter(|code| variants.contains(&format!("{code:?}").as_str())));
         }
     }
     codes

@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use super::{Film, Format};
-use crate::diagnostic::{Diagnostic, Report};
+use crate::diagnostic::{Code, Diagnostic, Report};
 
 /// Why a film or a contact sheet could not be made.
 #[derive(Debug)]
@@ -60,21 +60,21 @@ pub enum FilmError {
 
 impl FilmError {
     /// The kind of mistake, as a diagnostic's code.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> Code {
         match self {
-            FilmError::FilmName(_) | FilmError::SheetName(_) => "bad-film-name",
-            FilmError::NoImages => "no-images",
-            FilmError::Rate(_) => "bad-film-rate",
-            FilmError::NoQuality(_) => "bad-film-name",
-            FilmError::TooLarge { .. } => "bad-film-size",
-            FilmError::NoFfmpeg(..) | FilmError::NoEncoder(..) => "no-ffmpeg",
-            FilmError::Image(..) => "bad-image",
-            FilmError::Sizes { .. } => "image-sizes",
+            FilmError::FilmName(_) | FilmError::SheetName(_) => Code::BadFilmName,
+            FilmError::NoImages => Code::NoImages,
+            FilmError::Rate(_) => Code::BadFilmRate,
+            FilmError::NoQuality(_) => Code::BadFilmName,
+            FilmError::TooLarge { .. } => Code::BadFilmSize,
+            FilmError::NoFfmpeg(..) | FilmError::NoEncoder(..) => Code::NoFfmpeg,
+            FilmError::Image(..) => Code::BadImage,
+            FilmError::Sizes { .. } => Code::ImageSizes,
             FilmError::Folder(_) | FilmError::Locked(_) | FilmError::DiskFull(_) | FilmError::Io(..) => {
-                "cannot-write"
+                Code::CannotWrite
             }
-            FilmError::Failed(..) | FilmError::Count(..) => "ffmpeg-failed",
-            FilmError::Cancelled => "stopped",
+            FilmError::Failed(..) | FilmError::Count(..) => Code::FfmpegFailed,
+            FilmError::Cancelled => Code::Stopped,
         }
     }
 

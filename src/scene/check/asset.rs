@@ -4,7 +4,7 @@ use std::path::{Component, Path};
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Asset;
 use crate::scene::source::{Node, file};
 
@@ -23,7 +23,7 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
             Some((_, node)) => {
                 let message = format!("two assets would be copied to `assets/{}`", asset.name);
                 let help = "a file from elsewhere is copied under its name alone: rename one of them";
-                let error = Diagnostic::error("same-asset", message).at(item.span, "").help(help);
+                let error = Diagnostic::error(Code::SameAsset, message).at(item.span, "").help(help);
                 context.diagnostics.push(error.at(node.span, "the other is here"));
             }
             None => assets.push((asset, item)),
@@ -39,13 +39,13 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     // SDL names it in a string.
     let bad = || {
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
-        error("bad-asset", format!("`{name}` cannot be the name of an asset")).help(help)
+        error(Code::BadAsset, format!("`{name}` cannot be the name of an asset")).help(help)
     };
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
         return Err(bad());
     }
     let outside = || {
-        error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+        error(Code::UntrustedPath, format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`")
     };
     let copied_to = match below(name) {
@@ -56,11 +56,11 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     };
     let Some(folder) = folder else {
         let message = format!("there is no `{name}`: a scene that is no file has nothing beside it");
-        return Err(error("missing-asset", message));
+        return Err(error(Code::MissingAsset, message));
     };
     let missing = |e: std::io::Error| match e.kind() {
-        std::io::ErrorKind::NotFound => error("missing-asset", format!("there is no file `{name}`")),
-        _ => error("missing-asset", format!("cannot read `{name}`: {e}")),
+        std::io::ErrorKind::NotFound => error(Code::MissingAsset, format!("there is no file `{name}`")),
+        _ => error(Code::MissingAsset, format!("cannot read `{name}`: {e}")),
     };
     // A link inside the folder may lead out of it.
     let path = folder.join(name).canonicalize().map_err(missing)?;
@@ -69,7 +69,7 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     }
     if let Some(what) = file::irregular(path.metadata().map_err(missing)?.file_type()) {
         let message = format!("`{name}` is {what}, and only regular files are read");
-        return Err(error("missing-asset", message));
+        return Err(error(Code::MissingAsset, message));
     }
     Ok(Asset { name: copied_to, path })
 }

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::read::figure;
 use super::view::View;
 use super::{Context, look, mesh, motion, shape, showing};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
 use crate::scene::{Body, LibraryMaterial, Look, Material, Simulation};
@@ -82,17 +82,17 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
     };
     let given = view.boolean("fixed");
     if let (Some((what, why, always)), Some(false)) = (scenery, given) {
-        let error = Diagnostic::error("plane-moves", format!("the {what} `{name}` cannot move: {why}"));
+        let error = Diagnostic::error(Code::PlaneMoves, format!("the {what} `{name}` cannot move: {why}"));
         context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, always)));
     }
     let motion = view.key_span("motion");
     if let (Some((what, why, always)), Some(span)) = (scenery, motion) {
-        let error = Diagnostic::error("plane-moves", format!("the {what} `{name}` cannot move: {why}"));
+        let error = Diagnostic::error(Code::PlaneMoves, format!("the {what} `{name}` cannot move: {why}"));
         context.diagnostics.push(error.at(span, always));
     }
     if motion.is_some() {
         for key in MOTION.into_iter().chain(PUSHING).filter(|key| view.has(key)) {
-            let warning = Diagnostic::warning("no-effect", format!("`{key}` of `{name}` has no effect"));
+            let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
             let why = "its motion is given";
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
@@ -102,14 +102,14 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
         let why = scenery.map_or("it is fixed", |(_, _, always)| always);
         for key in MOTION.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO)) {
             let error = Diagnostic::error(
-                "fixed-moves",
+                Code::FixedMoves,
                 format!("`{name}` is fixed, so its `{key}` must be [0, 0, 0]"),
             );
             context.diagnostics.extend(view.key_span(key).map(|span| error.at(span, why)));
         }
         for key in PUSHING.into_iter().filter(|key| view.has(key)) {
             let message = format!("`{key}` of `{name}` has no effect");
-            let warning = Diagnostic::warning("no-effect", message);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
     }
@@ -123,7 +123,7 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     if mass.is_finite() && mass > 0.0 {
         return mass;
     }
-    let error = Diagnostic::error("impossible-mass", format!("the mass of `{name}` is {}", extreme(mass)));
+    let error = Diagnostic::error(Code::ImpossibleMass, format!("the mass of `{name}` is {}", extreme(mass)));
     let label = "mass = density × volume";
     context.diagnostics.push(error.at(view.span("density").unwrap_or(span), label));
     1.0
@@ -148,7 +148,7 @@ fn inertia_of_shape(
     // Of a mesh without a solid, more has been said.
     if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
-        let error = Diagnostic::error("impossible-inertia", message);
+        let error = Diagnostic::error(Code::ImpossibleInertia, message);
         context.diagnostics.push(error.at(span, "its shape or its mass is too extreme"));
     }
     inertia
@@ -169,7 +169,7 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
         let label =
             format!("{} is larger than the sum of the other two, {}", figure(largest), figure(others));
         let help = "Ix + Iy ≥ Iz, and likewise for the others, holds for every distribution of mass";
-        let error = Diagnostic::error("impossible-inertia", message).help(help);
+        let error = Diagnostic::error(Code::ImpossibleInertia, message).help(help);
         context.diagnostics.extend(view.span("inertia").map(|span| error.at(span, label)));
     }
     Some(inertia)
@@ -199,7 +199,7 @@ pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context
     for (key, other) in [("axis", "angle"), ("angle", "axis")] {
         if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
             let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
-            let error = Diagnostic::error("missing-key", message).at(span, format!("needs `{other}`"));
+            let error = Diagnostic::error(Code::MissingKey, message).at(span, format!("needs `{other}`"));
             context.diagnostics.push(error);
         }
     }
@@ -237,7 +237,7 @@ fn material(
     context: &mut Context<'_>,
 ) -> Option<usize> {
     if matches!(shape, Shape::Axes { .. }) {
-        let warning = Diagnostic::warning("no-effect", "the material of axes has no effect");
+        let warning = Diagnostic::warning(Code::NoEffect, "the material of axes has no effect");
         let why = "axes are red, green and blue";
         context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
         return None;

@@ -1,6 +1,6 @@
 //! Raw SDL whose braces do not match: POV-Ray would complain far from the cause, in the text around it.
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::sdl::{Token, Tokens};
 
 /// The error of a text whose braces do not match, if they do not.
@@ -11,7 +11,7 @@ pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
         Ok(1) => "the SDL opens a brace that it does not close".to_owned(),
         Ok(open) => format!("the SDL opens {open} braces that it does not close"),
     };
-    Some(Diagnostic::error("unbalanced-sdl", message).at(span, ""))
+    Some(Diagnostic::error(Code::UnbalancedSdl, message).at(span, ""))
 }
 
 /// How many braces are open at the end; an error where one is closed too many. Strings and comments do not count.

@@ -3,7 +3,7 @@
 use super::read::figure;
 use super::view::View as Keys;
 use super::{Context, motion};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
@@ -23,7 +23,7 @@ pub(super) fn views(root: &Keys<'_>, simulation: &Simulation, context: &mut Cont
         if name.is_empty() || name == ALL || !name.chars().all(plain) {
             let message = format!("`{}` cannot be the name of a view", name.escape_debug());
             let help = format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL}`");
-            context.diagnostics.push(Diagnostic::error("bad-view-name", message).at(span, "").help(help));
+            context.diagnostics.push(Diagnostic::error(Code::BadViewName, message).at(span, "").help(help));
         }
         View { name: name.to_owned(), camera: camera(&[keys, main], simulation, context) }
     };
@@ -93,7 +93,8 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
         // POV-Ray draws nothing sensible from a camera that is nearer to its aim than rounding reaches.
         let near = location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element();
         if near {
-            let error = Diagnostic::error("camera-at-look-at", "the camera is at the point that it looks at");
+            let error =
+                Diagnostic::error(Code::CameraAtLookAt, "the camera is at the point that it looks at");
             let span = |key: &str| tables.iter().find_map(|keys| keys.span(key));
             let spans = span("look_at").into_iter().chain(span("location"));
             context.diagnostics.push(spans.fold(error, |error, span| error.at(span, "the same point")));
@@ -125,14 +126,14 @@ fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
         short(interval)
     );
     let help = format!("half the time between frames is usual: `shutter = {}`", short(interval / 2.0));
-    (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error("long-shutter", message).help(help))
+    (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error(Code::LongShutter, message).help(help))
 }
 
 /// Reports keys of a table that mean nothing for this kind of camera.
 fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
     let mut report = |key: &str, needs: &str| {
         let message = format!("`{key}` has no effect without {needs}");
-        let warning = Diagnostic::warning("no-effect", message);
+        let warning = Diagnostic::warning(Code::NoEffect, message);
         context.diagnostics.extend(keys.key_span(key).map(|span| warning.at(span, "")));
     };
     if orthographic {

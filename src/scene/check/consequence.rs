@@ -2,19 +2,22 @@
 
 use std::collections::HashSet;
 
-use crate::diagnostic::{Diagnostic, Severity, Sources};
+use crate::diagnostic::{Code, Diagnostic, Severity, Sources};
 
 /// What the lack of something that could not be read may lead to.
-const OF_LACK: [&str; 4] = ["missing-key", "unknown-name", "undeclared-texture", "no-bodies"];
+const OF_LACK: [Code; 4] = [Code::MissingKey, Code::UnknownName, Code::UndeclaredTexture, Code::NoBodies];
 
 /// Drops, of what was found in a tree, what only follows from that the text could not be read in full.
 pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {
     let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
     if found.iter().chain(unreadable).any(is_error) {
         // Bodies that are there, and wrong, may not count as such.
-        found.retain(|diagnostic| diagnostic.code != "no-bodies");
+        found.retain(|diagnostic| diagnostic.code != Code::NoBodies);
     }
-    if unreadable.iter().any(|diagnostic| matches!(diagnostic.code, "cannot-include" | "cyclic-include")) {
+    if unreadable
+        .iter()
+        .any(|diagnostic| matches!(diagnostic.code, Code::CannotInclude | Code::CyclicInclude))
+    {
         // What is missing may be there.
         found.retain(|diagnostic| !OF_LACK.contains(&diagnostic.code));
     }
@@ -30,7 +33,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         lines.insert((span.source, line));
         // After a header that cannot be read, keys are counted as those of another table.
         let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
-        if (header && diagnostic.code == "toml-syntax") || diagnostic.code == "toml-unclosed" {
+        if (header && diagnostic.code == Code::TomlSyntax) || diagnostic.code == Code::TomlUnclosed {
             end = end.into_iter().chain([span]).min();
         }
     }
@@ -44,6 +47,6 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
     });
 }
 
-fn is_syntax(code: &str) -> bool {
-    matches!(code, "toml-syntax" | "toml-unclosed" | "duplicate-key")
+fn is_syntax(code: Code) -> bool {
+    matches!(code, Code::TomlSyntax | Code::TomlUnclosed | Code::DuplicateKey)
 }

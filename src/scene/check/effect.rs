@@ -2,7 +2,7 @@
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Body, Force, ForceKind};
 
 /// Warns of masses that neither make a body slow to move nor attract another, and of charges that no force acts on.
@@ -22,7 +22,7 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     }
     for (i, ((name, _, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
         let mut warn = |key: &str, why: &str| {
-            let warning = Diagnostic::warning("no-effect", format!("`{key}` of `{name}` has no effect"));
+            let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         };
         if body.start.fixed && !attracts[i] {

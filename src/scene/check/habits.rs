@@ -1,7 +1,7 @@
 //! What should have been written in the place of a key or a value, as text that can be pasted.
 
 use super::Context;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::Color;
 use crate::scene::grammar::{Collection, Key, Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value, habits};
@@ -171,8 +171,8 @@ pub(super) fn mend_value(
 ) {
     for at in before..context.diagnostics.len() {
         let diagnostic = &context.diagnostics[at];
-        let is_of_it =
-            matches!(diagnostic.code, "wrong-type" | "wrong-length") && diagnostic.span() == Some(node.span);
+        let is_of_it = matches!(diagnostic.code, Code::WrongType | Code::WrongLength)
+            && diagnostic.span() == Some(node.span);
         if !is_of_it || diagnostic.fix.is_some() {
             continue;
         }

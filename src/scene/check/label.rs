@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Context;
 use super::showing::wanted;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::{
@@ -52,7 +52,7 @@ fn corner(view: &View<'_>) -> Option<Corner> {
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
     let body = view.text("body").and_then(|name| context.names.bodies.get(name).copied());
     let mut useless = |key: &str, why: &str| {
-        let warning = Diagnostic::warning("no-effect", format!("`{key}` has no effect {why}"));
+        let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` has no effect {why}"));
         context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, "")));
     };
     let Some(body) = body else {
@@ -82,7 +82,7 @@ fn pieces(
     let mut reader = Reader { text, span, root, place, bodies, context };
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
-        reader.report(Diagnostic::error("label-syntax", message), 0..0, "");
+        reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
         return Vec::new();
     }
     let mut pieces = Vec::new();
@@ -90,7 +90,7 @@ fn pieces(
     while let Some(begin) = text[at..].find("${").map(|found| at + found) {
         pieces.extend(reader.words(at..begin));
         let Some(length) = text[begin..].find('}') else {
-            let error = Diagnostic::error("label-syntax", "this value has no end");
+            let error = Diagnostic::error(Code::LabelSyntax, "this value has no end");
             reader.report(error, begin..begin + 2, "needs a `}`");
             return pieces;
         };
@@ -128,13 +128,13 @@ impl Reader<'_, '_, '_> {
         if let Some((at, letter)) = words.char_indices().find(|(_, letter)| letter_of(*letter).is_none()) {
             let here = range.start + at..range.start + at + letter.len_utf8();
             let message = format!("POV-Ray's font has no letter `{}`", letter.escape_debug());
-            self.report(Diagnostic::error("label-letter", message), here, "it would be an empty box");
+            self.report(Diagnostic::error(Code::LabelLetter, message), here, "it would be an empty box");
             return None;
         }
         if let Some((begin, length)) = words.find('{').and_then(|at| Some((at, words[at..].find('}')?))) {
             let here = range.start + begin..range.start + begin + length + 1;
             let message = "what stands in braces is shown as it is";
-            let warning = Diagnostic::warning("label-syntax", message);
+            let warning = Diagnostic::warning(Code::LabelSyntax, message);
             self.report(warning, here.clone(), &format!("did you mean `${}`?", &self.text[here]));
         }
         (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
@@ -149,7 +149,7 @@ impl Reader<'_, '_, '_> {
                 let Some(format) = format_of(format) else {
                     let message = format!("`{format}` is no format of a number");
                     let label = "`.2` is two decimals, `.2e` has a power of ten";
-                    self.report(Diagnostic::error("label-syntax", message), begin..range.end, label);
+                    self.report(Diagnostic::error(Code::LabelSyntax, message), begin..range.end, label);
                     return None;
                 };
                 (formula, format)
@@ -196,14 +196,14 @@ impl Reader<'_, '_, '_> {
                     None => label,
                 };
                 let message = format!("there is no body `{body}`");
-                self.report(Diagnostic::error("unknown-name", message), start + begin..start + at, &label);
+                self.report(Diagnostic::error(Code::UnknownName, message), start + begin..start + at, &label);
                 return None;
             };
             let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
                 let names = BodyMeasure::ALL.map(|(name, ..)| name);
                 let message = format!("a body has no `{measure}` that a label could show");
                 let here = self.at(&(start + at + 1..start + end));
-                let error = Diagnostic::error("unknown-name", message);
+                let error = Diagnostic::error(Code::UnknownName, message);
                 let known = format!("there are {}", crate::scene::grammar::quoted(&names));
                 self.context.diagnostics.push(match crate::diagnostic::nearest(measure, names) {
                     Some(near) => error.at(here, format!("did you mean `{near}`?")).help(known),
@@ -220,7 +220,7 @@ impl Reader<'_, '_, '_> {
                     measure_name = &formula[at + 1..end]
                 );
                 let label = "write the two in `${…}` of their own";
-                self.report(Diagnostic::error("label-syntax", message), start + begin..start + end, label);
+                self.report(Diagnostic::error(Code::LabelSyntax, message), start + begin..start + end, label);
                 return None;
             }
             dotted.push((joined, measure));
@@ -275,7 +275,7 @@ impl Reader<'_, '_, '_> {
         for error in errors {
             let at = self.at(&(start + error.range.start..start + error.range.end));
             // What is said of variables is not all that there is here.
-            let own = error.code == "unknown-name" && !error.label.starts_with("did you mean");
+            let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
             let diagnostic = Diagnostic::error(error.code, error.message);
             self.context.diagnostics.push(if own {
                 let known = "`t`, `ball.speed` and their kin: see «Labels» in docs/scene-language.md";

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::view::View;
 use super::{Context, motion};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Shape;
 use crate::scene::{
     Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Simulation, Sky,
@@ -14,12 +14,12 @@ use crate::scene::{
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
     let look = view.table("look");
     if shape.is_unbounded() {
-        let warning = Diagnostic::warning("no-effect", format!("`scale` of `{name}` has no effect"));
+        let warning = Diagnostic::warning(Code::NoEffect, format!("`scale` of `{name}` has no effect"));
         context.diagnostics.extend(look.key_span("scale").map(|span| warning.at(span, "a plane is endless")));
         // The usual look of a plane is a plane of its own making, in which no words can stand.
         for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has("material")) {
             let message = format!("`material` is missing in [body.{name}]");
-            let error = Diagnostic::error("missing-key", message);
+            let error = Diagnostic::error(Code::MissingKey, message);
             let label = "only stands in planes with a material";
             context.diagnostics.extend(look.key_span(key).map(|span| error.at(span, label)));
         }

@@ -2,7 +2,7 @@
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Color, Finish, LibraryMaterial, Look, Material};
 
 /// The materials of the file.
@@ -25,7 +25,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
     if let Some(material) = view.text("like").and_then(LibraryMaterial::named) {
         if let (Some(span), None) = (view.key_span("color"), material.color) {
             let message = format!("the color of what is like `{}` has no effect", material.name);
-            let warning = Diagnostic::warning("no-effect", message);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.push(warning.at(span, "it has colors of its own"));
         }
         return material.look(view.color("color"));
@@ -42,7 +42,8 @@ fn is_declared(texture: &str, view: &View<'_>, root: &View<'_>, context: &mut Co
     if povray.has("include") || povray.has("sdl") {
         return;
     }
-    let error = Diagnostic::error("undeclared-texture", format!("nothing declares the texture `{texture}`"));
+    let error =
+        Diagnostic::error(Code::UndeclaredTexture, format!("nothing declares the texture `{texture}`"));
     let help = "name the include file that does: `[povray]` `include = [\"metals.inc\"]`";
     context.diagnostics.extend(view.span("texture").map(|span| error.at(span, "").help(help)));
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::Context;
 use super::read::figure;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Flaw, Mesh, Shape};
 use crate::scene::{Camera, Layout, Output, Simulation, mesh};
 
@@ -72,7 +72,7 @@ impl Meshes {
         let bytes = triangles as f64 * BYTES_OF_A_TRIANGLE * scripts;
         let (span, _) = self.sizes.iter().max_by_key(|(_, triangles)| *triangles)?;
         let message = format!("every script holds the whole mesh: together about {:.1} GB", bytes / 1e9);
-        let warning = Diagnostic::warning("large-scripts", message);
+        let warning = Diagnostic::warning(Code::LargeScripts, message);
         let help = "`layout = \"shared\"` in [output] writes it once";
         let large = output.layout == Layout::SelfContained && bytes > LARGE;
         large.then(|| warning.at(*span, format!("{triangles} triangles, {scripts} times")).help(help))
@@ -113,7 +113,7 @@ fn file(
         Ok(mesh) => Some(mesh),
         Err(why) => {
             let message = format!("cannot read `{}`", node.as_str().unwrap_or_default());
-            context.diagnostics.push(Diagnostic::error("bad-mesh", message).at(node.span, why));
+            context.diagnostics.push(Diagnostic::error(Code::BadMesh, message).at(node.span, why));
             None
         }
     }
@@ -152,5 +152,5 @@ pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
         "the mesh `{}` encloses no solid, so its mass and inertia do not follow from it",
         mesh.name()
     );
-    Some(Diagnostic::error("open-mesh", message).at(span, label))
+    Some(Diagnostic::error(Code::OpenMesh, message).at(span, label))
 }

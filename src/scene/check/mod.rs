@@ -37,7 +37,7 @@ use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, Places, PovRay, Scene};
-use crate::diagnostic::{Diagnostic, Report, Severity, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 
 /// What a scene is made from.
 pub(super) struct Input<'a> {
@@ -63,7 +63,7 @@ struct Context<'a> {
     /// Whether what is looked at is a part of a table, which needs none of its keys.
     is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
-    told: HashSet<(&'static str, Span)>,
+    told: HashSet<(Code, Span)>,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
     meshes: mesh::Meshes,
@@ -192,7 +192,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     // A default is for those on which it has an effect.
     let of_default =
         |diagnostic: &Diagnostic| diagnostic.span().is_some_and(|span| of_defaults.contains(&span));
-    found.retain(|diagnostic| diagnostic.code != "no-effect" || !of_default(diagnostic));
+    found.retain(|diagnostic| diagnostic.code != Code::NoEffect || !of_default(diagnostic));
     consequence::drop(&mut found, &diagnostics[..unreadable], &sources);
     diagnostics.append(&mut found);
 
@@ -224,7 +224,7 @@ fn build(
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
-        context.diagnostics.push(Diagnostic::warning("no-bodies", message).help(help));
+        context.diagnostics.push(Diagnostic::warning(Code::NoBodies, message).help(help));
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);

@@ -8,7 +8,7 @@ use super::read::figure;
 use super::trajectory::{self, Columns};
 use super::view::View;
 use super::{Context, asset, body};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Interpolation, Key, Track};
 use crate::scene::Simulation;
 use crate::scene::expand::in_string;
@@ -40,7 +40,7 @@ pub(super) fn read(
 
 /// Says that a location has no effect: also the one to which a `repeat` puts a copy.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
-    let warning = Diagnostic::warning("no-effect", format!("`location` of `{name}` has no effect"));
+    let warning = Diagnostic::warning(Code::NoEffect, format!("`location` of `{name}` has no effect"));
     let why = "its motion says where it is";
     context.diagnostics.extend(view.key_span("location").map(|span| warning.at(span, why)));
 }
@@ -169,7 +169,7 @@ pub(super) fn camera_keyframes(
 fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: &mut Context<'_>) -> bool {
     if let Some((before, other)) = last.filter(|(before, _)| *before >= time) {
         let message = format!("a keyframe at {time} s stands after one at {before} s");
-        let error = Diagnostic::error("keyframe-order", message).at(span, "this is not later");
+        let error = Diagnostic::error(Code::KeyframeOrder, message).at(span, "this is not later");
         context.diagnostics.push(error.at(other, "the one before"));
         return true;
     }
@@ -229,5 +229,5 @@ fn stands_still(name: &str, keys: &[Key], span: Span, simulation: &Simulation, c
     let message = format!("`{name}` stands still {}", when.join(", and "));
     let label = format!("the scene goes from 0 to {} s", figure(end));
     let help = "let `simulation.duration` end with the file; a body cannot be absent yet";
-    context.diagnostics.push(Diagnostic::warning("short-trajectory", message).at(span, label).help(help));
+    context.diagnostics.push(Diagnostic::warning(Code::ShortTrajectory, message).at(span, label).help(help));
 }

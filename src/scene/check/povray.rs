@@ -4,7 +4,7 @@ use std::path::{Component, Path};
 
 use super::view::View;
 use super::{Context, asset, suggest};
-use crate::diagnostic::{Diagnostic, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::expand::in_string;
 use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
@@ -35,12 +35,12 @@ pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
         let message = format!("`{name}` cannot be the name of an include file");
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
-        return Err(error("bad-include", message).help(help));
+        return Err(error(Code::BadInclude, message).help(help));
     }
     let below =
         Path::new(name).components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     if !below && !trust {
-        return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+        return Err(error(Code::UntrustedPath, format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));
     }
     if let Some(path) = folder.map(|folder| folder.join(name)).filter(|path| path.exists()) {
@@ -50,14 +50,14 @@ pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result
         let label = suggest::nearest(name, INCLUDES.iter().copied())
             .map_or_else(|| "no such file".to_owned(), |near| format!("did you mean `{near}`?"));
         let message = format!("the include file `{name}` is neither POV-Ray's own nor beside the scene");
-        return Err(Diagnostic::error("missing-include", message)
+        return Err(Diagnostic::error(Code::MissingInclude, message)
             .at(node.span, label)
             .help("with `--trust`, POV-Ray is left to find it"));
     }
     if WRITING_INCLUDES.contains(&name) && !trust {
         let message = format!("the SDL reaches for files: the macros of `{name}` write them");
         return Err(
-            error("untrusted-sdl", message).help("if you know this scene and trust it, say `--trust`")
+            error(Code::UntrustedSdl, message).help("if you know this scene and trust it, say `--trust`")
         );
     }
     Ok(Include::Standard(name.to_owned()))
@@ -71,19 +71,19 @@ fn include_text(
     trust: bool,
 ) -> Result<Include, Diagnostic> {
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    let cannot_read = |e: std::io::Error| error("missing-include", format!("cannot read `{name}`: {e}"));
+    let cannot_read = |e: std::io::Error| error(Code::MissingInclude, format!("cannot read `{name}`: {e}"));
     // A link inside the folder may lead out of it.
     let real = path.canonicalize().map_err(cannot_read)?;
     let inside =
         folder.and_then(|folder| folder.canonicalize().ok()).is_some_and(|folder| real.starts_with(folder));
     if !inside && !trust {
-        return Err(error("untrusted-path", format!("`{name}` leads out of the scene's folder"))
+        return Err(error(Code::UntrustedPath, format!("`{name}` leads out of the scene's folder"))
             .help("if you know this scene and trust it, say `--trust`"));
     }
     let text = file::read_text(&real, MAX_INCLUDE_BYTES).map_err(|e| match e.kind() {
         std::io::ErrorKind::FileTooLarge => {
             let message = format!("`{name}` is larger than 1 MiB, and it would stand in every script");
-            error("file-too-large", message)
+            error(Code::FileTooLarge, message)
         }
         _ => cannot_read(e),
     })?;
@@ -98,5 +98,5 @@ pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<
     let place = in_string(raw, text, &(start..end), span);
     let message = "values are not filled into POV-Ray's own words";
     let help = "only the text of a label has values; for words that change from frame to frame, take a template of your own (`jabuka templates`)";
-    Some(Diagnostic::warning("value-in-sdl", message).at(place, "this stays as it is").help(help))
+    Some(Diagnostic::warning(Code::ValueInSdl, message).at(place, "this stays as it is").help(help))
 }

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Color;
 use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
@@ -18,7 +18,7 @@ const LARGEST: f64 = 1e100;
 /// That a value is of another type than it should be.
 pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     let message = format!("expected {}, found {}", expected.in_words(), node.in_words());
-    Diagnostic::error("wrong-type", message).at(node.span, "")
+    Diagnostic::error(Code::WrongType, message).at(node.span, "")
 }
 
 /// A number as a message shows it: as a scene would write it, and never with hundreds of zeros.
@@ -37,16 +37,16 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     let Some(number) = node.as_number() else { return Err(wrong_type(node, &Kind::Number(bound))) };
     if !number.is_finite() {
         let message = format!("expected a finite number{}, found {}", bound.in_words(), figure(number));
-        return Err(Diagnostic::error("not-finite", message).at(node.span, ""));
+        return Err(Diagnostic::error(Code::NotFinite, message).at(node.span, ""));
     }
     if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
         let message =
             format!("a scene's numbers are 0, or from {SMALLEST:e} to {LARGEST:e}; this one is {number:e}");
-        return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
+        return Err(Diagnostic::error(Code::OutOfRange, message).at(node.span, ""));
     }
     if !bound.admits(number) {
         let message = format!("expected a number{}, found {}", bound.in_words(), figure(number));
-        return Err(Diagnostic::error("out-of-range", message).at(node.span, ""));
+        return Err(Diagnostic::error(Code::OutOfRange, message).at(node.span, ""));
     }
     Ok(number)
 }
@@ -57,11 +57,13 @@ pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnosti
         Value::Integer(number) if (low..=high).contains(&number) => Ok(number),
         Value::Integer(number) => {
             let message = format!("expected a whole number from {low} to {high}, found {number}");
-            Err(Diagnostic::error("out-of-range", message).at(node.span, ""))
+            Err(Diagnostic::error(Code::OutOfRange, message).at(node.span, ""))
         }
         Value::Float(_) => {
             let message = format!("expected a whole number from {low} to {high}, found a decimal number");
-            Err(Diagnostic::error("wrong-type", message).at(node.span, "").help("write it without a point"))
+            Err(Diagnostic::error(Code::WrongType, message)
+                .at(node.span, "")
+                .help("write it without a point"))
         }
         _ => Err(wrong_type(node, &Kind::Integer(low, high))),
     }
@@ -78,7 +80,7 @@ fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<
         length => format!("a list of {length}"),
     };
     let message = format!("expected {}, found {found}", expected.in_words());
-    Err(Diagnostic::error("wrong-length", message).at(node.span, ""))
+    Err(Diagnostic::error(Code::WrongLength, message).at(node.span, ""))
 }
 
 /// The items of a list, each still to be read.
@@ -142,7 +144,7 @@ pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Dia
     let largest = numbers.iter().fold(0.0, |largest: f64, n| largest.max(n.abs()));
     if largest == 0.0 {
         let message = format!("expected {}", Kind::Direction(N).in_words());
-        let error = Diagnostic::error("zero-length", message);
+        let error = Diagnostic::error(Code::ZeroLength, message);
         return Err(vec![error.at(node.span, "this has no direction")]);
     }
     let scaled = numbers.map(|n| n / largest);
@@ -160,7 +162,7 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "expected \"#rrggbb\", \"#rgb\" or a name of CSS".to_owned(),
             };
-            vec![Diagnostic::error("unknown-color", message).at(node.span, label)]
+            vec![Diagnostic::error(Code::UnknownColor, message).at(node.span, label)]
         }),
         Value::Array(items) => {
             let bytes = bytes(items);
@@ -168,7 +170,7 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
                 Some([r, g, b]) => {
                     let message = "the numbers of a color go from 0 to 1, not to 255";
                     let help = format!("write \"#{r:02x}{g:02x}{b:02x}\", or divide by 255");
-                    vec![Diagnostic::error("out-of-range", message).at(node.span, "").help(help)]
+                    vec![Diagnostic::error(Code::OutOfRange, message).at(node.span, "").help(help)]
                 }
                 None => errors,
             })
@@ -198,7 +200,7 @@ pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
         return Ok(text);
     }
     let message = format!("`{text}` is not {}", Kind::Identifier.in_words());
-    Err(Diagnostic::error("bad-identifier", message).at(node.span, ""))
+    Err(Diagnostic::error(Code::BadIdentifier, message).at(node.span, ""))
 }
 
 /// Three numbers as a vector.

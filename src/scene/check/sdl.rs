@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::{Context, asset, braces};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::grammar::Kind;
 use crate::scene::sdl::{FileKind, Refusal, Where, Why, files, refusals};
@@ -110,8 +110,8 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
         Ok(bytes) => check_include(name, &String::from_utf8_lossy(&bytes), span, context),
         Err(error) => {
             let code = match error.kind() {
-                std::io::ErrorKind::FileTooLarge => "file-too-large",
-                _ => "missing-asset",
+                std::io::ErrorKind::FileTooLarge => Code::FileTooLarge,
+                _ => Code::MissingAsset,
             };
             let message = format!("cannot read `{name}`: {error}");
             context.diagnostics.push(Diagnostic::error(code, message).at(span, ""));
@@ -123,16 +123,17 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
 fn computed_name(text: &str, span: Span) -> Option<Diagnostic> {
     let is_computed = files(text).any(|file| file.literal.is_none() && file.kind != FileKind::Font);
     let message = "the name of a file that the SDL reads is computed";
-    let warning = Diagnostic::warning("computed-include", message).at(span, "");
+    let warning = Diagnostic::warning(Code::ComputedInclude, message).at(span, "");
     is_computed.then(|| warning.help("when that file changes, nothing tells that images are out of date"))
 }
 
 const TRUST: &str = "if you know this scene and trust it, say `--trust`";
 
 fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
-    let untrusted =
-        |message: String, label: &str| Diagnostic::error("untrusted-sdl", message).at(at, label.to_owned());
-    let unbalanced = |message: String| Diagnostic::error("unbalanced-sdl", message).at(at, "");
+    let untrusted = |message: String, label: &str| {
+        Diagnostic::error(Code::UntrustedSdl, message).at(at, label.to_owned())
+    };
+    let unbalanced = |message: String| Diagnostic::error(Code::UnbalancedSdl, message).at(at, "");
     match &refusal.why {
         Why::Word(word) => untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST),
         Why::Macro(name) => {

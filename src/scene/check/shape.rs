@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::read::figure;
 use super::view::View;
 use super::{Context, body, mesh};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Compound, Part, Shape};
 
 /// The shape of a body in mechanics. Where it is missing or wrong, which has been said, any other takes its place.
@@ -102,6 +102,6 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
 
 /// Reports that no shape is like this.
 fn impossible(view: &View<'_>, key: &str, what: &str, why: &str, context: &mut Context<'_>) {
-    let error = Diagnostic::error("impossible-shape", what);
+    let error = Diagnostic::error(Code::ImpossibleShape, what);
     context.diagnostics.extend(view.span(key).map(|span| error.at(span, why)));
 }

@@ -2,7 +2,7 @@
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Shape;
 use crate::scene::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Simulation, Trail};
 
@@ -38,7 +38,7 @@ pub(super) fn of_body(
     if let Some((keys, why)) = useless {
         for key in keys {
             let message = format!("`{key}` of `{name}` has no effect");
-            let warning = Diagnostic::warning("no-effect", message);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
         showing = Showing { axes: showing.axes.filter(|_| !shape.is_unbounded()), ..Showing::default() };
@@ -59,7 +59,7 @@ pub(super) fn count(
     };
     let message =
         format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(ghosts.every));
-    let error = Diagnostic::error("too-many-ghosts", message);
+    let error = Diagnostic::error(Code::TooManyGhosts, message);
     let tables = root.named("body");
     let span = tables.get(body).and_then(|(_, _, view)| view.table("ghosts").span("every"));
     context.diagnostics.extend(span.map(|span| error.at(span, "").help("ghosts = duration / every")));

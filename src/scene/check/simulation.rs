@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
@@ -32,12 +32,13 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool, context: &mut Context<'_>
     if frames > MAX_FRAMES {
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
-        let error = Diagnostic::error("too-many-frames", message).help("frames = duration × frame_rate + 1");
+        let error =
+            Diagnostic::error(Code::TooManyFrames, message).help("frames = duration × frame_rate + 1");
         context.diagnostics.push(point(error, view, &["duration", "frame_rate"]));
     } else if steps > MAX_STEPS {
         let message =
             format!("the scene has {} timesteps; at most {} are taken", count(steps), count(MAX_STEPS));
-        let error = Diagnostic::error("too-many-steps", message)
+        let error = Diagnostic::error(Code::TooManySteps, message)
             .help("timesteps = duration / step, where a step is at most one frame long");
         context.diagnostics.push(point(error, view, &["step", "duration", "frame_rate"]));
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::OwnTemplate;
 use crate::scene::source::file;
 
@@ -22,7 +22,7 @@ pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Contex
     };
     if !context.trust {
         // A template is code as much as raw SDL is.
-        let error = Diagnostic::error("untrusted-templates", "templates can make scripts do anything");
+        let error = Diagnostic::error(Code::UntrustedTemplates, "templates can make scripts do anything");
         let help =
             "if you know this scene and trust it, say `--trust`; or name the folder with `--templates`";
         context.diagnostics.push(error.at(span, "").help(help));
@@ -39,7 +39,7 @@ fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<Own
             templates
         }
         Err(message) => {
-            let error = Diagnostic::error("no-templates", message);
+            let error = Diagnostic::error(Code::NoTemplates, message);
             let help = "`jabuka templates DIR` writes the built-in ones, to be changed";
             let error = error.help(help);
             context.diagnostics.push(match span {

@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::dynamics::Key;
 use crate::scene::source::file;
 use crate::scene::units;
@@ -95,7 +95,7 @@ pub(super) fn read(
         }
         Err(error) => {
             let message = format!("cannot read `{name}`: {error}");
-            context.diagnostics.push(Diagnostic::error("csv-syntax", message).at(at, ""));
+            context.diagnostics.push(Diagnostic::error(Code::CsvSyntax, message).at(at, ""));
             None
         }
     };
@@ -112,14 +112,14 @@ pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("it has {}", crate::scene::grammar::quoted(&names[..names.len().min(10)])),
     };
-    Diagnostic::error("csv-body", message)
+    Diagnostic::error(Code::CsvBody, message)
         .at(at, label)
         .help("`body` says what the body is called in the file")
 }
 
 /// Something wrong in the file.
 struct Wrong {
-    code: &'static str,
+    code: Code,
     message: String,
     at: Range<usize>,
     label: String,
@@ -153,7 +153,7 @@ impl Reader<'_> {
         let header = match csv.headers() {
             Ok(header) => header.clone(),
             Err(error) => {
-                self.error("csv-syntax", format!("this is no CSV file: {error}"), 0..0);
+                self.error(Code::CsvSyntax, format!("this is no CSV file: {error}"), 0..0);
                 return None;
             }
         };
@@ -180,7 +180,7 @@ impl Reader<'_> {
                 Ok(false) => break,
                 Err(error) => {
                     let at = error.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
-                    self.error("csv-syntax", format!("this is no row of a CSV file: {error}"), at..at);
+                    self.error(Code::CsvSyntax, format!("this is no row of a CSV file: {error}"), at..at);
                     break;
                 }
             }
@@ -211,7 +211,7 @@ impl Reader<'_> {
                     if last.time > time { "the time goes backwards" } else { "this time comes twice" };
                 let message = format!("{message}: {time} s after {} s", last.time);
                 let at = self.field(start, self.find(&header, &columns.time).map_or(0, |(i, _)| i));
-                self.error("csv-order", message, at);
+                self.error(Code::CsvOrder, message, at);
                 if let Some(wrong) = self.wrong.last_mut() {
                     wrong.help = Some("the rows of a body stand in the order of their times".to_owned());
                 }
@@ -227,7 +227,7 @@ impl Reader<'_> {
         }
         if recording.rows.is_empty() && self.wrong.is_empty() {
             let end = self.text.len();
-            self.error("csv-syntax", "the file has no rows under its header".to_owned(), end..end);
+            self.error(Code::CsvSyntax, "the file has no rows under its header".to_owned(), end..end);
         }
         self.wrong.is_empty().then_some(recording)
     }
@@ -254,7 +254,7 @@ impl Reader<'_> {
             if unit.is_empty() || of == RATIO && unit == "1" { Some(1.0) } else { units::factor(&unit, of) };
         if factor.is_none() {
             let at = self.field(start, i);
-            self.error("csv-unit", format!("the unit `{unit}` is not known here"), at);
+            self.error(Code::CsvUnit, format!("the unit `{unit}` is not known here"), at);
             let known = units::usual(of);
             if let Some(wrong) = self.wrong.last_mut() {
                 wrong.help = Some(match known.as_slice() {
@@ -285,7 +285,7 @@ impl Reader<'_> {
     fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         let line = self.line(start);
-        self.error("csv-column", format!("there is no column `{name}`"), line);
+        self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
         // Of one letter, any other would be near.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
@@ -309,7 +309,7 @@ impl Reader<'_> {
             Some(field) => format!("`{}`", field.chars().take(40).collect::<String>().escape_debug()),
         };
         let at = self.field(start, column);
-        self.error("csv-number", format!("expected a number, found {found}"), at);
+        self.error(Code::CsvNumber, format!("expected a number, found {found}"), at);
         None
     }
 
@@ -323,11 +323,11 @@ impl Reader<'_> {
             return Some(quaternion.normalize());
         }
         let at = self.field(start, columns[0].0);
-        self.error("csv-number", "a quaternion of zeros is no orientation".to_owned(), at);
+        self.error(Code::CsvNumber, "a quaternion of zeros is no orientation".to_owned(), at);
         None
     }
 
-    fn error(&mut self, code: &'static str, message: String, at: Range<usize>) {
+    fn error(&mut self, code: Code, message: String, at: Range<usize>) {
         if self.wrong.len() < SHOWN {
             self.wrong.push(Wrong { code, message, at, label: String::new(), help: None });
         }

@@ -2,7 +2,7 @@
 //! scene is about.
 
 use super::{Context, habits, read, sdl, suggest};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
@@ -47,7 +47,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
 }
 
 fn unknown_key(entry: &Entry, meant: Option<&[&str]>, spec: &TableSpec, path: &str) -> Diagnostic {
-    let error = Diagnostic::error("unknown-key", format!("unknown key `{}` in {path}", entry.name.text));
+    let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{}` in {path}", entry.name.text));
     match meant {
         Some(way) => error.at(entry.name.span, format!("did you mean `{}`?", way.join("."))),
         None => error.at(entry.name.span, format!("not a key of {}", spec.noun)).help(known_keys(spec)),
@@ -63,7 +63,7 @@ fn known_keys(spec: &TableSpec) -> String {
 
 fn missing_key(key: &Key, at: Option<Span>, path: &str) -> Diagnostic {
     let message = format!("`{}` is missing in {path}", key.name);
-    let error = Diagnostic::error("missing-key", message);
+    let error = Diagnostic::error(Code::MissingKey, message);
     let error = match at {
         Some(span) => error.at(span, format!("needs `{}`", key.name)),
         None => error,
@@ -105,7 +105,7 @@ fn rule(
             [] if context.is_partial || names.iter().any(|name| meant.contains(name)) => {}
             [] => {
                 let message = format!("{} needs one of {}", spec.noun, quoted(names));
-                let error = Diagnostic::error("missing-key", message);
+                let error = Diagnostic::error(Code::MissingKey, message);
                 context.diagnostics.push(match at {
                     Some(span) => error.at(span, format!("{path} says none of them")),
                     None => error,
@@ -119,7 +119,7 @@ fn rule(
 fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| entry.name.text.as_str()).collect();
     let message = format!("{} exclude each other in {path}", all_of(&names));
-    let error = Diagnostic::error("exclusive-keys", message);
+    let error = Diagnostic::error(Code::ExclusiveKeys, message);
     // The first is right as far as anyone can tell; the later ones are too many.
     let (first, rest) = (entries[0], &entries[1..]);
     let error =
@@ -245,7 +245,7 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
     let Some(tables) = node.as_table() else {
         let found = node.in_words();
         let message = format!("expected tables with names, as in `[{word}.NAME]`, found {found}");
-        context.diagnostics.push(Diagnostic::error("wrong-type", message).at(node.span, ""));
+        context.diagnostics.push(Diagnostic::error(Code::WrongType, message).at(node.span, ""));
         return;
     };
     for entry in &tables.entries {
@@ -263,9 +263,9 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
                 let message = format!("`{name}` stands in [{word}], where only tables with names do");
                 let help = format!("name {} with `[{word}.NAME]`, and write `{name}` below it", spec.noun);
                 let label = format!("of which {}?", spec.noun.trim_start_matches("a "));
-                context
-                    .diagnostics
-                    .push(Diagnostic::error("unnamed-table", message).at(entry.name.span, label).help(help));
+                context.diagnostics.push(
+                    Diagnostic::error(Code::UnnamedTable, message).at(entry.name.span, label).help(help),
+                );
             }
         }
     }
@@ -295,7 +295,7 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
         Some(word) if words.contains(&word) => {}
         Some(word) => {
             let noun = entry.map_or("word", |entry| entry.name.text.as_str());
-            let error = Diagnostic::error("unknown-name", format!("unknown {noun} `{word}`"));
+            let error = Diagnostic::error(Code::UnknownName, format!("unknown {noun} `{word}`"));
             let known = format!("there are {}", quoted(words));
             context.diagnostics.push(match suggest::nearest(word, words.iter().copied()) {
                 Some(near) => error.at(node.span, format!("did you mean `{near}`?")).help(known),
@@ -337,7 +337,7 @@ fn reference(
         context.comparisons -= known.len() + library.len();
         suggest::label(word, &known, &library, noun, collection.plural())
     };
-    let error = Diagnostic::error("unknown-name", format!("there is no {noun} `{word}`"));
+    let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
     let is_near = label.starts_with("did you mean");
     let error = error.at(node.span, label);
     let error = match library.is_empty() || is_near {

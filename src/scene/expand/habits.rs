@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Expander;
-use crate::diagnostic::{Diagnostic, Edit, Span};
+use crate::diagnostic::{Code, Diagnostic, Edit, Span};
 use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Table, Value};
 use crate::scene::units;
@@ -25,7 +25,7 @@ impl Expander<'_> {
         }
         let of = self.unit;
         let error = Diagnostic::error(
-            "number-with-unit",
+            Code::NumberWithUnit,
             format!("a number stands alone, without the unit `{unit}`"),
         );
         self.diagnostics.push(match units::converted(number, unit, of) {
@@ -62,7 +62,7 @@ impl Expander<'_> {
             return;
         }
         let place = super::place::in_string(self.raw(span), text, &range, span);
-        let warning = Diagnostic::warning("angle-unit", message).at(place, label);
+        let warning = Diagnostic::warning(Code::AngleUnit, message).at(place, label);
         self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
@@ -98,7 +98,7 @@ impl Expander<'_> {
             let place = super::place::in_string(self.raw(span), &text, &range, span);
             let message = "a formula cannot ask where a body is";
             let help = "formulas know `t` and `[variables]`, and only labels know bodies; `camera.follow` lets the camera go with a body";
-            let error = Diagnostic::error("formula-of-body", message).help(help);
+            let error = Diagnostic::error(Code::FormulaOfBody, message).help(help);
             if !all_known {
                 self.diagnostics.push(error.at(place, ""));
                 continue;

@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::merge::{is_replaced, merge};
-use crate::diagnostic::{Diagnostic, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 use crate::scene::source::{self, Entry, Node, Table, Value};
 
@@ -83,7 +83,7 @@ impl Includer<'_> {
 
     /// What a file says, with all that it includes; none if it has been included before.
     fn file(&mut self, name: &str, span: Span, folder: Option<&Path>) -> Result<Option<Table>, Diagnostic> {
-        let cannot = |message: String| Diagnostic::error("cannot-include", message).at(span, "");
+        let cannot = |message: String| Diagnostic::error(Code::CannotInclude, message).at(span, "");
         let Some(folder) = folder else {
             return Err(cannot(format!(
                 "there is no `{name}`: a scene that is no file has nothing beside it"
@@ -105,7 +105,7 @@ impl Includer<'_> {
         })?;
         if !self.trust && self.scene.as_ref().is_none_or(|scene| !real.starts_with(scene)) {
             let message = format!("`{name}` leads out of the scene's folder");
-            let error = Diagnostic::error("untrusted-path", message).at(span, "");
+            let error = Diagnostic::error(Code::UntrustedPath, message).at(span, "");
             return Err(error.help("if you know this scene and trust it, say `--trust`"));
         }
         if let Some(first) = self.way.iter().position(|other| *other == real) {
@@ -142,7 +142,8 @@ impl Includer<'_> {
                 None => {
                     let message =
                         format!("expected a list of names of files, found {}", include.node.in_words());
-                    self.diagnostics.push(Diagnostic::error("wrong-type", message).at(include.node.span, ""));
+                    self.diagnostics
+                        .push(Diagnostic::error(Code::WrongType, message).at(include.node.span, ""));
                 }
             }
         }
@@ -163,7 +164,7 @@ impl Includer<'_> {
                 format!("files include each other: {}", names.join(" → "))
             }
         };
-        Diagnostic::error("cyclic-include", message).at(span, "this leads back")
+        Diagnostic::error(Code::CyclicInclude, message).at(span, "this leads back")
     }
 
     /// Says which keys two included files give different values, while the file that includes them does not decide.
@@ -239,7 +240,7 @@ impl Includer<'_> {
     fn conflict(&mut self, name: &str, first: Span, second: Span) {
         let message = format!("two included files disagree on `{name}`");
         let error =
-            Diagnostic::error("include-conflict", message).at(second, "the one that is included later");
+            Diagnostic::error(Code::IncludeConflict, message).at(second, "the one that is included later");
         let error = error.at(first, "the other is here");
         self.diagnostics.push(error.help("say it in the file that includes both: that counts"));
     }

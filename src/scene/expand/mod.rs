@@ -30,7 +30,7 @@ use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Node, Table, Value};
 use super::timed::TimeFormula;
-use crate::diagnostic::{Diagnostic, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 
 /// Replaces every formula of a scene by its value, and every body that is repeated by its copies, after the defaults have
 /// been laid under everything.
@@ -267,7 +267,8 @@ impl Expander<'_> {
             node.value = Value::Integer(value as i64);
         } else {
             let message = format!("expected a whole number, found {value}{}", self.in_copy());
-            let error = Diagnostic::error("wrong-type", message).at(node.span, "the value of this formula");
+            let error =
+                Diagnostic::error(Code::WrongType, message).at(node.span, "the value of this formula");
             if self.told.insert(node.span) {
                 self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
             }

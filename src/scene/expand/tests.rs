@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-use crate::diagnostic::Report;
+use crate::diagnostic::{Code, Report};
 use crate::scene::{Options, Override, Scene};
 
 fn location(text: &str) -> DVec3 {
     Scene::parse(text).unwrap().bodies[0].start.location
 }
 
-fn errors(text: &str) -> Vec<(&'static str, String)> {
+fn errors(text: &str) -> Vec<(Code, String)> {
     let Report { diagnostics, .. } = Scene::parse(text).unwrap_err();
     diagnostics.into_iter().map(|diagnostic| (diagnostic.code, diagnostic.message)).collect()
 }
@@ -92,7 +92,7 @@ fn every_cycle_is_told_once_and_what_needs_it_is_not() {
          [body.ball]\nshape.sphere.radius = 'f + a'",
     );
     let codes: Vec<_> = said.iter().map(|(code, _)| *code).collect();
-    assert_eq!(codes, ["cyclic-variables"; 3], "{said:?}");
+    assert_eq!(codes, [Code::CyclicVariables; 3], "{said:?}");
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn a_seed_is_no_random_number_and_needs_no_variable() {
     let with_seed =
         |seed: &str| format!("seed = {seed}\n[variables]\nn = 1\n[body.b]\nshape.sphere.radius = 1");
     assert!(Scene::parse(&with_seed("'2^31'")).is_ok());
-    assert_eq!(errors(&with_seed("'n'"))[0].0, "unknown-name");
-    assert_eq!(errors(&with_seed("'uniform(0, 9)'"))[0].0, "formula-syntax");
-    assert_eq!(errors(&with_seed("-1"))[0].0, "out-of-range");
+    assert_eq!(errors(&with_seed("'n'"))[0].0, Code::UnknownName);
+    assert_eq!(errors(&with_seed("'uniform(0, 9)'"))[0].0, Code::FormulaSyntax);
+    assert_eq!(errors(&with_seed("-1"))[0].0, Code::OutOfRange);
 }

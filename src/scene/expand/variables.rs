@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::{Expander, place};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expression::{Formula, Scope};
 use crate::scene::source::{Table, Value};
 
@@ -51,7 +51,7 @@ impl Expander<'_> {
             let name = entry.name.text.clone();
             if let Err(why) = Scope::is_free(&name) {
                 let message = format!("`{}` cannot be the name of a variable", name.escape_debug());
-                let error = Diagnostic::error("bad-variable-name", message);
+                let error = Diagnostic::error(Code::BadVariableName, message);
                 self.diagnostics.push(error.at(entry.name.span, why));
                 continue;
             }
@@ -148,7 +148,7 @@ impl Expander<'_> {
             1 => format!("the variable {} needs itself", name(first)),
             _ => format!("variables need each other: {}", names.join(" → ")),
         };
-        let mut error = Diagnostic::error("cyclic-variables", message);
+        let mut error = Diagnostic::error(Code::CyclicVariables, message);
         for (variable, seen) in cycle.iter().take(SHOWN) {
             let Variable { span, formula, needs, .. } = &variables[*variable];
             let (next, range) = &needs[seen - 1];

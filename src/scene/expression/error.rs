@@ -1,12 +1,13 @@
 //! What is wrong with a formula.
 
+use crate::diagnostic::Code;
 use std::ops::Range;
 
 /// One mistake in a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
     /// The kind of mistake: `formula-syntax`.
-    pub code: &'static str,
+    pub code: Code,
     /// The bytes of the formula that are wrong.
     pub range: Range<usize>,
     /// What is wrong, in one line.
@@ -20,13 +21,13 @@ pub struct ExpressionError {
 }
 
 /// A mistake of the given kind.
-pub(super) fn error(code: &'static str, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
+pub(super) fn error(code: Code, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
     ExpressionError { code, range, message: message.into(), label: String::new(), help: None, fix: None }
 }
 
 /// A mistake in how a formula is written.
 pub(super) fn syntax(range: Range<usize>, message: impl Into<String>) -> ExpressionError {
-    error("formula-syntax", range, message)
+    error(Code::FormulaSyntax, range, message)
 }
 
 /// That too much follows from a formula.

@@ -4,6 +4,7 @@ use super::error::{ExpressionError, error};
 use super::operation::{Binary, Ternary, Unary};
 use super::parser::Id;
 use super::resolve::{Resolved, Value};
+use crate::diagnostic::Code;
 
 impl Resolved {
     /// The value; `inputs` are the numbers for the slots of the scope, then those for the draws.
@@ -70,9 +71,9 @@ impl Resolved {
     fn explain(&self, id: Id, values: &[f64]) -> ExpressionError {
         let node = &self.nodes[id];
         let here = node.range.clone();
-        let not_finite = |message: String| error("not-finite", here.clone(), message);
+        let not_finite = |message: String| error(Code::NotFinite, here.clone(), message);
         let by_zero = |divisor: Id, message: &str| {
-            error("division-by-zero", self.nodes[divisor].range.clone(), message).label("this is 0")
+            error(Code::DivisionByZero, self.nodes[divisor].range.clone(), message).label("this is 0")
         };
         let is_none = values[id].is_nan();
         let verdict = if is_none { "is not a number" } else { "is larger than any number" };

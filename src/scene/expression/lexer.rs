@@ -1,5 +1,6 @@
 //! Text → tokens.
 
+use crate::diagnostic::Code;
 use std::ops::Range;
 
 use super::error::{ExpressionError, syntax};
@@ -126,7 +127,7 @@ fn number(rest: &str, start: usize) -> Result<(Token, usize), ExpressionError> {
     let parsed = if text.contains('_') { text.replace('_', "").parse::<f64>() } else { text.parse::<f64>() };
     match parsed {
         Ok(number) if number.is_finite() => Ok((Token::Number(number), length)),
-        Ok(_) => Err(super::error::error("number-too-large", range, "this number is too large")
+        Ok(_) => Err(super::error::error(Code::NumberTooLarge, range, "this number is too large")
             .help("the largest number is about 1.8e308")),
         Err(_) => Err(syntax(range, format!("`{text}` is not a number"))),
     }

@@ -15,7 +15,7 @@
 //! let program = Program::compile("-k*x^2", &scope).expect("it is a formula");
 //! assert_eq!(program.eval(&[3.0]), -36.0);
 //! let error = Program::compile("1/x", &scope).expect("so is this").explain_non_finite(&[0.0]);
-//! assert_eq!(error.expect("nothing can be divided by 0").code, "division-by-zero");
+//! assert_eq!(error.expect("nothing can be divided by 0").code.name(), "division-by-zero");
 //! ```
 //!
 //! All functions are those of `libm` or exact, so values are the same bits on every platform.

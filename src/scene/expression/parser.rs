@@ -7,7 +7,7 @@ use super::function::{FUNCTIONS, Function};
 use super::habits;
 use super::lexer::{Lexer, Token};
 use super::operation::{Binary, Unary};
-use crate::diagnostic::nearest;
+use crate::diagnostic::{Code, nearest};
 
 /// The longest text that is read as a formula, in bytes.
 pub const MAX_LENGTH: usize = 10_000;
@@ -307,7 +307,7 @@ fn combine(operator: Token, left: Id, right: Id) -> Part {
 }
 
 fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
-    let error = error("unknown-name", name, format!("there is no function `{word}`"));
+    let error = error(Code::UnknownName, name, format!("there is no function `{word}`"));
     let folded = word.to_lowercase();
     match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
         (Some(habit), _) => error.label(habit),
@@ -326,5 +326,5 @@ fn wrong_count(function: &Function, found: usize, range: Range<usize>) -> Expres
     let s = if count == 1 { "" } else { "s" };
     let found = if found == 0 { "none".to_owned() } else { found.to_string() };
     let message = format!("`{}` takes {least}{count} value{s}, found {found}", function.name);
-    error("wrong-count", range, message).label(format!("write `{}`", function.usage()))
+    error(Code::WrongCount, range, message).label(format!("write `{}`", function.usage()))
 }

@@ -1,5 +1,6 @@
 //! The tree of a formula → a tree whose names are numbers or slots.
 
+use crate::diagnostic::Code;
 use std::ops::Range;
 
 use super::error::{ExpressionError, error};
@@ -207,7 +208,7 @@ impl Resolver<'_> {
     fn draw(&mut self, draw: Draw, range: &Range<usize>) -> Id {
         if !self.scope.is_random() {
             let message = "there are no random numbers here";
-            self.errors.push(error("formula-syntax", range.clone(), message));
+            self.errors.push(error(Code::FormulaSyntax, range.clone(), message));
         }
         self.draws.push(draw);
         self.builder.slot(self.scope.slots() + self.draws.len() - 1, range.clone())
@@ -217,9 +218,9 @@ impl Resolver<'_> {
 fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
     if let Some(function) = Function::named(name) {
         let message = format!("`{name}` is a function, and its values stand in parentheses");
-        return error("formula-syntax", range, message).label(format!("write `{}`", function.usage()));
+        return error(Code::FormulaSyntax, range, message).label(format!("write `{}`", function.usage()));
     }
-    let error = error("unknown-name", range, format!("there is no variable `{name}`"));
+    let error = error(Code::UnknownName, range, format!("there is no variable `{name}`"));
     match name {
         "t" => error.label("this number is set once, before the time begins"),
         "i" | "j" | "k" => error.label("only a body with a `repeat` of so many directions has this index"),

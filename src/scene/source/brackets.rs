@@ -7,7 +7,7 @@
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
-use crate::diagnostic::{Diagnostic, SourceId, Span};
+use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
 /// As deep as the crate `toml` goes.
 const MAX_DEPTH: u32 = 80;
@@ -119,7 +119,7 @@ impl Looker<'_> {
         self.key = Some(Key { start, parts, goes_on: false });
         if parts == MAX_DEPTH + 1 {
             let place = Span::new(self.source, start..span.end());
-            let error = Diagnostic::error("toml-syntax", format!("a key has more than {MAX_DEPTH} parts"));
+            let error = Diagnostic::error(Code::TomlSyntax, format!("a key has more than {MAX_DEPTH} parts"));
             self.found.deep_keys.push(error.at(place, "").help("no key of a scene is so deep"));
         }
     }
@@ -141,7 +141,7 @@ impl Looker<'_> {
         // The outermost comes last, and is the first in the text.
         if self.found.unclosed.as_ref().and_then(Diagnostic::span).is_none_or(|span| range.start < span.start)
         {
-            let error = Diagnostic::error("toml-unclosed", format!("the {noun} is never closed"));
+            let error = Diagnostic::error(Code::TomlUnclosed, format!("the {noun} is never closed"));
             let label = format!("its `{closing}` is missing");
             self.found.unclosed = Some(error.at(Span::new(self.source, range), label));
         }
@@ -176,7 +176,7 @@ impl Looker<'_> {
     }
 
     fn too_new(&mut self, message: &str, range: std::ops::Range<usize>, help: &str) {
-        let error = Diagnostic::error("toml-1.1", message);
+        let error = Diagnostic::error(Code::Toml11, message);
         let error = error.at(Span::new(self.source, range), "only TOML 1.1 has this; a scene is TOML 1.0");
         self.found.too_new.push(error.help(help));
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::file;
-use crate::diagnostic::{Diagnostic, Report, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, Report, Sources, Span};
 
 /// The largest scene file that is read. Ten thousand bodies are one megabyte.
 pub const MAX_BYTES: u64 = 64 << 20;
@@ -12,12 +12,12 @@ pub const MAX_BYTES: u64 = 64 << 20;
 pub fn load(path: &Path) -> Result<String, Report> {
     let shown = path.display();
     let cannot_read = |error: &std::io::Error| {
-        Report::of_error("cannot-read", format!("cannot read the scene `{shown}`: {}", reason(error)))
+        Report::of_error(Code::CannotRead, format!("cannot read the scene `{shown}`: {}", reason(error)))
     };
     let metadata = std::fs::metadata(path).map_err(|error| cannot_read(&error))?;
     if let Some(what) = file::irregular(metadata.file_type()) {
         let message = format!("`{shown}` is {what}, not a scene file");
-        return Err(Report::of_error("not-a-file", message));
+        return Err(Report::of_error(Code::NotAFile, message));
     }
     let bytes = file::read(path, MAX_BYTES).map_err(|error| match error.kind() {
         std::io::ErrorKind::FileTooLarge => too_large(path),
@@ -37,7 +37,7 @@ fn reason(error: &std::io::Error) -> String {
 fn too_large(path: &Path) -> Report {
     let most = MAX_BYTES >> 20;
     let message = format!("`{}` is larger than {most} MiB, which no scene is", path.display());
-    Report::of_error("file-too-large", message)
+    Report::of_error(Code::FileTooLarge, message)
 }
 
 /// Points at the first byte that is not UTF-8, in the line as far as it can be shown.
@@ -48,7 +48,7 @@ fn not_utf8(path: &Path, error: &std::string::FromUtf8Error) -> Report {
     let id = sources.add(path.display().to_string(), text);
     // Before the first bad byte nothing was replaced, so its place is the same in the shown text.
     let span = Span::new(id, valid..valid + char::REPLACEMENT_CHARACTER.len_utf8());
-    let diagnostic = Diagnostic::error("not-utf8", "the file is not UTF-8, which TOML asks for")
+    let diagnostic = Diagnostic::error(Code::NotUtf8, "the file is not UTF-8, which TOML asks for")
         .at(span, "this byte is no character")
         .help("save the file as UTF-8");
     Report { sources, diagnostics: vec![diagnostic] }

@@ -1,7 +1,7 @@
 //! `--set KEY=VALUE`: values that replace those of the file.
 
 use super::{Entry, Name, Node, Table, Value, toml};
-use crate::diagnostic::{Diagnostic, SourceId, Sources, Span};
+use crate::diagnostic::{Code, Diagnostic, SourceId, Sources, Span};
 
 /// A value that replaces one of the scene's: `simulation.step=0.001`.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl Override {
     fn parse(&self, source: SourceId) -> Result<(Vec<Name>, Node), Diagnostic> {
         let whole = Span::new(source, 0..self.0.len());
         let wrong = |message: &str| {
-            Diagnostic::error("bad-set", message)
+            Diagnostic::error(Code::BadSet, message)
                 .at(whole, "")
                 .help("write it as KEY=VALUE, as in simulation.step=0.001")
         };
@@ -59,7 +59,7 @@ impl Override {
                 let help = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
                 let message = "the value begins as TOML, and is none";
                 let error =
-                    Diagnostic::error("bad-set", message).at(span, "a bracket, quote or comma is amiss");
+                    Diagnostic::error(Code::BadSet, message).at(span, "a bracket, quote or comma is amiss");
                 return Err(error.help(help));
             }
             Err(_) => Node { span, value: Value::String(value.to_owned()) },
@@ -116,7 +116,7 @@ fn put(table: &mut Table, path: &[Name], value: Node, diagnostics: &mut Vec<Diag
         Value::Table(inner) => put(inner, rest, value, diagnostics),
         _ => diagnostics.push(
             Diagnostic::error(
-                "bad-set",
+                Code::BadSet,
                 format!("`{}` is not a table, so nothing in it can be set", name.text),
             )
             .at(name.span, "")

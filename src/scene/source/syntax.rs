@@ -2,7 +2,7 @@
 
 use toml::de::Error;
 
-use crate::diagnostic::{Diagnostic, SourceId, Span};
+use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
 /// What the parser says of a key of too many parts, without a place. `brackets` says it with one.
 pub(super) const DEEP_KEY: &str = "recursion limit";
@@ -12,7 +12,7 @@ pub(super) fn diagnose(error: &Error, text: &str, source: SourceId) -> Diagnosti
     let range = error.span();
     let found = range.clone().and_then(|range| text.get(range)).unwrap_or_default();
     let (what, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
-    let code = if what == "duplicate key" { "duplicate-key" } else { "toml-syntax" };
+    let code = if what == "duplicate key" { Code::DuplicateKey } else { Code::TomlSyntax };
     let next = range.clone().and_then(|range| text.get(range.start..)?.chars().next());
     let (message, help) = words(what, expected, found, next);
     let label = match (what, expected) {

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
 use super::{Entry, Name, Node, Table, Value, brackets, habits, syntax, yaml};
-use crate::diagnostic::{Diagnostic, SourceId, Span};
+use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
 /// Parses a text as far as it goes: what cannot be read becomes a diagnostic, and the rest a tree.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
@@ -51,7 +51,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
 fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, error.span().map_or(0, |range| range.start));
     let (start, end) = (line.start, line.end);
-    let error = Diagnostic::error("toml-syntax", "this is YAML; a scene is TOML");
+    let error = Diagnostic::error(Code::TomlSyntax, "this is YAML; a scene is TOML");
     let error =
         error.at(Span::new(source, start..end), "TOML writes `key = value`, below headers in brackets");
     error.fix(Span::new(source, 0..text.len()), toml)
@@ -60,7 +60,7 @@ fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagno
 /// Adds what the line should have been, if that can be told.
 fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, at);
-    let is_duplicate = diagnostic.code == "duplicate-key";
+    let is_duplicate = diagnostic.code == Code::DuplicateKey;
     let Some(mended) = habits::mend(&text[line.clone()]).filter(|_| !is_duplicate) else {
         return diagnostic;
     };
@@ -150,7 +150,7 @@ impl Reader<'_> {
     fn too_large(&mut self, span: Span) -> Value {
         let message = "this number is too large";
         let help = "the largest whole number is 2^63 - 1, the largest other number about 1.8e308";
-        self.diagnostics.push(Diagnostic::error("number-too-large", message).at(span, "").help(help));
+        self.diagnostics.push(Diagnostic::error(Code::NumberTooLarge, message).at(span, "").help(help));
         Value::Invalid
     }
 }

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Coulomb, Gravitation};
 use crate::scene::source::Node;
 use crate::scene::{Body, Force, ForceKind};
@@ -128,7 +128,7 @@ impl Reader<'_, '_> {
     }
 
     fn no_effect(&mut self, message: String, span: Span, why: impl Into<String>) {
-        self.context.diagnostics.push(Diagnostic::warning("no-effect", message).at(span, why));
+        self.context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, why));
     }
 
     /// The number of the body that is named; none if there is no such body, which the validation has said.

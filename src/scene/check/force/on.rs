@@ -2,7 +2,7 @@
 
 use super::super::view::View;
 use super::Reader;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 
 impl Reader<'_, '_> {
     /// The bodies of `on`, or all that can move. A body that stays where it is in spite of the force is a warning.
@@ -56,7 +56,7 @@ impl Reader<'_, '_> {
             let Some(body) = self.body(item) else { continue };
             if std::mem::replace(&mut seen[body], true) {
                 let message = format!("the body `{}` is named twice", self.bodies[body].name);
-                let error = Diagnostic::error("named-twice", message);
+                let error = Diagnostic::error(Code::NamedTwice, message);
                 self.context.diagnostics.push(error.at(item.span, "the second time"));
             } else {
                 named.push((body, item.span));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::view::View;
 use super::Reader;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::source::Value;
 
 /// The number of a body, and where it is named, if it is.
@@ -86,7 +86,7 @@ impl Reader<'_, '_> {
         for (body, span) in groups.iter().flat_map(|(_, group)| group) {
             if std::mem::replace(&mut seen[*body], true) {
                 let message = format!("the body `{}` is named twice", self.bodies[*body].name);
-                let error = Diagnostic::error("named-twice", message);
+                let error = Diagnostic::error(Code::NamedTwice, message);
                 self.context.diagnostics.push(error.at(*span, "the second time"));
             }
         }
@@ -95,7 +95,7 @@ impl Reader<'_, '_> {
             Ok([(_, first), (_, second)]) => Some([first, second]),
             Err(_) => {
                 let message = format!("a force acts between 2 groups, and here are {count}");
-                let error = Diagnostic::error("wrong-length", message);
+                let error = Diagnostic::error(Code::WrongLength, message);
                 let help = "each is a body, the copies of one, or a list: `between = [[\"sun\", \"moon\"], \"ship\"]`";
                 self.context
                     .diagnostics
@@ -111,7 +111,7 @@ impl Reader<'_, '_> {
             let message = format!("the plane `{name}` cannot act on other bodies: a plane is endless");
             self.context
                 .diagnostics
-                .push(Diagnostic::error("plane-acts", message).at(span, "it has no centre"));
+                .push(Diagnostic::error(Code::PlaneActs, message).at(span, "it has no centre"));
         } else if !able {
             self.no_effect(format!("the force has no effect on `{name}`"), span, "it has no charge");
         }
@@ -133,7 +133,7 @@ impl Reader<'_, '_> {
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);
             let message = format!("`{one}` and `{two}` are at the same place, where their force is infinite");
-            let error = Diagnostic::error("same-place", message).at(span.unwrap_or(self.span), "");
+            let error = Diagnostic::error(Code::SamePlace, message).at(span.unwrap_or(self.span), "");
             let help = "move one of them, or give the force a `softening`";
             self.context.diagnostics.push(error.help(help));
         }

@@ -3,7 +3,7 @@
 use super::super::read;
 use super::super::view::View;
 use super::Reader;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::Bound;
 use crate::scene::source::{Node, Value};
 use crate::scene::{ForceKind, SpringEnd, SpringLink};
@@ -39,7 +39,7 @@ impl Reader<'_, '_> {
         let end = |node: Option<&Node>| node.and_then(Node::as_str).unwrap_or_default().to_owned();
         let (from, to) = (end(first.first()), end(last.last()));
         let message = "all copies make one chain, and not pairs";
-        let warning = Diagnostic::warning("one-chain", message);
+        let warning = Diagnostic::warning(Code::OneChain, message);
         let help = format!(
             "for pairs, write a force for each: `between = [\"{from}\", \"{}\"]`, and so on",
             end(last.first())
@@ -53,10 +53,10 @@ impl Reader<'_, '_> {
     fn link(&mut self, first: &Node, second: &Node, between: [SpringEnd; 2]) {
         let moves = |end: SpringEnd| matches!(end, SpringEnd::Body(i) if !self.bodies[i].start.fixed);
         if between[0] == between[1] {
-            let error = Diagnostic::error("spring-ends", "both ends of the spring are at the same place");
+            let error = Diagnostic::error(Code::SpringEnds, "both ends of the spring are at the same place");
             self.context.diagnostics.push(error.at(second.span, "the same as the end before it"));
         } else if !between.into_iter().any(moves) {
-            let error = Diagnostic::error("spring-ends", "neither end of the spring can move");
+            let error = Diagnostic::error(Code::SpringEnds, "neither end of the spring can move");
             let error = error.at(first.span, "").at(second.span, "");
             self.context.diagnostics.push(error.help("one end at least must be a body that is not fixed"));
         }

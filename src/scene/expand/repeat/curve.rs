@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::Place;
 use super::pattern::fraction;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::check::View;
 use crate::scene::expand::Expander;
 use crate::scene::expression::{Formula, Program, Scope};
@@ -41,7 +41,8 @@ impl Expander<'_> {
         let length = samples.last().map_or(0.0, |sample| sample.length);
         if !(length.is_finite() && length > 0.0) {
             let message = "a curve needs a length";
-            let error = Diagnostic::error("curve-without-length", message).at(span, "all of it is one point");
+            let error =
+                Diagnostic::error(Code::CurveWithoutLength, message).at(span, "all of it is one point");
             self.diagnostics.push(error);
             return None;
         }

@@ -14,7 +14,7 @@ use glam::{DQuat, DVec3};
 use self::pattern::Pattern;
 use super::Expander;
 use super::groups::Group;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::check::View;
 use crate::scene::grammar::{MAX_COPIES, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
@@ -113,7 +113,7 @@ impl Expander<'_> {
         }
         let message = format!("{all} bodies are too many: `repeat` makes at most {MAX_COPIES}");
         let label = format!("{number} copies of `{name}`");
-        self.diagnostics.push(Diagnostic::error("too-many-copies", message).at(repeat.node.span, label));
+        self.diagnostics.push(Diagnostic::error(Code::TooManyCopies, message).at(repeat.node.span, label));
         false
     }
 
@@ -125,7 +125,7 @@ impl Expander<'_> {
                 continue;
             }
             let message = format!("the variable `{letter}` has the name of an index");
-            let error = Diagnostic::error("index-name", message).at(variable, "give it another name");
+            let error = Diagnostic::error(Code::IndexName, message).at(variable, "give it another name");
             let label = format!("`{letter}` counts the copies of `{name}`");
             self.diagnostics.push(error.at(repeat.name.span, label));
         }
@@ -138,7 +138,7 @@ impl Expander<'_> {
             if let Some(other) = names.insert(text, *span) {
                 let message = format!("two bodies are called `{text}`");
                 let (copy, own) = if other > *span { (*span, other) } else { (other, *span) };
-                let error = Diagnostic::error("same-name", message).at(own, "one is here");
+                let error = Diagnostic::error(Code::SameName, message).at(own, "one is here");
                 self.diagnostics.push(error.at(copy, "a `repeat` makes the other"));
             }
         }

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::Place;
 use super::curve::Curve;
 use super::scatter::Scatter;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::check::View;
 use crate::scene::expand::Expander;
 use crate::scene::grammar::TableSpec;
@@ -95,7 +95,8 @@ impl Expander<'_> {
                 more => format!("{more} directions"),
             };
             let message = format!("expected spacings of {directions}, found {}", spacing.len());
-            let error = Diagnostic::error("wrong-length", message).help("one number is for all directions");
+            let error =
+                Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
             let (spacing, count) = (view.span("spacing")?, view.span("count")?);
             self.diagnostics.push(error.at(spacing, "").at(count, format!("the grid has {directions}")));
             return None;

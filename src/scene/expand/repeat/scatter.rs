@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::{DQuat, DVec3};
 
 use super::Place;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::check::View;
 use crate::scene::expand::random::Stream;
 
@@ -120,7 +120,7 @@ impl Full {
                 (message, format!("the search ended after {} million comparisons", most / 1_000_000))
             }
         };
-        let error = Diagnostic::error("scatter-full", message).at(span, label);
+        let error = Diagnostic::error(Code::ScatterFull, message).at(span, label);
         match why {
             Why::Endless => error,
             _ => error.help(

@@ -2,6 +2,7 @@
 
 use super::super::{Formula, MAX_LENGTH, Program, Scope};
 use super::said;
+use crate::diagnostic::Code;
 
 #[test]
 fn a_mistake_is_shown_at_its_place() {
@@ -118,7 +119,7 @@ fn a_program_explains_only_what_is_not_finite() {
 fn what_is_too_long_or_too_deep_is_refused() {
     for text in ["(", "-", "sin(", "2^", "not ", "1+(", "if(1,"] {
         let deep = text.repeat(MAX_LENGTH / text.len());
-        assert_eq!(Formula::parse(&deep).unwrap_err()[0].code, "formula-syntax", "{text}");
+        assert_eq!(Formula::parse(&deep).unwrap_err()[0].code, Code::FormulaSyntax, "{text}");
     }
     let long = "1+".repeat(MAX_LENGTH);
     assert!(Formula::parse(&long).unwrap_err()[0].message.contains("10000 characters"));

@@ -1,6 +1,7 @@
 //! What holds for all formulas: they are read as they are printed, compiled ones give the bits that the tree gives, and no text
 //! whatever stops the program.
 
+use crate::diagnostic::Code;
 use proptest::prelude::*;
 
 use super::super::function::{FUNCTIONS, Function, Work};
@@ -213,7 +214,7 @@ proptest! {
             // The strict value is none where any step is not finite, also if the result is.
             Err(error) => {
                 prop_assert!(error.range.end <= tree.print().len());
-                prop_assert!(matches!(error.code, "not-finite" | "division-by-zero"));
+                prop_assert!(matches!(error.code, Code::NotFinite | Code::DivisionByZero));
             }
         }
         prop_assert_eq!(program.explain_non_finite(&inputs).is_none(), expected.is_finite());

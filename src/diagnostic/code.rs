@@ -1,0 +1,178 @@
+//! The codes of diagnostics. Each is explained by a file of `explanations/`, without which this does not compile.
+
+/// Defines [`Code`] from variants and names, and joins each with its explanation.
+macro_rules! codes {
+    ($($variant:ident = $name:literal,)*) => {
+        /// The kind of a mistake, for machines and for looking it up: `unknown-key`.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $(#[doc = concat!("`", $name, "`")] $variant,)*
+        }
+
+        impl Code {
+            /// All codes, in the order of their names.
+            pub const ALL: &[Code] = &[$(Code::$variant,)*];
+
+            /// The code as people read it: `unknown-key`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Code::$variant => $name,)*
+                }
+            }
+
+            /// The text of its file in `explanations/`.
+            pub(crate) fn explanation(self) -> &'static str {
+                match self {
+                    $(Code::$variant => include_str!(concat!("../../explanations/", $name, ".md")),)*
+                }
+            }
+        }
+    };
+}
+
+codes! {
+    AllFramesFail = "all-frames-fail",
+    AngleUnit = "angle-unit",
+    BadAsset = "bad-asset",
+    BadFilmName = "bad-film-name",
+    BadFilmRate = "bad-film-rate",
+    BadFilmSize = "bad-film-size",
+    BadFrame = "bad-frame",
+    BadIdentifier = "bad-identifier",
+    BadImage = "bad-image",
+    BadInclude = "bad-include",
+    BadMesh = "bad-mesh",
+    BadSet = "bad-set",
+    BadTemplate = "bad-template",
+    BadVariableName = "bad-variable-name",
+    BadViewName = "bad-view-name",
+    CameraAtLookAt = "camera-at-look-at",
+    CannotEmit = "cannot-emit",
+    CannotExport = "cannot-export",
+    CannotInclude = "cannot-include",
+    CannotOverwrite = "cannot-overwrite",
+    CannotRead = "cannot-read",
+    CannotWrite = "cannot-write",
+    ComputedInclude = "computed-include",
+    Crossing = "crossing",
+    CsvBody = "csv-body",
+    CsvColumn = "csv-column",
+    CsvNumber = "csv-number",
+    CsvOrder = "csv-order",
+    CsvSyntax = "csv-syntax",
+    CsvUnit = "csv-unit",
+    CurveWithoutLength = "curve-without-length",
+    CyclicInclude = "cyclic-include",
+    CyclicVariables = "cyclic-variables",
+    DiskFull = "disk-full",
+    Diverged = "diverged",
+    DivisionByZero = "division-by-zero",
+    DuplicateKey = "duplicate-key",
+    EditedScript = "edited-script",
+    EnergyDrift = "energy-drift",
+    ExclusiveKeys = "exclusive-keys",
+    FfmpegFailed = "ffmpeg-failed",
+    FileTooLarge = "file-too-large",
+    FixedMoves = "fixed-moves",
+    FolderLocked = "folder-locked",
+    FolderNotOurs = "folder-not-ours",
+    FormulaOfBody = "formula-of-body",
+    FormulaSyntax = "formula-syntax",
+    ImageSizes = "image-sizes",
+    ImpossibleInertia = "impossible-inertia",
+    ImpossibleMass = "impossible-mass",
+    ImpossibleShape = "impossible-shape",
+    IncludeConflict = "include-conflict",
+    IncompleteScripts = "incomplete-scripts",
+    IndexName = "index-name",
+    Indistinct = "indistinct",
+    InternalError = "internal-error",
+    KeyframeOrder = "keyframe-order",
+    LabelLetter = "label-letter",
+    LabelSyntax = "label-syntax",
+    LargeScripts = "large-scripts",
+    Link = "link",
+    LongShutter = "long-shutter",
+    MissingAsset = "missing-asset",
+    MissingInclude = "missing-include",
+    MissingKey = "missing-key",
+    NamedTwice = "named-twice",
+    NoBodies = "no-bodies",
+    NoEffect = "no-effect",
+    NoFfmpeg = "no-ffmpeg",
+    NoFolder = "no-folder",
+    NoImages = "no-images",
+    NoPovray = "no-povray",
+    NoScripts = "no-scripts",
+    NoTemplates = "no-templates",
+    NotAFile = "not-a-file",
+    NotFinished = "not-finished",
+    NotFinite = "not-finite",
+    NotUtf8 = "not-utf8",
+    NumberTooLarge = "number-too-large",
+    NumberWithUnit = "number-with-unit",
+    OneChain = "one-chain",
+    OpenMesh = "open-mesh",
+    OutOfRange = "out-of-range",
+    OutsideSandbox = "outside-sandbox",
+    Overlap = "overlap",
+    PlaneActs = "plane-acts",
+    PlaneMoves = "plane-moves",
+    SameAsset = "same-asset",
+    SameName = "same-name",
+    SamePlace = "same-place",
+    ScatterFull = "scatter-full",
+    ShortTrajectory = "short-trajectory",
+    SpringEnds = "spring-ends",
+    Stopped = "stopped",
+    Toml11 = "toml-1.1",
+    TomlSyntax = "toml-syntax",
+    TomlUnclosed = "toml-unclosed",
+    TooFine = "too-fine",
+    TooManyCopies = "too-many-copies",
+    TooManyFrames = "too-many-frames",
+    TooManyGhosts = "too-many-ghosts",
+    TooManySteps = "too-many-steps",
+    TooSmall = "too-small",
+    TooThin = "too-thin",
+    UnbalancedSdl = "unbalanced-sdl",
+    UndeclaredTexture = "undeclared-texture",
+    UnknownColor = "unknown-color",
+    UnknownKey = "unknown-key",
+    UnknownName = "unknown-name",
+    UnnamedTable = "unnamed-table",
+    UntrustedPath = "untrusted-path",
+    UntrustedSdl = "untrusted-sdl",
+    UntrustedTemplates = "untrusted-templates",
+    ValueInSdl = "value-in-sdl",
+    WrongCount = "wrong-count",
+    WrongLength = "wrong-length",
+    WrongPovray = "wrong-povray",
+    WrongType = "wrong-type",
+    ZeroLength = "zero-length",
+}
+
+impl Code {
+    /// The code of a name, if there is one.
+    pub fn named(name: &str) -> Option<Code> {
+        Code::ALL.iter().copied().find(|code| code.name() == name)
+    }
+}
+
+impl std::fmt::Display for Code {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_stand_in_the_order_of_their_names_and_are_found_by_them() {
+        assert!(Code::ALL.is_sorted_by(|a, b| a.name() < b.name()));
+        assert!(Code::ALL.iter().all(|&code| Code::named(code.name()) == Some(code)));
+        assert_eq!(Code::named("unknown-kee"), None);
+    }
+}
