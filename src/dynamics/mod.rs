@@ -79,9 +79,7 @@ mod world;
 pub use body::{BodyId, RigidBody};
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
-pub use force::{
-    Anchor, ConstantForce, Coulomb, Drag, Force, Gravitation, Lorentz, Moment, Spring, UniformGravity,
-};
+pub use force::*;
 pub use integrator::{Integrator, METHODS, Method};
 pub use loads::Loads;
 pub use model::Model;

@@ -68,8 +68,13 @@ impl World {
 
     /// Adds a force, at any time.
     pub fn add_force(&mut self, force: impl Force + 'static) {
+        self.add_shared_force(Arc::new(force));
+    }
+
+    /// Adds a force that others may hold as well, at any time.
+    pub fn add_shared_force(&mut self, force: Arc<dyn Force>) {
         self.about_to_change();
-        self.model.push_force(Arc::new(force));
+        self.model.push_force(force);
     }
 
     /// From now on, `force` (world axes, N) is the body's constant force.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::dynamics::Shape;
-use crate::scene::{self, Body, Color, ForceKind, Scene, SpringEnd, SpringLink};
+use crate::dynamics::{Anchor, Shape, Spring};
+use crate::scene::{self, Body, Color, ForceKind, Scene};
 use crate::simulate::{Frame, surface};
 
 /// The usual color of the wire.
@@ -42,7 +42,7 @@ pub(super) struct Coils {
 
 #[derive(Clone, Debug)]
 struct Planned {
-    between: [SpringEnd; 2],
+    between: [Anchor; 2],
     /// The radius of the coil, m.
     radius: f64,
     turns: u32,
@@ -54,7 +54,7 @@ impl Coils {
     pub(super) fn new(scene: &Scene) -> Coils {
         let mut coils = Vec::new();
         for force in &scene.forces {
-            let ForceKind::Spring { links, coil: Some(coil), .. } = &force.kind else { continue };
+            let ForceKind::Spring { links, coil: Some(coil) } = &force.kind else { continue };
             coils.extend(links.iter().map(|link| plan(scene, &force.name, link, coil)));
         }
         let shapes =
@@ -68,24 +68,24 @@ impl Coils {
     }
 
     fn coil<'a>(&'a self, coil: &'a Planned, frame: &Frame) -> Coil<'a> {
-        let centre = |end: SpringEnd| match end {
-            SpringEnd::Body(body) => frame.bodies[body].location,
-            SpringEnd::Point(point) => point,
+        let centre = |end: Anchor| match end {
+            Anchor::Body(body) => frame.bodies[body.index()].location,
+            Anchor::Point(point) => point,
         };
         let [from, to] = coil.between.map(centre);
         let along = (to - from).normalize_or_zero();
-        let reach = |end: SpringEnd, direction: DVec3| match end {
-            SpringEnd::Body(body) => {
+        let reach = |end: Anchor, direction: DVec3| match end {
+            Anchor::Body(body) => {
                 // A little below the surface, so that no gap is seen where that is not flat.
-                0.95 * surface(&self.shapes[body], frame.bodies[body].orientation, direction)
+                0.95 * surface(&self.shapes[body.index()], frame.bodies[body.index()].orientation, direction)
             }
-            SpringEnd::Point(_) => 0.0,
+            Anchor::Point(_) => 0.0,
         };
         let (begin, end) =
             (from + along * reach(coil.between[0], along), to - along * reach(coil.between[1], -along));
-        let fixed = |end: SpringEnd| match end {
-            SpringEnd::Body(_) => None,
-            SpringEnd::Point(point) => Some(point),
+        let fixed = |end: Anchor| match end {
+            Anchor::Body(_) => None,
+            Anchor::Point(point) => Some(point),
         };
         let wire = WIRE * coil.radius;
         // Bodies that touch leave no room for a spring.
@@ -105,29 +105,31 @@ impl Coils {
 
 /// How a spring looks: about as wide as half the smaller of the bodies at its ends, and with as many turns as keep
 /// their wires apart.
-fn plan(scene: &Scene, name: &str, link: &SpringLink, coil: &scene::Coil) -> Planned {
-    let place = |end: SpringEnd| match end {
-        SpringEnd::Body(body) => scene.bodies[body].start.location,
-        SpringEnd::Point(point) => point,
+fn plan(scene: &Scene, name: &str, link: &Spring, coil: &scene::Coil) -> Planned {
+    let place = |end: Anchor| match end {
+        Anchor::Body(body) => scene.bodies[body.index()].start.location,
+        Anchor::Point(point) => point,
     };
     let along = place(link.between[1]) - place(link.between[0]);
     let length = link.rest_length.max(along.length());
     let towards = along.normalize_or(DVec3::Y);
-    let reach = |end: SpringEnd, direction: DVec3| match end {
-        SpringEnd::Body(body) => {
-            let body = &scene.bodies[body];
+    let reach = |end: Anchor, direction: DVec3| match end {
+        Anchor::Body(body) => {
+            let body = &scene.bodies[body.index()];
             body.drawn().support(body.start.orientation, direction)
         }
-        SpringEnd::Point(_) => None,
+        Anchor::Point(_) => None,
     };
     let widest =
         |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
     let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
-    let depth = |end: SpringEnd| match end {
-        SpringEnd::Body(body) => {
-            surface(&scene.bodies[body].drawn(), scene.bodies[body].start.orientation, towards)
-        }
-        SpringEnd::Point(_) => 0.0,
+    let depth = |end: Anchor| match end {
+        Anchor::Body(body) => surface(
+            &scene.bodies[body.index()].drawn(),
+            scene.bodies[body.index()].start.orientation,
+            towards,
+        ),
+        Anchor::Point(_) => 0.0,
     };
     let free = length - link.between.map(depth).iter().sum::<f64>();
     let free = if free > 0.0 { free } else { length };

@@ -10,6 +10,7 @@ mod color;
 mod color_names;
 mod expand;
 pub mod expression;
+mod force;
 pub mod grammar;
 mod label;
 mod library;
@@ -30,6 +31,7 @@ use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use force::{Force, ForceKind};
 pub use label::{
     BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
     Side,
@@ -39,7 +41,7 @@ pub use look::{
     Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
-pub use model::{Body, BodyLook, Force, ForceKind, Simulation, SpringEnd, SpringLink};
+pub use model::{Body, BodyLook, Simulation};
 pub use places::Places;
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Trail};

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::Showing;
 use super::motion::BodyMotion;
-use super::{Coil, Showing};
 use crate::dynamics::{Method, RigidBody, Shape};
 
 /// How the world is advanced.
@@ -84,98 +84,4 @@ impl Body {
     pub fn drawn(&self) -> Shape {
         self.shape.scaled(self.look.scale)
     }
-}
-
-/// A force that is not a single body's own.
-#[derive(Clone, Debug)]
-pub struct Force {
-    /// Its name, unique among forces.
-    pub name: String,
-    /// What it is.
-    pub kind: ForceKind,
-}
-
-/// The kinds of forces.
-#[derive(Clone, Debug)]
-pub enum ForceKind {
-    /// The same force and torque on several bodies.
-    Constant {
-        /// The numbers of the bodies.
-        on: Vec<usize>,
-        /// The force, N.
-        force: DVec3,
-        /// The torque, N·m.
-        torque: DVec3,
-    },
-    /// The resistance of air or a liquid.
-    Drag {
-        /// The numbers of the bodies.
-        on: Vec<usize>,
-        /// Its linear coefficient, N·s/m.
-        linear: f64,
-        /// Its quadratic coefficient, N·s²/m².
-        quadratic: f64,
-        /// The velocity of the air, m/s.
-        wind: DVec3,
-    },
-    /// Newton's gravitation between all pairs.
-    Gravitation {
-        /// The numbers of the bodies.
-        on: Vec<usize>,
-        /// The numbers of the bodies of another group, if the force acts between two groups and not within one.
-        against: Option<Vec<usize>>,
-        /// Newton's constant, m³/(kg·s²).
-        constant: f64,
-        /// The softening length, m.
-        softening: f64,
-    },
-    /// Coulomb's force between all pairs of charges.
-    Coulomb {
-        /// The numbers of the bodies.
-        on: Vec<usize>,
-        /// The numbers of the bodies of another group, if the force acts between two groups and not within one.
-        against: Option<Vec<usize>>,
-        /// Coulomb's constant, N·m²/C².
-        constant: f64,
-        /// The softening length, m.
-        softening: f64,
-    },
-    /// Uniform electric and magnetic fields.
-    Lorentz {
-        /// The numbers of the bodies.
-        on: Vec<usize>,
-        /// The electric field, V/m.
-        electric: DVec3,
-        /// The magnetic field, T.
-        magnetic: DVec3,
-    },
-    /// A spring with a damper, or a chain of such springs.
-    Spring {
-        /// The springs, one behind the other.
-        links: Vec<SpringLink>,
-        /// Its stiffness, N/m.
-        stiffness: f64,
-        /// Its damping, N·s/m.
-        damping: f64,
-        /// How they are drawn, if they are.
-        coil: Option<Coil>,
-    },
-}
-
-/// One spring of a chain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpringLink {
-    /// Its two ends.
-    pub between: [SpringEnd; 2],
-    /// The length at which it does not pull or push, m.
-    pub rest_length: f64,
-}
-
-/// One end of a spring.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpringEnd {
-    /// The centre of the body with this number.
-    Body(usize),
-    /// A point, m.
-    Point(DVec3),
 }

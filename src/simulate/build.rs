@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring, UniformGravity};
-use crate::dynamics::{BodyId, Motion, Pose, Track, World};
+use crate::dynamics::{Motion, Pose, Track, UniformGravity, World};
 use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::timed::TimedVector;
-use crate::scene::{Body, Force, ForceKind, Scene, SpringEnd};
+use crate::scene::{Body, Scene};
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
 /// is the same in both.
@@ -18,15 +17,15 @@ pub fn world(scene: &Scene) -> World {
     // What is given at every time needs no steps to get there.
     let is_given = scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some());
     world.set_step(if is_given { f64::INFINITY } else { scene.simulation.step });
-    let ids: Vec<BodyId> = scene.bodies.iter().map(|body| add(&mut world, body)).collect();
+    scene.bodies.iter().for_each(|body| add(&mut world, body));
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
-    scene.forces.iter().for_each(|force| add_force(&mut world, force, &ids));
+    scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
     world
 }
 
-fn add(world: &mut World, body: &Body) -> BodyId {
+fn add(world: &mut World, body: &Body) {
     let id = world.add(body.start);
     match &body.motion {
         Some(BodyMotion::Track(track)) => world.drive(id, Shared(track.clone())),
@@ -35,7 +34,6 @@ fn add(world: &mut World, body: &Body) -> BodyId {
         }
         None => {}
     }
-    id
 }
 
 /// A motion that several worlds follow.
@@ -62,38 +60,6 @@ impl Motion for ByFormula {
             acceleration: self.location.curvature(t),
             orientation,
             angular_velocity,
-        }
-    }
-}
-
-fn add_force(world: &mut World, force: &Force, ids: &[BodyId]) {
-    let named = |on: &[usize]| on.iter().map(|&body| ids[body]).collect();
-    match &force.kind {
-        ForceKind::Constant { on, force, torque } => {
-            world.add_force(ConstantForce { bodies: named(on), force: *force, torque: *torque });
-        }
-        &ForceKind::Drag { ref on, linear, quadratic, wind } => {
-            world.add_force(Drag { bodies: named(on), linear, quadratic, wind });
-        }
-        &ForceKind::Gravitation { ref on, ref against, constant, softening } => {
-            let against = against.as_deref().map(named);
-            world.add_force(Gravitation { bodies: named(on), against, constant, softening });
-        }
-        &ForceKind::Coulomb { ref on, ref against, constant, softening } => {
-            let against = against.as_deref().map(named);
-            world.add_force(Coulomb { bodies: named(on), against, constant, softening });
-        }
-        &ForceKind::Lorentz { ref on, electric, magnetic } => {
-            world.add_force(Lorentz { bodies: named(on), electric, magnetic });
-        }
-        &ForceKind::Spring { ref links, stiffness, damping, .. } => {
-            for link in links {
-                let between = link.between.map(|end| match end {
-                    SpringEnd::Body(body) => Anchor::Body(ids[body]),
-                    SpringEnd::Point(point) => Anchor::Point(point),
-                });
-                world.add_force(Spring { between, stiffness, damping, rest_length: link.rest_length });
-            }
         }
     }
 }

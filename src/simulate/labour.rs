@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::world;
 use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
-use crate::scene::{ForceKind, Scene};
+use crate::scene::Scene;
 
 /// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
 /// count. Where there are none, nothing takes long within a frame.
@@ -18,17 +18,8 @@ pub struct Labour {
 impl Labour {
     /// That of a scene.
     pub fn of(scene: &Scene) -> Labour {
-        let pairs = |kind: &ForceKind| match kind {
-            ForceKind::Gravitation { on, against, .. } | ForceKind::Coulomb { on, against, .. } => {
-                let count = on.len() as u64;
-                match against {
-                    Some(others) => count.saturating_mul(others.len() as u64),
-                    None => count.saturating_mul(count.saturating_sub(1)) / 2,
-                }
-            }
-            _ => 0,
-        };
-        let pairs = scene.forces.iter().map(|force| pairs(&force.kind)).fold(0, u64::saturating_add);
+        let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
+        let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
         if pairs == 0 {
             return Labour::default();
         }

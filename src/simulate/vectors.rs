@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 
 use super::BodyFrame;
-use crate::dynamics::Shape;
-use crate::scene::{Body, ForceKind, Quantity, Scene, SpringEnd};
+use crate::dynamics::{Anchor, Shape};
+use crate::scene::{Body, ForceKind, Quantity, Scene};
 
 /// What an arrow of a body shows, in SI units.
 pub fn shown(quantity: Quantity, body: &Body, frame: &BodyFrame) -> DVec3 {
@@ -51,12 +51,12 @@ pub fn axis(body: &Body) -> Option<f64> {
 /// The fixed points of the springs that are drawn, m.
 pub(super) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Spring { links, coil: Some(_), .. } => Some(links),
+        ForceKind::Spring { links, coil: Some(_) } => Some(links),
         _ => None,
     });
     links.flatten().flat_map(|link| link.between).filter_map(|end| match end {
-        SpringEnd::Point(point) => Some(point),
-        SpringEnd::Body(_) => None,
+        Anchor::Point(point) => Some(point),
+        Anchor::Body(_) => None,
     })
 }
 

@@ -1,7 +1,7 @@
 //! Coulomb's force between charges.
 
 use super::super::BodyId;
-use super::pairs::Pairs;
+use super::pairs::{self, Pairs};
 use super::{Force, Loads, Moment};
 
 /// Each two of some bodies repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other where their charges
@@ -25,7 +25,7 @@ impl Coulomb {
     /// 1/4πε₀, N m²/C². Source: with ε₀ of CODATA 2022.
     pub const CONSTANT: f64 = 8.987_551_786_2e9;
 
-    fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
+    fn of<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
         let strength = moment.model.charge();
         Pairs {
             bodies: &self.bodies,
@@ -39,11 +39,15 @@ impl Coulomb {
 
 impl Force for Coulomb {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        self.pairs(moment).apply(moment, loads);
+        self.of(moment).apply(moment, loads);
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        self.pairs(moment).potential(moment)
+        self.of(moment).potential(moment)
+    }
+
+    fn pairs(&self) -> u64 {
+        pairs::count(&self.bodies, self.against.as_deref())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Newton's gravitation.
 
 use super::super::BodyId;
-use super::pairs::Pairs;
+use super::pairs::{self, Pairs};
 use super::{Force, Loads, Moment};
 
 /// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2); the potential is −G m₁ m₂ / √(r² + ε²).
@@ -24,7 +24,7 @@ impl Gravitation {
     /// Newton's constant, m³/(kg s²). Source: CODATA 2018, Rev. Mod. Phys. 93 (2021) 025010.
     pub const CONSTANT: f64 = 6.674_30e-11;
 
-    fn pairs<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
+    fn of<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
         let strength = moment.model.mass();
         Pairs {
             bodies: &self.bodies,
@@ -38,11 +38,15 @@ impl Gravitation {
 
 impl Force for Gravitation {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        self.pairs(moment).apply(moment, loads);
+        self.of(moment).apply(moment, loads);
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        self.pairs(moment).potential(moment)
+        self.of(moment).potential(moment)
+    }
+
+    fn pairs(&self) -> u64 {
+        pairs::count(&self.bodies, self.against.as_deref())
     }
 }
 

@@ -1,4 +1,4 @@
-//! What makes bodies move: the interface of a force, and one file for each kind.
+//! What makes bodies move: the interface of a force, and one file for each kind. All that is public here, `dynamics` shows.
 
 mod constant;
 mod coulomb;
@@ -44,6 +44,11 @@ pub trait Force: Send + Sync {
     ///
     /// The share of a body that does not move is left out where it is a constant.
     fn potential(&self, moment: &Moment) -> f64;
+
+    /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
+    fn pairs(&self) -> u64 {
+        0
+    }
 }
 
 #[cfg(test)]

@@ -33,6 +33,15 @@ pub(super) struct Pairs<'a> {
     pub(super) softening: f64,
 }
 
+/// The number of pairs within some bodies, or between them and those of another group.
+pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
+    let count = bodies.len() as u64;
+    match against {
+        Some(others) => count.saturating_mul(others.len() as u64),
+        None => count.saturating_mul(count.saturating_sub(1)) / 2,
+    }
+}
+
 impl Pairs<'_> {
     /// Adds the forces on all bodies.
     pub(super) fn apply(&self, moment: &Moment, loads: &mut Loads) {

@@ -46,7 +46,7 @@ pub(super) struct Shows {
 
 impl Shows {
     pub(super) fn of(scene: &Scene) -> Shows {
-        let is_drawn = |kind: &ForceKind| matches!(kind, ForceKind::Spring { coil: Some(_), links, .. } if !links.is_empty());
+        let is_drawn = |kind: &ForceKind| matches!(kind, ForceKind::Spring { coil: Some(_), links } if !links.is_empty());
         Shows {
             arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_drawn(&force.kind)),

@@ -3,6 +3,7 @@
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::dynamics::{Coulomb, Gravitation, Lorentz};
 use crate::scene::{Body, Force, ForceKind};
 
 /// Warns of masses that neither make a body slow to move nor attract another, and of charges that no force acts on.
@@ -10,13 +11,15 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     for force in forces {
         match &force.kind {
-            ForceKind::Gravitation { on, against, .. } => {
-                on.iter().chain(against.iter().flatten()).for_each(|&body| attracts[body] = true);
+            ForceKind::Gravitation(Gravitation { bodies, against, .. }) => {
+                bodies.iter().chain(against.iter().flatten()).for_each(|body| attracts[body.index()] = true);
             }
-            ForceKind::Coulomb { on, against, .. } => {
-                on.iter().chain(against.iter().flatten()).for_each(|&body| electric[body] = true);
+            ForceKind::Coulomb(Coulomb { bodies, against, .. }) => {
+                bodies.iter().chain(against.iter().flatten()).for_each(|body| electric[body.index()] = true);
             }
-            ForceKind::Lorentz { on, .. } => on.iter().for_each(|&body| electric[body] = true),
+            ForceKind::Lorentz(Lorentz { bodies, .. }) => {
+                bodies.iter().for_each(|body| electric[body.index()] = true);
+            }
             _ => {}
         }
     }

@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Coulomb, Gravitation};
+use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, Lorentz};
 use crate::scene::source::Node;
 use crate::scene::{Body, Force, ForceKind};
 
@@ -69,53 +69,45 @@ impl Reader<'_, '_> {
     }
 
     fn constant(&mut self, view: &View<'_>) -> ForceKind {
-        ForceKind::Constant {
-            on: self.movable(view),
+        ForceKind::Constant(ConstantForce {
+            bodies: self.movable(view),
             force: view.vector("force").unwrap_or(DVec3::ZERO),
             torque: view.vector("torque").unwrap_or(DVec3::ZERO),
-        }
+        })
     }
 
     fn drag(&mut self, view: &View<'_>) -> ForceKind {
         self.needs_one_of(view, &["linear", "quadratic"]);
-        ForceKind::Drag {
-            on: self.movable(view),
+        ForceKind::Drag(Drag {
+            bodies: self.movable(view),
             linear: view.number("linear").unwrap_or(0.0),
             quadratic: view.number("quadratic").unwrap_or(0.0),
             wind: view.vector("wind").unwrap_or(DVec3::ZERO),
-        }
+        })
     }
 
     fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
         let softening = view.number("softening").unwrap_or(0.0);
-        let (on, against) = self.pairs(view, softening, |_| true);
-        ForceKind::Gravitation {
-            on,
-            against,
-            constant: view.number("constant").unwrap_or(Gravitation::CONSTANT),
-            softening,
-        }
+        let (bodies, against) = self.pairs(view, softening, |_| true);
+        let constant = view.number("constant").unwrap_or(Gravitation::CONSTANT);
+        ForceKind::Gravitation(Gravitation { bodies, against, constant, softening })
     }
 
     fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
         let softening = view.number("softening").unwrap_or(0.0);
-        let bodies = self.bodies;
-        let (on, against) = self.pairs(view, softening, |i| bodies[i].start.charge != 0.0);
-        ForceKind::Coulomb {
-            on,
-            against,
-            constant: view.number("constant").unwrap_or(Coulomb::CONSTANT),
-            softening,
-        }
+        let all = self.bodies;
+        let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
+        let constant = view.number("constant").unwrap_or(Coulomb::CONSTANT);
+        ForceKind::Coulomb(Coulomb { bodies, against, constant, softening })
     }
 
     fn lorentz(&mut self, view: &View<'_>) -> ForceKind {
         self.needs_one_of(view, &["electric", "magnetic"]);
-        ForceKind::Lorentz {
-            on: self.charged(view),
+        ForceKind::Lorentz(Lorentz {
+            bodies: self.charged(view),
             electric: view.vector("electric").unwrap_or(DVec3::ZERO),
             magnetic: view.vector("magnetic").unwrap_or(DVec3::ZERO),
-        }
+        })
     }
 
     /// Warns where none of the keys is there without which the force is zero.

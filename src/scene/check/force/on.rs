@@ -3,14 +3,15 @@
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::BodyId;
 
 impl Reader<'_, '_> {
     /// The bodies of `on`, or all that can move. A body that stays where it is in spite of the force is a warning.
-    pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<usize> {
+    pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let moves = |i: usize| !bodies[i].start.fixed;
         let Some(named) = self.named(view) else {
-            let all: Vec<usize> = (0..bodies.len()).filter(|&i| moves(i)).collect();
+            let all: Vec<BodyId> = (0..bodies.len()).filter(|&i| moves(i)).map(BodyId::new).collect();
             if all.is_empty() {
                 self.acts_on_nothing("there is none that can move");
             }
@@ -20,11 +21,11 @@ impl Reader<'_, '_> {
             let message = format!("the force has no effect on `{}`", bodies[body].name);
             self.no_effect(message, span, "it is fixed");
         }
-        named.into_iter().map(|(body, _)| body).collect()
+        named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
     }
 
     /// Those of [`movable`](Self::movable) that have a charge; a body that is named and has none is a warning.
-    pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<usize> {
+    pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let mut on = self.movable(view);
         for (body, span) in self.spans(view) {
@@ -34,7 +35,7 @@ impl Reader<'_, '_> {
             }
         }
         let before = on.len();
-        on.retain(|&body| bodies[body].start.charge != 0.0 && !bodies[body].start.fixed);
+        on.retain(|body| bodies[body.index()].start.charge != 0.0 && !bodies[body.index()].start.fixed);
         if on.is_empty() && before > 0 && !view.has("on") {
             self.acts_on_nothing("there is none with a charge that can move");
         }

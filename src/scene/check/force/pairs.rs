@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::BodyId;
 use crate::scene::source::Value;
 
 /// The number of a body, and where it is named, if it is.
@@ -20,10 +21,10 @@ impl Reader<'_, '_> {
         view: &View<'_>,
         softening: f64,
         able: impl Fn(usize) -> bool,
-    ) -> (Vec<usize>, Option<Vec<usize>>) {
+    ) -> (Vec<BodyId>, Option<Vec<BodyId>>) {
         let bodies = self.bodies;
         let able = &|i: usize| !bodies[i].shape.is_unbounded() && able(i);
-        let numbers = |group: &[Member]| group.iter().map(|(body, _)| *body).collect::<Vec<_>>();
+        let numbers = |group: &[Member]| group.iter().map(|(body, _)| BodyId::new(*body)).collect::<Vec<_>>();
         if let Some([first, second]) = self.groups(view) {
             let (first, second) = (self.usable(first, able), self.usable(second, able));
             let moves = |group: &[Member]| group.iter().any(|&(i, _)| !bodies[i].start.fixed);

@@ -4,9 +4,10 @@ use super::super::read;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::dynamics::{Anchor, BodyId, Spring};
+use crate::scene::ForceKind;
 use crate::scene::grammar::Bound;
 use crate::scene::source::{Node, Value};
-use crate::scene::{ForceKind, SpringEnd, SpringLink};
 
 impl Reader<'_, '_> {
     /// A spring from each end to the next.
@@ -14,20 +15,18 @@ impl Reader<'_, '_> {
         let nodes = view.list("between")?;
         self.chain_of_groups(nodes);
         let rest_length = view.number("rest_length");
+        let stiffness = view.number("stiffness").unwrap_or(0.0);
+        let damping = view.number("damping").unwrap_or(0.0);
         let mut links = Vec::with_capacity(nodes.len());
         for neighbours in nodes.windows(2) {
             let [first, second] = neighbours else { continue };
             let (Some(from), Some(to)) = (self.end(first), self.end(second)) else { continue };
             self.link(first, second, [from, to]);
             let length = || self.place(from).distance(self.place(to));
-            links.push(SpringLink { between: [from, to], rest_length: rest_length.unwrap_or_else(length) });
+            let rest_length = rest_length.unwrap_or_else(length);
+            links.push(Spring { between: [from, to], stiffness, damping, rest_length });
         }
-        Some(ForceKind::Spring {
-            links,
-            stiffness: view.number("stiffness").unwrap_or(0.0),
-            damping: view.number("damping").unwrap_or(0.0),
-            coil: super::super::showing::coil(view),
-        })
+        Some(ForceKind::Spring { links, coil: super::super::showing::coil(view) })
     }
 
     /// Warns of several bodies that are repeated: their copies make one chain, where pairs may have been meant.
@@ -50,8 +49,8 @@ impl Reader<'_, '_> {
     }
 
     /// Two neighbouring ends must be different, and one of them able to move.
-    fn link(&mut self, first: &Node, second: &Node, between: [SpringEnd; 2]) {
-        let moves = |end: SpringEnd| matches!(end, SpringEnd::Body(i) if !self.bodies[i].start.fixed);
+    fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
+        let moves = |end: Anchor| matches!(end, Anchor::Body(body) if !self.bodies[body.index()].start.fixed);
         if between[0] == between[1] {
             let error = Diagnostic::error(Code::SpringEnds, "both ends of the spring are at the same place");
             self.context.diagnostics.push(error.at(second.span, "the same as the end before it"));
@@ -62,18 +61,18 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn end(&self, node: &Node) -> Option<SpringEnd> {
+    fn end(&self, node: &Node) -> Option<Anchor> {
         match node.value {
-            Value::Array(_) => read::vector(node, Bound::Any).map(SpringEnd::Point),
-            _ => self.body(node).map(SpringEnd::Body),
+            Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
+            _ => self.body(node).map(|body| Anchor::Body(BodyId::new(body))),
         }
     }
 
     /// Where an end is at the start.
-    fn place(&self, end: SpringEnd) -> glam::DVec3 {
+    fn place(&self, end: Anchor) -> glam::DVec3 {
         match end {
-            SpringEnd::Body(i) => self.bodies[i].start.location,
-            SpringEnd::Point(point) => point,
+            Anchor::Body(body) => self.bodies[body.index()].start.location,
+            Anchor::Point(point) => point,
         }
     }
 }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use crate::scene::{Body, ForceKind, Options, Override, Scene, SpringEnd};
+use crate::dynamics::{Anchor, BodyId};
+use crate::scene::{Body, ForceKind, Options, Override, Scene};
 
 fn scene(text: &str) -> Scene {
     Scene::parse(text).unwrap_or_else(|report| panic!("{report}"))
@@ -206,8 +207,8 @@ fn forces_name_one_copy_or_many() {
          [force.chain.spring]\nbetween = [[-1, 0, 0], 'ball']\nstiffness = 1\n",
     );
     let on = |force: usize| match &scene.forces[force].kind {
-        ForceKind::Drag { on, .. } => {
-            on.iter().map(|&body| scene.bodies[body].name.as_str()).collect::<Vec<_>>()
+        ForceKind::Drag(drag) => {
+            drag.bodies.iter().map(|body| scene.bodies[body.index()].name.as_str()).collect::<Vec<_>>()
         }
         _ => panic!("not a drag"),
     };
@@ -215,8 +216,8 @@ fn forces_name_one_copy_or_many() {
     assert_eq!(on(1), ["ball[2]", "brick[0,1]", "brick[1,1]", "brick[1,2]"]);
     let ForceKind::Spring { links, .. } = &scene.forces[2].kind else { panic!("not a spring") };
     assert_eq!(links.len(), 4);
-    assert_eq!(links[0].between, [SpringEnd::Point(-DVec3::X), SpringEnd::Body(0)]);
-    assert_eq!(links[3].between, [SpringEnd::Body(2), SpringEnd::Body(3)]);
+    assert_eq!(links[0].between, [Anchor::Point(-DVec3::X), Anchor::Body(BodyId::new(0))]);
+    assert_eq!(links[3].between, [2, 3].map(|i| Anchor::Body(BodyId::new(i))));
 }
 
 #[test]

@@ -1,0 +1,51 @@
+//! The forces of a checked scene.
+
+use std::sync::Arc;
+
+use super::Coil;
+use crate::dynamics::{self, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring};
+
+/// A force that is not a single body's own.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Its name, unique among forces.
+    pub name: String,
+    /// What it is.
+    pub kind: ForceKind,
+}
+
+/// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the number of a body of the scene.
+#[derive(Clone, Debug)]
+pub enum ForceKind {
+    /// The same force and torque on several bodies.
+    Constant(ConstantForce),
+    /// The resistance of air or a liquid.
+    Drag(Drag),
+    /// Newton's gravitation between all pairs.
+    Gravitation(Gravitation),
+    /// Coulomb's force between all pairs of charges.
+    Coulomb(Coulomb),
+    /// Uniform electric and magnetic fields.
+    Lorentz(Lorentz),
+    /// A spring with a damper, or a chain of such springs.
+    Spring {
+        /// The springs, one behind the other.
+        links: Vec<Spring>,
+        /// How they are drawn, if they are.
+        coil: Option<Coil>,
+    },
+}
+
+impl ForceKind {
+    /// What acts on the bodies of a world.
+    pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
+        match self {
+            ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],
+            ForceKind::Drag(drag) => vec![Arc::new(drag.clone())],
+            ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
+            ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
+            ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
+            ForceKind::Spring { links, .. } => links.iter().map(|link| Arc::new(*link) as Arc<_>).collect(),
+        }
+    }
+}
