@@ -6,6 +6,7 @@
 //! stand with it, so that a body added at the end of a scene changes no other's line.
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -165,7 +166,7 @@ fn single(body: &Body, materials: &[MaterialText], id: usize, meshes: &Meshes, s
     let (mut before, place, mut after) = shape(body, uniform, meshes, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
     // On lines of their own, since the words may end with a comment.
-    let own = |sdl: &Option<String>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
+    let own = |sdl: &Option<Arc<str>>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
     let usage = usage + &own(&body.look.sdl_before);
     after.push_str(&own(&body.look.sdl_after));
     // A pattern moves with the body: the transform comes after it.

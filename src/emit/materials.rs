@@ -114,11 +114,11 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         Look::Checkered => text.kind = "checkered",
         Look::Texture(texture) => {
             text.kind = "texture";
-            text.texture = Some(texture.clone());
+            text.texture = Some(texture.to_string());
         }
         Look::Sdl(sdl) => {
             text.kind = "sdl";
-            text.sdl = Some(sdl.clone());
+            text.sdl = Some(sdl.to_string());
         }
     }
     text

@@ -1,6 +1,7 @@
 //! The part of a checked scene that is look.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -36,9 +37,9 @@ pub enum Look {
     /// The checkered look of the ground, for planes without a material.
     Checkered,
     /// A texture that an include file declares.
-    Texture(String),
+    Texture(Arc<str>),
     /// POV-Ray's own words.
-    Sdl(String),
+    Sdl(Arc<str>),
 }
 
 impl Look {

@@ -1,5 +1,7 @@
 //! The part of a checked scene that is physics.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::Showing;
@@ -55,8 +57,8 @@ pub struct Body {
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
     pub look: BodyLook,
-    /// What is shown of it beside itself.
-    pub showing: Showing,
+    /// What is shown of it beside itself. Copies of a body share it.
+    pub showing: Arc<Showing>,
 }
 
 /// How a body differs in pictures from what it is in mechanics.
@@ -65,11 +67,11 @@ pub struct BodyLook {
     /// How many times larger it is drawn.
     pub scale: f64,
     /// The object that is drawn, in POV-Ray's own words and in metres; none: its shape is drawn.
-    pub object: Option<String>,
+    pub object: Option<Arc<str>>,
     /// POV-Ray's own words in its object, before its place.
-    pub sdl_before: Option<String>,
+    pub sdl_before: Option<Arc<str>>,
     /// POV-Ray's own words in its object, after its place.
-    pub sdl_after: Option<String>,
+    pub sdl_after: Option<Arc<str>>,
 }
 
 impl BodyLook {

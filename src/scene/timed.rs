@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::dynamics::{Motion, Track};
 
-use super::expression::{ExpressionError, Program, Resolved};
+use super::expression::{ExpressionError, Program, Resolved, Steps};
 
 /// A number, or a formula of the time.
 #[derive(Clone, Debug)]
@@ -21,10 +21,12 @@ pub enum Timed {
 #[derive(Debug)]
 pub struct TimeFormula {
     /// What is written.
-    pub text: String,
+    pub text: Arc<str>,
     value: Program,
-    rate: Program,
-    curvature: Program,
+    rate: Steps,
+    curvature: Steps,
+    /// How many operations the three have together.
+    pub(super) operations: u64,
 }
 
 /// Three numbers that may change with time.
@@ -41,7 +43,7 @@ impl TimeFormula {
     ///
     /// # Errors
     /// Where it is nested too deeply.
-    pub(super) fn new(text: String, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
+    pub(super) fn new(text: Arc<str>, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
         /// What a formula of a thousand letters may come to, and no more than is compiled at once.
         const MOST: u64 = 100_000;
         let rate = resolved.derivative(0);
@@ -50,8 +52,15 @@ impl TimeFormula {
             let message = "the derivatives of this formula are too long, by which velocities follow from it";
             return Err(super::expression::too_intricate(range, message));
         }
-        let curvature = rate.derivative(0).compile()?;
-        Ok(TimeFormula { text, value: resolved.compile()?, rate: rate.compile()?, curvature })
+        let curvature = rate.derivative(0);
+        let operations = [&resolved, &rate, &curvature].into_iter().map(Resolved::operations).sum();
+        Ok(TimeFormula {
+            text,
+            operations,
+            value: resolved.compile()?,
+            rate: rate.compile()?.into_steps(),
+            curvature: curvature.compile()?.into_steps(),
+        })
     }
 
     /// Why it has no finite value at a time (s); none where it has.

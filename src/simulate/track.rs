@@ -92,9 +92,9 @@ pub(super) struct Track {
 impl Track {
     /// That of a run that has not begun.
     pub(super) fn new(scene: &Scene) -> Track {
-        let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, body.showing.clone()));
-        let asks: Arc<[_]> =
-            asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some()).collect();
+        let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
+        let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
+        let asks: Arc<[_]> = asks.map(|(number, showing)| (number, showing.clone())).collect();
         Track {
             ways: vec![Vec::new(); asks.len()],
             asks,

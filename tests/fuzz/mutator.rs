@@ -28,7 +28,7 @@ impl Random {
 }
 
 /// What breaks programs: numbers at the edge, letters of several bytes, signs of the languages that are read.
-const TOKENS: [&str; 64] = [
+const TOKENS: [&str; 68] = [
     "0",
     "-1",
     "1e308",
@@ -78,8 +78,12 @@ const TOKENS: [&str; 64] = [
     "t",
     "i",
     "uniform(0,1)",
-    "repeat = 3",
-    "repeat = 1000000",
+    "\nrepeat = 3\n",
+    "\nrepeat = 500000\n",
+    "\nrepeat.grid = { count = [700, 700], spacing = 1 }\n",
+    "\nduration = 9999\n",
+    "\nghosts.every = 1e-3\n",
+    "\n[force.f.gravitation]\n",
     "[body.x]",
     "shape.sphere.radius",
     "f 1 2 3",

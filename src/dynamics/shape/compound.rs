@@ -1,5 +1,7 @@
 //! Several solids as one.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DQuat, DVec3};
 
 use super::Shape;
@@ -19,7 +21,8 @@ pub struct Part {
 /// Several solids of one density as one rigid body. Where they overlap, both count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compound {
-    parts: Vec<Part>,
+    /// Clones of a compound share them.
+    parts: Arc<[Part]>,
     volume: f64,
     /// Principal moments of inertia per mass, m².
     inertia: DVec3,
@@ -38,7 +41,7 @@ impl Compound {
         let tensors = parts.iter().map(|part| tensor(part) * (volume_of(part) / volume));
         let tensor = tensors.fold(DMat3::ZERO, |sum, tensor| sum + tensor);
         let (inertia, principal_axes) = principal(tensor);
-        Compound { parts, volume, inertia, principal_axes }
+        Compound { parts: parts.into(), volume, inertia, principal_axes }
     }
 
     /// Its parts, about its centre of mass.
@@ -72,10 +75,12 @@ impl Compound {
     }
 
     pub(super) fn scale(&mut self, factor: f64) {
-        for part in &mut self.parts {
-            part.shape = part.shape.scaled(factor);
-            part.location *= factor;
-        }
+        let scaled = |part: &Part| Part {
+            shape: part.shape.scaled(factor),
+            location: part.location * factor,
+            orientation: part.orientation,
+        };
+        self.parts = self.parts.iter().map(scaled).collect();
         self.volume *= factor * factor * factor;
         self.inertia *= factor * factor;
     }

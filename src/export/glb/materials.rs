@@ -77,7 +77,7 @@ pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
             ("axes".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
         }
         What::Ground => ("ground".to_owned(), ground(scene.environment.preset)),
-        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl(String::new()))),
+        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()))),
     }
 }
 

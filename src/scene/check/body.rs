@@ -1,5 +1,7 @@
 //! `[body.NAME]`.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 
 use super::read::figure;
@@ -8,12 +10,20 @@ use super::{Context, look, mesh, motion, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, LibraryMaterial, Look, Material, Simulation};
+use crate::scene::{Body, LibraryMaterial, Look, Material, Showing, Simulation};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
 /// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
+
+/// What was made of the body before.
+struct Last<'a> {
+    /// The table of its shape.
+    table: View<'a>,
+    shape: Shape,
+    showing: Arc<Showing>,
+}
 
 pub(super) fn read(
     root: &View<'_>,
@@ -23,9 +33,19 @@ pub(super) fn read(
 ) -> Vec<Body> {
     let tables = root.named("body");
     let mut palette = Palette::default();
-    let read = |(name, span, view): (&str, Span, View<'_>)| {
+    let mut last: Option<Last<'_>> = None;
+    let mut bodies = Vec::with_capacity(tables.len());
+    for (name, span, view) in tables {
+        if let Some(like) = bodies.last().filter(|_| context.is_hopeless(name)) {
+            bodies.push(Body { name: name.to_owned(), ..Body::clone(like) });
+            continue;
+        }
         let before = context.diagnostics.len();
-        let shape = shape::read(name, &view.table("shape"), context);
+        let table = view.table("shape");
+        // Copies that share a table share what is made of it.
+        let same = last.as_ref().filter(|last| last.table.is_same(&table));
+        let shape = same.map(|last| last.shape.clone());
+        let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
         let material = material(name, root, &view, &shape, materials, &mut palette, context);
         let mut start = start(name, span, &view, &shape, context);
         let motion = motion::read(name, &view, (start.location, start.orientation), simulation, context);
@@ -34,11 +54,14 @@ pub(super) fn read(
             start = RigidBody { location, orientation, ..start };
         }
         let look = look::of_body(name, &view, &shape, context);
-        let showing = showing::of_body(name, &view, &shape, start.fixed, context);
+        let showing = showing::of_body(name, &view, &shape, start.fixed, simulation, context);
+        let same = last.as_ref().filter(|last| *last.showing == showing);
+        let showing = same.map_or_else(|| Arc::new(showing), |last| last.showing.clone());
         context.once(before, name, span);
-        Body { name: name.to_owned(), shape, start, motion, material, look, showing }
-    };
-    tables.into_iter().map(read).collect()
+        last = Some(Last { table, shape: shape.clone(), showing: showing.clone() });
+        bodies.push(Body { name: name.to_owned(), shape, start, motion, material, look, showing });
+    }
+    bodies
 }
 
 /// The body as it is at the start.

@@ -23,7 +23,8 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             _ => {}
         }
     }
-    for (i, ((name, _, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
+    for (i, ((name, span, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
+        let before = context.diagnostics.len();
         let mut warn = |key: &str, why: &str| {
             let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
@@ -35,5 +36,6 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
         if body.start.charge != 0.0 && !electric[i] {
             warn("charge", "no force acts on this charge");
         }
+        context.once(before, name, span);
     }
 }

@@ -37,7 +37,7 @@ pub(super) struct Hint {
 pub(super) fn hint(table: &Table, spec: &'static TableSpec) -> Option<Hint> {
     let found = table.entries.iter().find_map(|entry| {
         let word = entry.node.as_str()?.to_lowercase();
-        let name = entry.name.text.as_str();
+        let name = &*entry.name.text;
         let (mut way, kinds) = match spec.key(name) {
             Some(Key { kind: Kind::Table(kinds), name, .. }) => (vec![*name], *kinds),
             None if matches!(name, "type" | "kind") => match spec.key("shape").map(|key| &key.kind) {

@@ -26,9 +26,9 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
     }
     BodyLook {
         scale: look.number("scale").unwrap_or(1.0),
-        object: view.table("shape").table("sdl").text("object").map(str::to_owned),
-        sdl_before: look.text("sdl_before").map(str::to_owned),
-        sdl_after: look.text("sdl_after").map(str::to_owned),
+        object: view.table("shape").table("sdl").shared_text("object"),
+        sdl_before: look.shared_text("sdl_before"),
+        sdl_after: look.shared_text("sdl_after"),
     }
 }
 

@@ -15,12 +15,12 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> 
 
 /// The look that a table describes.
 pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) -> Look {
-    if let Some(texture) = view.text("texture") {
-        is_declared(texture, view, root, context);
-        return Look::Texture(texture.to_owned());
+    if let Some(texture) = view.shared_text("texture") {
+        is_declared(&texture, view, root, context);
+        return Look::Texture(texture);
     }
-    if let Some(sdl) = view.text("sdl") {
-        return Look::Sdl(sdl.to_owned());
+    if let Some(sdl) = view.shared_text("sdl") {
+        return Look::Sdl(sdl);
     }
     if let Some(material) = view.text("like").and_then(LibraryMaterial::named) {
         if let (Some(span), None) = (view.key_span("color"), material.color) {

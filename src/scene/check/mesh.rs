@@ -19,7 +19,16 @@ pub(super) struct Meshes {
     files: Vec<(PathBuf, [u8; 32])>,
     /// Where each mesh is named first, and its triangles.
     sizes: Vec<(Span, usize)>,
+    /// How often each file has been read after the first time, with other numbers.
+    readings: HashMap<PathBuf, usize>,
+    /// The triangles of all meshes.
+    triangles: usize,
 }
+
+/// So often is a file read with other numbers.
+const MOST_READINGS: usize = 1000;
+/// A file is not read again where there are more triangles already.
+const MOST_TRIANGLES: usize = 4_000_000;
 
 /// A file, and the bits of the numbers with which it is read.
 type Key = (PathBuf, Vec<u64>);
@@ -50,12 +59,27 @@ impl Meshes {
             self.files.push((path.clone(), digest));
         }
         let (known, sizes) = (&mut self.known, &mut self.sizes);
+        let before = sizes.len();
         let read = |key: &Key| {
             let mesh = read(&key.0).map_err(|error| error.to_string())?;
             sizes.push((span, mesh.triangles().len()));
             Ok(Arc::new(mesh))
         };
-        known.entry((path, bits)).or_insert_with_key(read).clone()
+        let key = (path, bits);
+        if !known.contains_key(&key) {
+            let again =
+                *self.readings.entry(key.0.clone()).and_modify(|readings| *readings += 1).or_insert(0);
+            if again > MOST_READINGS || again > 0 && self.triangles > MOST_TRIANGLES {
+                return Err(format!(
+                    "with so many sizes it would come to more than {MOST_READINGS} meshes or {MOST_TRIANGLES} triangles"
+                ));
+            }
+        }
+        let mesh = known.entry(key).or_insert_with_key(read).clone();
+        if sizes.len() > before {
+            self.triangles += mesh.as_ref().map_or(0, |mesh| mesh.triangles().len());
+        }
+        mesh
     }
 
     /// That meshes stand in so many scripts that these are a burden.

@@ -28,6 +28,7 @@ mod view;
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
@@ -38,6 +39,7 @@ use super::grammar::{Collection, SCENE};
 use super::source::{self, Table};
 use super::{Include, Options, Places, PovRay, Scene};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
+use crate::dynamics::Track;
 
 /// What a scene is made from.
 pub(super) struct Input<'a> {
@@ -64,6 +66,8 @@ struct Context<'a> {
     is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
     told: HashSet<(Code, Span)>,
+    /// How many copies of each body have been found wrong.
+    wrong_copies: HashMap<String, usize>,
     /// How many more names may be compared with unknown ones.
     comparisons: usize,
     meshes: mesh::Meshes,
@@ -74,6 +78,18 @@ struct Context<'a> {
     sources: Sources,
     /// Files with motions, each read once.
     recordings: trajectory::Recordings,
+    /// The tracks of files, which bodies share.
+    tracks: HashMap<motion::Rows, Arc<Track>>,
+    /// The address of the table that the last file with motions was named in, and what was read.
+    last_recording: Option<(Option<usize>, Option<Arc<trajectory::Recording>>)>,
+    /// The addresses of the rows of files that bodies have taken.
+    rows: HashSet<usize>,
+    /// How many places the tracks of bodies have together.
+    places: usize,
+    /// How many more operations may be spent on looking for values that are not finite.
+    operations: u64,
+    /// The tables of copies that have been validated, by their addresses, and whether as parts.
+    validated: HashSet<(usize, bool)>,
     /// The digests of other files that are read.
     files: Vec<[u8; 32]>,
 }
@@ -88,12 +104,19 @@ impl Context<'_> {
             groups: Groups::default(),
             is_partial: false,
             told: HashSet::new(),
+            wrong_copies: HashMap::new(),
             comparisons: 0,
             meshes: mesh::Meshes::default(),
             assets: sdl::Assets::default(),
             diagnostics: Vec::new(),
             sources: Sources::default(),
             recordings: trajectory::Recordings::new(),
+            tracks: HashMap::new(),
+            last_recording: None,
+            rows: HashSet::new(),
+            places: 0,
+            operations: motion::MAX_OPERATIONS,
+            validated: HashSet::new(),
             files: Vec::new(),
         }
     }
@@ -103,18 +126,34 @@ impl Context<'_> {
         self.files.push(Sha256::digest(bytes).into());
     }
 
+    /// Whether so many copies of the same body are wrong that no more of them need be looked at: the scene is refused anyway.
+    fn is_hopeless(&self, name: &str) -> bool {
+        /// So many wrong copies of a body are looked at, each of which may be wrong in its own way.
+        const ENOUGH: usize = 1000;
+        let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);
+        !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
+    }
+
     /// Of what has been said since there were `before` diagnostics, keeps what has not been said of another thing that has it from
     /// the same text: all copies of a body have the same mistakes. `name` and `span` are those of the thing.
     fn once(&mut self, before: usize, name: &str, span: Span) {
         if self.diagnostics.len() == before {
             return;
         }
-        let is_later = self.groups.original(name).is_some()
-            && self.groups.ends(name).is_some_and(|[first, _]| first != name);
         let mut said = self.diagnostics.split_off(before);
+        if said.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+            && let Some(original) = self.groups.original(name)
+        {
+            *self.wrong_copies.entry(original.to_owned()).or_default() += 1;
+        }
         said.retain(|diagnostic| {
             diagnostic.span().is_none_or(|span| !self.told.contains(&(diagnostic.code, span)))
         });
+        if said.is_empty() {
+            return;
+        }
+        let is_later = self.groups.original(name).is_some()
+            && self.groups.ends(name).is_some_and(|[first, _]| first != name);
         self.told.extend(said.iter().filter_map(|diagnostic| Some((diagnostic.code, diagnostic.span()?))));
         self.diagnostics.extend(said.into_iter().map(|diagnostic| match is_later {
             true => diagnostic.at(span, format!("in `{name}`")),
@@ -126,8 +165,8 @@ impl Context<'_> {
 /// The names that others may refer to, each with its number in the order of the file.
 #[derive(Default)]
 struct Names {
-    bodies: HashMap<String, usize>,
-    materials: HashMap<String, usize>,
+    bodies: HashMap<Arc<str>, usize>,
+    materials: HashMap<Arc<str>, usize>,
 }
 
 impl Names {
@@ -140,7 +179,7 @@ impl Names {
         Names { bodies: collect(Collection::Body), materials: collect(Collection::Material) }
     }
 
-    fn get(&self, collection: Collection) -> &HashMap<String, usize> {
+    fn get(&self, collection: Collection) -> &HashMap<Arc<str>, usize> {
         match collection {
             Collection::Body => &self.bodies,
             Collection::Material => &self.materials,
@@ -176,15 +215,11 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         trust: options.trust,
         names: Names::of(&root),
         groups,
-        is_partial: false,
-        told: HashSet::new(),
         comparisons: suggest::MAX_COMPARISONS,
-        meshes: mesh::Meshes::default(),
         assets: sdl::Assets::of(&root, input.folder, options.trust),
         diagnostics: found,
         sources,
-        recordings: trajectory::Recordings::new(),
-        files: Vec::new(),
+        ..Context::silent()
     };
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &included, &mut context);
@@ -215,10 +250,7 @@ fn build(
     let root = View::new(&SCENE, Some(root));
     let simulation = simulation::read(&root.table("simulation"), needs_steps(&root), context);
     let mut materials = material::read(&root, context);
-    let mut bodies = body::read(&root, &simulation, &mut materials, context);
-    for (number, body) in bodies.iter_mut().enumerate() {
-        showing::count(&root, &mut body.showing, number, &simulation, context);
-    }
+    let bodies = body::read(&root, &simulation, &mut materials, context);
     let forces = force::read(&root, &bodies, context);
     effect::check(&root, &bodies, &forces, context);
     if bodies.is_empty() {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::read::figure;
-use super::trajectory::{self, Columns};
+use super::trajectory::{self, Columns, Recording};
 use super::view::View;
 use super::{Context, asset, body};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -14,7 +14,13 @@ use crate::scene::Simulation;
 use crate::scene::expand::in_string;
 use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
-use crate::scene::timed::TimedVector;
+use crate::scene::timed::{TimeFormula, TimedVector};
+
+/// So many places all keyframes have together, and rows of files that bodies share and turn differently.
+const MAX_PLACES: usize = 2_000_000;
+/// So many operations are spent on looking for the frames at which formulas have no value; where there are more, only some
+/// frames are looked at, and the run says what it finds at others.
+pub(super) const MAX_OPERATIONS: u64 = 50_000_000;
 
 /// The motion of a body whose own place is given, if it has one.
 pub(super) fn read(
@@ -86,8 +92,10 @@ pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut
         Some(Value::Array(items)) => items.iter().for_each(|item| finite(Some(item), simulation, context)),
         Some(Value::Formula(formula)) => {
             let span = node.map(|node| node.span);
-            let times = (0..simulation.frames()).map(|frame| simulation.time(frame));
-            let wrong = times.into_iter().find_map(|t| Some((t, formula.explain_non_finite(t)?)));
+            let wrong = some_frames(formula, simulation.frames(), context).find_map(|frame| {
+                let t = simulation.time(frame);
+                Some((t, formula.explain_non_finite(t)?))
+            });
             if let (Some((t, error)), Some(span)) = (wrong, span) {
                 let raw = context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
                 let place = in_string(raw, &formula.text, &error.range, span);
@@ -101,6 +109,20 @@ pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut
         }
         _ => {}
     }
+}
+
+/// The frames at which a formula is looked at: all of them, or as many as are affordable, evenly from the first to the last.
+fn some_frames(
+    formula: &TimeFormula,
+    frames: usize,
+    context: &mut Context<'_>,
+) -> impl Iterator<Item = usize> + use<> {
+    let affordable = context.operations / formula.operations.max(1);
+    let count = usize::try_from(affordable).unwrap_or(frames).max(2).min(frames);
+    context.operations = context.operations.saturating_sub(formula.operations.saturating_mul(count as u64));
+    let last = frames - 1;
+    (0..count)
+        .map(move |n| if count < 2 { n } else { (n as u128 * last as u128 / (count as u128 - 1)) as usize })
 }
 
 fn by_keyframes(
@@ -127,7 +149,25 @@ fn by_keyframes(
         });
     }
     let interpolation = interpolation(view);
-    (!keys.is_empty()).then(|| BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
+    if keys.is_empty() || !has_room(keys.len(), view.span("at"), context) {
+        return None;
+    }
+    Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
+}
+
+/// Whether one more track of so many places is affordable; it is said if it is not.
+fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> bool {
+    context.places = context.places.saturating_add(places);
+    if context.places <= MAX_PLACES
+        || span.is_some_and(|span| context.told.contains(&(Code::TooManyCopies, span)))
+    {
+        return context.places <= MAX_PLACES;
+    }
+    let message = format!("the motions of this scene have more than {MAX_PLACES} places");
+    let error = Diagnostic::error(Code::TooManyCopies, message);
+    let label = "each body has places of its own here";
+    context.diagnostics.extend(span.map(|span| error.at(span, label)));
+    false
 }
 
 /// The tracks of a camera's location and of what it looks at, if that is said anywhere.
@@ -191,26 +231,65 @@ fn by_trajectory(
     simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Option<BodyMotion> {
-    let (node, span) = (view.raw("file")?, view.span("file")?);
-    // What is wrong with the path has been said.
-    let path = asset::asset(node, context.folder, context.trust).ok()?.path;
-    let columns = Columns::read(&view.table("columns"));
-    let shown = node.as_str().unwrap_or_default();
-    let recording = trajectory::read(&path, shown, &columns, span, context)?;
+    let span = view.span("file")?;
+    let address = view.address();
+    let recording = match &context.last_recording {
+        Some((last, recording)) if *last == address => recording.clone(),
+        _ => recording(view, span, context),
+    };
+    context.last_recording = Some((address, recording.clone()));
+    let recording = recording?;
     let wanted = view.text("body").unwrap_or(name);
     let Some(keys) = recording.rows.get(&Some(wanted.to_owned())).or_else(|| recording.rows.get(&None))
     else {
         let at = view.span("body").unwrap_or(span);
+        if context.told.contains(&(Code::CsvBody, at)) {
+            return None;
+        }
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
     stands_still(name, keys, span, simulation, context);
     let interpolation = interpolation(view);
+    let same = Rows {
+        address: keys.as_ptr().addr(),
+        orientation: (!recording.is_turned).then(|| orientation.to_array().map(f64::to_bits)),
+        is_linear: interpolation == Interpolation::Linear,
+    };
+    if let Some(track) = context.tracks.get(&same) {
+        return Some(BodyMotion::Track(track.clone()));
+    }
+    // The size of the file limits its own rows.
+    let is_copied = !context.rows.insert(same.address);
+    if is_copied && !has_room(keys.len(), Some(span), context) {
+        return None;
+    }
     let mut keys = keys.clone();
     if !recording.is_turned {
         keys.iter_mut().for_each(|key| key.orientation = orientation);
     }
-    Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, false))))
+    let track = Arc::new(Track::new(keys, interpolation, false));
+    context.tracks.insert(same, track.clone());
+    Some(BodyMotion::Track(track))
+}
+
+/// What a track of a file is made from.
+#[derive(PartialEq, Eq, Hash)]
+pub(super) struct Rows {
+    /// Where the rows of the body stand in memory: the files are kept, so it tells them from all others.
+    address: usize,
+    /// The orientation that the rows are given, where they have none of their own.
+    orientation: Option<[u64; 4]>,
+    is_linear: bool,
+}
+
+/// What the file of a table holds; none after what is wrong with it has been said.
+fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
+    let node = view.raw("file")?;
+    // What is wrong with the path has been said.
+    let path = asset::asset(node, context.folder, context.trust).ok()?.path;
+    let columns = Columns::read(&view.table("columns"));
+    trajectory::read(&path, node.as_str().unwrap_or_default(), &columns, span, context)
 }
 
 /// Warns of a body that stands still before the first row of its file, or after the last.

@@ -15,6 +15,7 @@ pub(super) fn of_body(
     view: &View<'_>,
     shape: &Shape,
     fixed: bool,
+    simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Showing {
     let useless = match (shape.is_unbounded(), fixed) {
@@ -25,10 +26,7 @@ pub(super) fn of_body(
     let mut showing = Showing {
         arrows: Quantity::ALL.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
         axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.number("length") }),
-        ghosts: view.variant("ghosts").and_then(|ghosts| {
-            let arrows = ghosts.boolean("arrows").unwrap_or(true);
-            Some(Ghosts { every: ghosts.number("every")?, arrows })
-        }),
+        ghosts: view.variant("ghosts").and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
         trail: wanted(view, "trail").map(|trail| Trail {
             duration: trail.number("duration"),
             width: trail.number("width"),
@@ -46,24 +44,17 @@ pub(super) fn of_body(
     showing
 }
 
-/// Says which bodies have more ghosts than can be drawn, and takes those away.
-pub(super) fn count(
-    root: &View<'_>,
-    showing: &mut Showing,
-    body: usize,
-    simulation: &Simulation,
-    context: &mut Context<'_>,
-) {
-    let Some(ghosts) = showing.ghosts.filter(|ghosts| simulation.duration / ghosts.every > MAX_GHOSTS) else {
-        return;
-    };
-    let message =
-        format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(ghosts.every));
+/// The ghosts of a body; none where they are more than can be drawn, which is said.
+fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
+    let every = view.number("every")?;
+    if simulation.duration / every <= MAX_GHOSTS {
+        return Some(Ghosts { every, arrows: view.boolean("arrows").unwrap_or(true) });
+    }
+    let message = format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(every));
     let error = Diagnostic::error(Code::TooManyGhosts, message);
-    let tables = root.named("body");
-    let span = tables.get(body).and_then(|(_, _, view)| view.table("ghosts").span("every"));
+    let span = view.span("every");
     context.diagnostics.extend(span.map(|span| error.at(span, "").help("ghosts = duration / every")));
-    showing.ghosts = None;
+    None
 }
 
 fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {

@@ -23,7 +23,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
         if let Some(key) = spec.key(&entry.name.text) {
             value(&entry.node, &key.kind, Some(entry), path, context);
         } else {
-            let word = entry.name.text.as_str();
+            let word = &*entry.name.text;
             let way = habits::way_by_hint(hint.as_ref(), word).or_else(|| suggest::deeper(word, spec));
             let way = way.or_else(|| suggest::key(word, spec).map(|near| vec![near]));
             let way = way.or_else(|| suggest::deeper_also(word, spec));
@@ -85,9 +85,8 @@ fn rule(
     path: &str,
     context: &mut Context<'_>,
 ) {
-    let present = |names: &[&str]| {
-        table.entries.iter().filter(|e| names.contains(&e.name.text.as_str())).collect::<Vec<_>>()
-    };
+    let present =
+        |names: &[&str]| table.entries.iter().filter(|e| names.contains(&&*e.name.text)).collect::<Vec<_>>();
     match &spec.rule {
         Rule::Any => {}
         Rule::AtMostOne(groups) => {
@@ -117,7 +116,7 @@ fn rule(
 }
 
 fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
-    let names: Vec<&str> = entries.iter().map(|entry| entry.name.text.as_str()).collect();
+    let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
     let message = format!("{} exclude each other in {path}", all_of(&names));
     let error = Diagnostic::error(Code::ExclusiveKeys, message);
     // The first is right as far as anyone can tell; the later ones are too many.
@@ -192,6 +191,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
             Err(error) => context.diagnostics.push(error),
         },
         Kind::Table(spec) => match node.as_table() {
+            Some(inner) if is_known(inner, context) => {}
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
             None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
         },
@@ -221,6 +221,11 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
     }
 }
 
+/// Whether a table has been validated as that of another copy of the same body.
+fn is_known(table: &Table, context: &mut Context<'_>) -> bool {
+    table.entries.address().is_some_and(|address| !context.validated.insert((address, context.is_partial)))
+}
+
 /// Where a table is named: by its key if it has one.
 fn at(node: &Node, entry: Option<&Entry>) -> Option<Span> {
     Some(entry.map_or(node.span, |entry| entry.name.span))
@@ -241,7 +246,7 @@ fn inner_path(entry: Option<&Entry>, path: &str) -> String {
 }
 
 fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: &mut Context<'_>) {
-    let word = entry.map_or("", |entry| entry.name.text.as_str());
+    let word = entry.map_or("", |entry| &*entry.name.text);
     let Some(tables) = node.as_table() else {
         let found = node.in_words();
         let message = format!("expected tables with names, as in `[{word}.NAME]`, found {found}");
@@ -253,6 +258,7 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
         let path = format!("[{word}.{}]", as_key(shown));
         let before = context.diagnostics.len();
         match entry.node.as_table() {
+            Some(inner) if context.is_hopeless(&entry.name.text) || is_known(inner, context) => {}
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);
                 context.once(before, &entry.name.text, entry.name.span);
@@ -294,7 +300,7 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
         None => context.diagnostics.push(read::wrong_type(node, kind)),
         Some(word) if words.contains(&word) => {}
         Some(word) => {
-            let noun = entry.map_or("word", |entry| entry.name.text.as_str());
+            let noun = entry.map_or("word", |entry| &*entry.name.text);
             let error = Diagnostic::error(Code::UnknownName, format!("unknown {noun} `{word}`"));
             let known = format!("there are {}", quoted(words));
             context.diagnostics.push(match suggest::nearest(word, words.iter().copied()) {
@@ -332,7 +338,7 @@ fn reference(
     } else if names.len() + library.len() > context.comparisons {
         String::new()
     } else {
-        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        let mut known: Vec<&str> = names.keys().map(AsRef::as_ref).collect();
         known.sort_unstable_by_key(|name| names[*name]);
         context.comparisons -= known.len() + library.len();
         suggest::label(word, &known, &library, noun, collection.plural())

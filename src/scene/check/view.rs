@@ -1,5 +1,7 @@
 //! The values of a table, read by the names of its keys.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::read;
@@ -118,6 +120,27 @@ impl<'a> View<'a> {
         self.node(name)?.as_str()
     }
 
+    /// Like [`View::text`], in the memory that all copies of a body have together.
+    pub(in crate::scene) fn shared_text(&self, name: &str) -> Option<Arc<str>> {
+        match &self.node(name)?.value {
+            Value::String(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
+    /// What tells the table from all others of the scene.
+    pub(super) fn address(&self) -> Option<usize> {
+        self.table.map(|table| table.entries.as_ptr().addr())
+    }
+
+    /// Whether two views are of one table, whose values so are the same.
+    pub(super) fn is_same(&self, other: &View<'_>) -> bool {
+        match (self.table, other.table) {
+            (Some(one), Some(two)) => one.entries.is_same(&two.entries),
+            (one, two) => one.is_none() && two.is_none(),
+        }
+    }
+
     /// The items of a list.
     pub(in crate::scene) fn list(&self, name: &str) -> Option<&'a [Node]> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { .. }))?;
@@ -176,7 +199,7 @@ impl<'a> View<'a> {
     pub(super) fn variables(&self) -> impl Iterator<Item = (&'a str, f64)> {
         let table = self.node("variables").and_then(Node::as_table);
         let entries = table.map_or(&[][..], |table| &table.entries);
-        entries.iter().filter_map(|entry| Some((entry.name.text.as_str(), entry.node.as_number()?)))
+        entries.iter().filter_map(|entry| Some((&*entry.name.text, entry.node.as_number()?)))
     }
 
     /// The tables with names under a key: name, where the name stands, table.
@@ -186,6 +209,6 @@ impl<'a> View<'a> {
         };
         let entries = self.node(name).and_then(Node::as_table).map_or(&[][..], |table| &table.entries);
         let view = |node: &'a Node| View { spec, table: node.as_table() };
-        entries.iter().map(|e| (e.name.text.as_str(), e.name.span, view(&e.node))).collect()
+        entries.iter().map(|e| (&*e.name.text, e.name.span, view(&e.node))).collect()
     }
 }

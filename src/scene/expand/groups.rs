@@ -1,9 +1,15 @@
 //! The bodies that are copies of one: which there are, and how they are called together.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
+use super::Expander;
 use super::repeat::{copy_name, indices};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::source::{Node, Value};
+
+/// So many names the lists of bodies have together, where a name that means several counts as all of them.
+const MAX_NAMES: usize = 2_000_000;
 
 /// The bodies with a `repeat`, by their names.
 #[derive(Default)]
@@ -13,6 +19,8 @@ pub(in crate::scene) struct Groups(HashMap<String, Group>);
 pub(super) struct Group {
     /// How many there are in each direction.
     pub(super) counts: Vec<usize>,
+    /// The names of the copies, in the order of their indices.
+    pub(super) names: Vec<Arc<str>>,
     /// Whether that is known; where a count is wrong, any copy may have been meant.
     pub(super) is_known: bool,
 }
@@ -42,31 +50,18 @@ impl Groups {
         Some([copy_name(original, &vec![0; counts.len()]), copy_name(original, &last)])
     }
 
-    /// Puts the names of all copies in the place of every name that means several: `brick`, `brick[*,0]`.
-    pub(super) fn spread(&self, items: &mut Vec<Node>) {
-        let means_several = |item: &Node| item.as_str().is_some_and(|name| self.several(name).is_some());
-        if self.0.is_empty() || !items.iter().any(means_several) {
-            return;
-        }
-        *items = std::mem::take(items)
-            .into_iter()
-            .flat_map(|item| match item.as_str().and_then(|name| self.several(name)) {
-                Some(names) => {
-                    let node = |name| Node { span: item.span, value: Value::String(name) };
-                    names.into_iter().map(node).collect()
-                }
-                None => vec![item],
-            })
-            .collect();
+    /// Whether a name means several bodies.
+    fn means_several(&self, item: &Node) -> bool {
+        item.as_str().is_some_and(|name| self.several(name).is_some())
     }
 
     /// The copies that a name means, if it means more than one body.
-    fn several(&self, name: &str) -> Option<Vec<String>> {
-        if let Some(Group { counts, is_known: true }) = self.0.get(name) {
-            return Some(indices(counts).map(|index| copy_name(name, &index[..counts.len()])).collect());
+    fn several<'a>(&'a self, name: &str) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
+        if let Some(Group { names, is_known: true, .. }) = self.0.get(name) {
+            return Some(Box::new(names.iter()));
         }
         let (original, inside) = split(name)?;
-        let Group { counts, is_known: true } = self.0.get(original)? else { return None };
+        let Group { counts, names, is_known: true } = self.0.get(original)? else { return None };
         let wanted: Vec<Option<usize>> = inside
             .split(',')
             .map(|number| match number.trim() {
@@ -78,9 +73,42 @@ impl Groups {
         if wanted.len() != counts.len() || !in_range || !wanted.contains(&None) {
             return None;
         }
-        let is_wanted = |index: &[usize; 3]| wanted.iter().zip(index).all(|(w, n)| w.is_none_or(|w| w == *n));
-        let all = indices(counts).filter(is_wanted);
-        Some(all.map(|index| copy_name(original, &index[..counts.len()])).collect())
+        let is_wanted =
+            move |index: &[usize; 3]| wanted.iter().zip(index).all(|(w, n)| w.is_none_or(|w| w == *n));
+        let all = indices(counts).zip(names).filter(move |(index, _)| is_wanted(index));
+        Some(Box::new(all.map(|(_, name)| name)))
+    }
+}
+
+impl Expander<'_> {
+    /// Puts the names of all copies in the place of every name of a list that means several: `brick`, `brick[*,0]`.
+    pub(super) fn spread(&mut self, list: &mut Node) {
+        let Value::Array(items) = &list.value else { return };
+        if self.groups.0.is_empty() || !items.iter().any(|item| self.groups.means_several(item)) {
+            return;
+        }
+        let mut all = Vec::new();
+        for item in items {
+            let names = item.as_str().and_then(|name| self.groups.several(name));
+            let Some(mut names) = names else {
+                all.push(item.clone());
+                continue;
+            };
+            let room = MAX_NAMES.saturating_sub(self.names);
+            let node = |name: &Arc<str>| Node { span: item.span, value: Value::String(name.clone()) };
+            let before = all.len();
+            all.extend(names.by_ref().take(room).map(node));
+            self.names += all.len() - before;
+            if names.next().is_some() {
+                let message = format!("the lists of this scene name copies more than {MAX_NAMES} times");
+                let error = Diagnostic::error(Code::TooManyCopies, message);
+                let help = "a force without `on` acts on all bodies that it can";
+                self.diagnostics.push(error.at(item.span, "each of these copies counts").help(help));
+                list.value = Value::Invalid;
+                return;
+            }
+        }
+        list.value = Value::Array(all.into());
     }
 }
 

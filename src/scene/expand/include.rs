@@ -134,7 +134,7 @@ impl Includer<'_> {
         let tree = source::parse(shown, id, self.diagnostics);
         self.texts.push(text);
         let Value::Table(mut table) = tree.value else { return Table::default() };
-        if let Some(place) = table.entries.iter().position(|entry| entry.name.text == "include") {
+        if let Some(place) = table.entries.iter().position(|entry| &*entry.name.text == "include") {
             let include = table.entries.remove(place);
             match names(&include.node) {
                 Some(items) => self.files(&mut table, &items, Some(&folder_of(path))),
@@ -170,7 +170,7 @@ impl Includer<'_> {
     /// Says which keys two included files give different values, while the file that includes them does not decide.
     fn conflicts(&mut self, first: &Table, second: &Table, own: &Table, spec: &'static TableSpec) {
         for entry in &first.entries {
-            let name = entry.name.text.as_str();
+            let name = &*entry.name.text;
             let decided = own.get(name);
             let both = match second.get(name) {
                 Some(other) => other,
@@ -179,7 +179,7 @@ impl Includer<'_> {
                     && !is_replaced(name, own, spec) =>
                 {
                     let replaces = |other: &&Entry| {
-                        let alone = Table { entries: vec![Entry::clone(other)] };
+                        let alone = Table { entries: vec![Entry::clone(other)].into() };
                         is_replaced(name, &alone, spec)
                     };
                     let Some(other) = second.entries.iter().find(replaces) else { continue };
@@ -210,7 +210,7 @@ impl Includer<'_> {
                 // There may be ten thousand of them, too many to look for one by one.
                 let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
-                    let name = entry.name.text.as_str();
+                    let name = &*entry.name.text;
                     let tables = (entry.node.as_table(), second.get(name));
                     let (Some(first), Some(other)) = tables else { continue };
                     let Some(second) = other.node.as_table() else { continue };
@@ -222,7 +222,7 @@ impl Includer<'_> {
             Some(Kind::Variables) => {
                 let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
-                    let name = entry.name.text.as_str();
+                    let name = &*entry.name.text;
                     let other = second.get(name).filter(|_| !own.contains_key(name));
                     if let Some(other) = other {
                         self.conflict(&entry.name.text, entry.name.span, other.name.span);
@@ -248,5 +248,5 @@ impl Includer<'_> {
 
 /// The entries of a table, to be found by their names.
 fn by_name(table: &Table) -> HashMap<&str, &Entry> {
-    table.entries.iter().map(|entry| (entry.name.text.as_str(), entry)).collect()
+    table.entries.iter().map(|entry| (&*entry.name.text, entry)).collect()
 }

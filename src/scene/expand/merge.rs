@@ -1,5 +1,7 @@
 //! One table laid over another: what it does not say is as in the other.
 
+use std::sync::Arc;
+
 use crate::scene::grammar::{Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
@@ -34,13 +36,13 @@ fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
     let Value::Table(own) = &mut own.value else { return };
     match kind {
         Kind::Named(spec) => {
-            merge_entries(own, base.entries.clone(), |_, own, base| {
+            merge_entries(own, base.entries.to_vec(), |_, own, base| {
                 if let (Value::Table(own), Value::Table(base)) = (&mut own.value, &base.value) {
                     merge(own, base, spec);
                 }
             });
         }
-        Kind::Variables => merge_entries(own, base.entries.clone(), |_, _, _| {}),
+        Kind::Variables => merge_entries(own, base.entries.to_vec(), |_, _, _| {}),
         Kind::Partial(spec) => merge(own, base, spec),
         kind => {
             if let Some(spec) = kind.table() {
@@ -52,7 +54,7 @@ fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
 
 /// Puts the entries of a table behind those of another; `both` says what becomes of one that is in both.
 fn merge_entries(own: &mut Table, base: Vec<Entry>, both: impl Fn(&str, &mut Node, &Node)) {
-    let mut numbers: std::collections::HashMap<String, usize> =
+    let mut numbers: std::collections::HashMap<Arc<str>, usize> =
         own.entries.iter().enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect();
     let mut rest: Vec<Option<Entry>> = std::mem::take(&mut own.entries).into_iter().map(Some).collect();
     for entry in base {

@@ -28,7 +28,7 @@ use self::repeat::INDICES;
 use super::check::geometry::Geometer;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
-use super::source::{Node, Table, Value};
+use super::source::{Entry, Node, Table, Value};
 use super::timed::TimeFormula;
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 
@@ -44,11 +44,14 @@ pub(super) fn expand(
         geometer,
         sources,
         scope: Scope::default(),
+        formulas: HashMap::new(),
+        work: 0,
         broken: HashSet::new(),
         seed: 0,
         path: String::new(),
         copy: None,
         copies: 0,
+        names: 0,
         groups: Groups::default(),
         of_defaults: HashSet::new(),
         is_default: false,
@@ -96,6 +99,10 @@ struct Expander<'a> {
     geometer: Geometer<'a>,
     sources: &'a Sources,
     scope: Scope,
+    /// The formulas of the body whose copies are being made, by their places: each is read once.
+    formulas: HashMap<Span, Arc<Formula>>,
+    /// What formulas have come to so far: see [`repeat::work_of_value`].
+    work: u64,
     /// The variables that have no value, which has been said.
     broken: HashSet<String>,
     /// What random numbers follow from, with the path of their place.
@@ -103,9 +110,11 @@ struct Expander<'a> {
     /// The path of the value that is looked at: `body.ball.location[1]`.
     path: String,
     /// The name of the copy that is looked at, if it is one.
-    copy: Option<String>,
+    copy: Option<Arc<str>>,
     /// How many copies there are so far.
     copies: usize,
+    /// How many names of copies stand in lists so far.
+    names: usize,
     groups: Groups,
     of_defaults: HashSet<Span>,
     /// Whether what is looked at are defaults: their formulas have values only where they are used.
@@ -125,13 +134,17 @@ struct Expander<'a> {
 
 impl Expander<'_> {
     fn table(&mut self, table: &mut Table, spec: &'static TableSpec) {
-        for entry in &mut table.entries {
-            if let Some(key) = spec.key(&entry.name.text) {
-                // A vector in a list of a key has the unit of that key.
-                let unit = std::mem::replace(&mut self.unit, key.unit);
-                self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
-                self.unit = unit;
-            }
+        for number in 0..table.entries.len() {
+            let entry = &table.entries[number];
+            let Some(key) = spec.key(&entry.name.text).filter(|key| !is_settled(&entry.node, &key.kind))
+            else {
+                continue;
+            };
+            let entry = &mut table.entries[number];
+            // A vector in a list of a key has the unit of that key.
+            let unit = std::mem::replace(&mut self.unit, key.unit);
+            self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
+            self.unit = unit;
         }
     }
 
@@ -164,8 +177,8 @@ impl Expander<'_> {
             }
             (Kind::List { of, .. }, Value::Array(_)) => {
                 self.items(node, |this, item| this.value(item, of));
-                if let (true, Value::Array(items)) = (of.names(Collection::Body), &mut node.value) {
-                    self.groups.spread(items);
+                if of.names(Collection::Body) {
+                    self.spread(node);
                 }
             }
             (Kind::Table(spec), Value::Table(inner)) => self.table(inner, spec),
@@ -176,7 +189,9 @@ impl Expander<'_> {
             }
             (Kind::Named(spec), Value::Table(tables)) => {
                 for entry in &mut tables.entries {
-                    if let Value::Table(inner) = &mut entry.node.value {
+                    if entry.node.as_table().is_some_and(|inner| has_work(inner, spec))
+                        && let Value::Table(inner) = &mut entry.node.value
+                    {
                         self.below(&entry.name.text, |this| this.table(inner, spec));
                     }
                 }
@@ -209,7 +224,10 @@ impl Expander<'_> {
     /// Replaces a formula by its value; what is no string stays as it is.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
-        if self.has_unit(text, node.span) || self.asks_for_body(text, node.span, false) {
+        if self.is_hopeless(node.span)
+            || self.has_unit(text, node.span)
+            || self.asks_for_body(text, node.span, false)
+        {
             node.value = Value::Invalid;
             return;
         }
@@ -221,36 +239,47 @@ impl Expander<'_> {
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
     }
 
+    /// Whether it has been said of another copy what is wrong with its formula, so that no copy needs its value.
+    fn is_hopeless(&self, span: Span) -> bool {
+        self.copy.is_some() && self.told.contains(&span)
+    }
+
     /// Like [`Expander::number`], where a formula may be one of the time: that is kept as a program.
     fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
-        if self.has_unit(text, node.span) || self.asks_for_body(text, node.span, true) {
+        if self.is_hopeless(node.span)
+            || self.has_unit(text, node.span)
+            || self.asks_for_body(text, node.span, true)
+        {
             node.value = Value::Invalid;
             return;
         }
-        let Some(formula) = self.keep(Formula::parse(text), text, node.span) else {
+        let (text, span) = (text.clone(), node.span);
+        let Some(formula) = self.parsed(&text, span) else {
             node.value = Value::Invalid;
             return;
         };
         let changes = formula.names().any(|(name, _)| name == "t");
-        self.look_at_angles(&formula, node.span);
-        match self.time_formula(&formula, node.span) {
+        self.look_at_angles(&formula, span);
+        match self.time_formula(&formula, text, span) {
             Some(_) if !changes => self.number(node),
             found => node.value = found.map_or(Value::Invalid, Value::Formula),
         }
     }
 
-    fn time_formula(&mut self, formula: &Formula, span: Span) -> Option<Arc<TimeFormula>> {
+    fn time_formula(&mut self, formula: &Formula, text: Arc<str>, span: Span) -> Option<Arc<TimeFormula>> {
         if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
             return None;
         }
-        let mut scope = self.scope.clone();
-        scope.slot("t");
-        let resolved = self.keep(formula.resolve(&scope), formula.text(), span)?;
+        self.scope.slot("t");
+        let resolved = formula.resolve(&self.scope);
+        self.scope.remove_slot("t");
+        let resolved = self.keep(resolved, formula.text(), span)?;
         let resolved = resolved.with_draws(&self.drawn(&resolved));
-        let text = formula.text().to_owned();
         let made = TimeFormula::new(text, resolved).map_err(|error| vec![error]);
-        self.keep(made, formula.text(), span).map(Arc::new)
+        let made = self.keep(made, formula.text(), span)?;
+        self.work += repeat::work_of_motion(&made);
+        Some(Arc::new(made))
     }
 
     /// Like [`Expander::number`], where only a whole number will do.
@@ -287,9 +316,21 @@ impl Expander<'_> {
 
     /// The value of a formula that stands somewhere; none after what is wrong has been said.
     fn evaluate(&mut self, text: &str, span: Span) -> Option<f64> {
-        let formula = self.keep(Formula::parse(text), text, span)?;
+        let formula = self.parsed(text, span)?;
         self.look_at_angles(&formula, span);
         self.value_of(&formula, span)
+    }
+
+    /// The formula of a place; none after what is wrong has been said. All copies of a body have the same one.
+    fn parsed(&mut self, text: &str, span: Span) -> Option<Arc<Formula>> {
+        if let Some(known) = self.formulas.get(&span) {
+            return Some(known.clone());
+        }
+        let formula = Arc::new(self.keep(Formula::parse(text), text, span)?);
+        if self.copy.is_some() {
+            self.formulas.insert(span, formula.clone());
+        }
+        Some(formula)
     }
 
     /// The value of a formula that has been read.
@@ -297,6 +338,7 @@ impl Expander<'_> {
         if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
             return None;
         }
+        self.work += repeat::work_of_value(formula.text());
         let resolved = self.keep(formula.resolve(&self.scope), formula.text(), span)?;
         let drawn = self.drawn(&resolved);
         let value = resolved.value(&drawn).map_err(|mut error| {
@@ -357,5 +399,37 @@ impl Expander<'_> {
     /// What is written at a place.
     fn raw(&self, span: Span) -> &str {
         self.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
+    }
+}
+
+/// Whether there is something in a table that the expansion changes.
+fn has_work(table: &Table, spec: &TableSpec) -> bool {
+    let is_open =
+        |entry: &Entry| spec.key(&entry.name.text).is_some_and(|key| !is_settled(&entry.node, &key.kind));
+    table.entries.iter().any(is_open)
+}
+
+/// Whether a value has neither a formula nor the name of several bodies in it. Copies of a body share what is settled.
+fn is_settled(node: &Node, kind: &Kind) -> bool {
+    let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
+    match (kind, &node.value) {
+        (Kind::Number(_) | Kind::Timed(_) | Kind::Integer(..), Value::String(_)) => false,
+        (
+            Kind::TimedNumbers(..) | Kind::Numbers(..) | Kind::Direction(_) | Kind::Color,
+            Value::Array(items),
+        ) => items.iter().all(is_number),
+        (Kind::List { of, .. }, Value::Array(items)) => {
+            let is_whole = |item: &Node| !matches!(item.value, Value::Invalid) && is_settled(item, of);
+            !of.names(Collection::Body) && items.iter().all(is_whole)
+        }
+        (Kind::Table(spec) | Kind::Partial(spec), Value::Table(inner)) => !has_work(inner, spec),
+        (Kind::Named(spec), Value::Table(tables)) => {
+            let is_open = |entry: &Entry| entry.node.as_table().is_some_and(|inner| has_work(inner, spec));
+            !tables.entries.iter().any(is_open)
+        }
+        (Kind::Either(kinds), value) => {
+            kinds.iter().find(|kind| kind.takes(value)).is_none_or(|kind| is_settled(node, kind))
+        }
+        _ => true,
     }
 }

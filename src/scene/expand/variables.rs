@@ -48,7 +48,7 @@ impl Expander<'_> {
     fn read(&mut self, table: &Table) -> Vec<Variable> {
         let mut variables = Vec::new();
         for entry in &table.entries {
-            let name = entry.name.text.clone();
+            let name = entry.name.text.to_string();
             if let Err(why) = Scope::is_free(&name) {
                 let message = format!("`{}` cannot be the name of a variable", name.escape_debug());
                 let error = Diagnostic::error(Code::BadVariableName, message);

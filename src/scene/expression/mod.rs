@@ -42,5 +42,6 @@ pub(in crate::scene) use error::too_intricate;
 pub use function::{CONSTANTS, FUNCTIONS, Function};
 pub use parser::{Formula, MAX_LENGTH};
 pub use program::Program;
+pub(in crate::scene) use program::Steps;
 pub use resolve::{Draw, Resolved};
 pub use scope::Scope;

@@ -15,7 +15,7 @@ pub struct Program {
     pub(super) code: Box<[Instruction]>,
     /// How much of the stack it uses.
     pub(super) depth: usize,
-    resolved: Resolved,
+    resolved: Box<Resolved>,
 }
 
 /// The most that a program can use of the stack.
@@ -102,7 +102,12 @@ impl Program {
     }
 
     pub(super) fn new(code: Vec<Instruction>, depth: usize, resolved: Resolved) -> Program {
-        Program { code: code.into(), depth, resolved }
+        Program { code: code.into(), depth, resolved: Box::new(resolved) }
+    }
+
+    /// The steps alone, which take a fifth of the memory, and cannot say why a value is not finite.
+    pub(in crate::scene) fn into_steps(self) -> Steps {
+        Steps { code: self.code, depth: self.depth }
     }
 
     /// What it was compiled from.
@@ -117,11 +122,7 @@ impl Program {
     /// If there are fewer inputs than [`Resolved::inputs`].
     #[inline]
     pub fn eval(&self, inputs: &[f64]) -> f64 {
-        if self.depth <= SMALL_STACK {
-            run::<SMALL_STACK>(&self.code, inputs)
-        } else {
-            run::<MAX_STACK>(&self.code, inputs)
-        }
+        eval(&self.code, self.depth, inputs)
     }
 
     /// Why the value is not finite, with the place in the formula; none where it is.
@@ -134,6 +135,25 @@ impl Program {
         }
         self.resolved.culprit(&self.resolved.values(inputs))
     }
+}
+
+/// The steps of a program, without what they were compiled from.
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct Steps {
+    code: Box<[Instruction]>,
+    depth: usize,
+}
+
+impl Steps {
+    /// Like [`Program::eval`].
+    pub(in crate::scene) fn eval(&self, inputs: &[f64]) -> f64 {
+        eval(&self.code, self.depth, inputs)
+    }
+}
+
+#[inline]
+fn eval(code: &[Instruction], depth: usize, inputs: &[f64]) -> f64 {
+    if depth <= SMALL_STACK { run::<SMALL_STACK>(code, inputs) } else { run::<MAX_STACK>(code, inputs) }
 }
 
 /// Runs a program on a stack of `N` numbers, where `N` is a power of two and at least what the program uses.

@@ -52,6 +52,13 @@ impl Scope {
         self.slots - 1
     }
 
+    /// Forgets a name that was the last to get a slot.
+    pub(in crate::scene) fn remove_slot(&mut self, name: &str) {
+        if self.names.remove(name).is_some_and(|it| it == Binding::Slot(self.slots - 1)) {
+            self.slots -= 1;
+        }
+    }
+
     /// How many numbers an evaluation needs for the names, before those for random draws.
     pub fn slots(&self) -> usize {
         self.slots

@@ -4,8 +4,8 @@ use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, Key, Kind, Rule, TableSpec};
 
-/// More copies than this are not made of all bodies together: they would take more memory than a usual machine has.
-pub const MAX_COPIES: i64 = 1_000_000;
+/// More copies than this are not made of all bodies together: a run of them would take more memory than a usual machine has.
+pub const MAX_COPIES: i64 = 500_000;
 
 /// A number of copies.
 pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);

@@ -5,6 +5,7 @@ pub(super) mod file;
 pub(in crate::scene) mod habits;
 mod load;
 mod overrides;
+mod shared;
 mod syntax;
 mod toml;
 mod tree;
@@ -12,5 +13,6 @@ mod yaml;
 
 pub use load::{MAX_BYTES, load};
 pub use overrides::Override;
+pub use shared::Shared;
 pub use toml::parse;
 pub use tree::{Entry, Name, Node, Table, Value};

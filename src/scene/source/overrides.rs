@@ -62,7 +62,7 @@ impl Override {
                     Diagnostic::error(Code::BadSet, message).at(span, "a bracket, quote or comma is amiss");
                 return Err(error.help(help));
             }
-            Err(_) => Node { span, value: Value::String(value.to_owned()) },
+            Err(_) => Node { span, value: Value::String(value.into()) },
         };
         Ok((path, node))
     }
@@ -148,11 +148,11 @@ mod tests {
         let (root, _) = set("[s]\nstep = 1", "s.step=0.5");
         assert!(matches!(value(&root, &["s", "step"]), Value::Float(0.5)));
         let (root, _) = set("", "s.integrator=rk4");
-        assert!(matches!(value(&root, &["s", "integrator"]), Value::String(s) if s == "rk4"));
+        assert!(matches!(value(&root, &["s", "integrator"]), Value::String(s) if &**s == "rk4"));
         let (root, _) = set("", "a.\"b.c\" = [1, 2]");
         assert!(matches!(value(&root, &["a", "b.c"]), Value::Array(items) if items.len() == 2));
         let (root, _) = set("", "title=a = b");
-        assert!(matches!(value(&root, &["title"]), Value::String(s) if s == "a = b"));
+        assert!(matches!(value(&root, &["title"]), Value::String(s) if &**s == "a = b"));
     }
 
     #[test]

@@ -98,7 +98,7 @@ impl Reader<'_> {
     fn table(&mut self, table: &DeTable<'_>) -> Table {
         let entry = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
             let text: &std::borrow::Cow<'_, str> = key.get_ref();
-            let name = Name { span: Span::new(self.source, key.span()), text: text.clone().into_owned() };
+            let name = Name { span: Span::new(self.source, key.span()), text: text.as_ref().into() };
             Entry { name, node: self.node(value) }
         };
         Table { entries: table.iter().map(entry).collect() }
@@ -111,7 +111,7 @@ impl Reader<'_> {
             DeValue::Table(table) => Value::Table(self.table(table)),
             // Where there is no value at all, the parser makes one up, without extent.
             _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
-            DeValue::String(text) => Value::String(text.clone().into_owned()),
+            DeValue::String(text) => Value::String(text.as_ref().into()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(number) => Value::Integer(number),
                 Err(error) => match error.kind() {
@@ -139,7 +139,7 @@ impl Reader<'_> {
         if items.iter().any(|item| matches!(item.value, Value::Invalid)) {
             return Value::Invalid;
         }
-        Value::Array(items)
+        Value::Array(items.into())
     }
 
     fn is_wrong(&self, span: Span) -> bool {

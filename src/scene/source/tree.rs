@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::Shared;
 use crate::diagnostic::Span;
 use crate::scene::timed::TimeFormula;
 
@@ -18,7 +19,7 @@ pub struct Node {
 #[derive(Clone, Debug)]
 pub enum Value {
     /// Text; where a number is wanted, a formula.
-    String(String),
+    String(Arc<str>),
     /// A whole number that 64 bits hold.
     Integer(i64),
     /// Any other number, also one that is not finite.
@@ -30,18 +31,18 @@ pub enum Value {
     /// A date or a time, for which a scene has no use.
     Datetime,
     /// A list.
-    Array(Vec<Node>),
+    Array(Shared<Node>),
     /// A table.
     Table(Table),
     /// What could not be read; that has been said already.
     Invalid,
 }
 
-/// A table: its entries in the order of the file.
+/// A table: its entries in the order of the file. Its clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     /// The entries; names are unique.
-    pub entries: Vec<Entry>,
+    pub entries: Shared<Entry>,
 }
 
 /// One entry of a table.
@@ -59,18 +60,19 @@ pub struct Name {
     /// Where it stands.
     pub span: Span,
     /// The key, without quotes.
-    pub text: String,
+    pub text: Arc<str>,
 }
 
 impl Table {
     /// The entry with the given name.
     pub fn get(&self, name: &str) -> Option<&Entry> {
-        self.entries.iter().find(|entry| entry.name.text == name)
+        self.entries.iter().find(|entry| &*entry.name.text == name)
     }
 
     /// Like [`Table::get`], to change it.
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Entry> {
-        self.entries.iter_mut().find(|entry| entry.name.text == name)
+        let place = self.entries.iter().position(|entry| &*entry.name.text == name)?;
+        self.entries.get_mut(place)
     }
 }
 

@@ -21,31 +21,18 @@ struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
+    /// What has been said of which name: that of a body with a `repeat` means all of its copies, of which one is enough.
+    told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
 pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Force> {
     let tables = root.named("force");
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let before = context.diagnostics.len();
-        let kind = Reader { name, span, bodies, context }.kind(&view);
-        once_a_name(before, span, context);
-        let kind = kind?;
+        let kind = Reader { name, span, bodies, told: HashSet::new(), context }.kind(&view)?;
         Some(Force { name: name.to_owned(), kind })
     };
     tables.into_iter().filter_map(read).collect()
-}
-
-/// Of what has been said since there were `before` diagnostics, keeps one of those of a kind about one name: that of a body with a
-/// `repeat` means all of its copies. What is said of the force as a whole, at `force`, stays.
-fn once_a_name(before: usize, force: Span, context: &mut Context<'_>) {
-    let mut told = HashSet::new();
-    let said = context.diagnostics.split_off(before);
-    let is_new = |diagnostic: &Diagnostic| match diagnostic.span() {
-        Some(span) if span != force => told.insert((diagnostic.code, span)),
-        _ => true,
-    };
-    context.diagnostics.extend(said.into_iter().filter(is_new));
 }
 
 impl Reader<'_, '_> {
@@ -113,14 +100,22 @@ impl Reader<'_, '_> {
     /// Warns where none of the keys is there without which the force is zero.
     fn needs_one_of(&mut self, view: &View<'_>, keys: &[&str]) {
         if !keys.iter().any(|key| view.has(key)) {
-            let message = format!("the force `{}` has no effect", self.name);
+            let name = self.name;
             let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            let message = || format!("the force `{name}` has no effect");
             self.no_effect(message, self.span, format!("it has no {}", keys.join(" and no ")));
         }
     }
 
-    fn no_effect(&mut self, message: String, span: Span, why: impl Into<String>) {
-        self.context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, why));
+    /// Says something of the name at a place, unless the like has been said of it, or of the force as a whole.
+    fn say(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
+        if span == self.span || self.told.insert((code, span)) {
+            self.context.diagnostics.push(diagnostic());
+        }
+    }
+
+    fn no_effect(&mut self, message: impl FnOnce() -> String, span: Span, why: impl Into<String>) {
+        self.say(Code::NoEffect, span, || Diagnostic::warning(Code::NoEffect, message()).at(span, why));
     }
 
     /// The number of the body that is named; none if there is no such body, which the validation has said.

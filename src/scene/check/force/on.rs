@@ -18,7 +18,7 @@ impl Reader<'_, '_> {
             return all;
         };
         for &(body, span) in named.iter().filter(|(body, _)| !moves(*body)) {
-            let message = format!("the force has no effect on `{}`", bodies[body].name);
+            let message = || format!("the force has no effect on `{}`", bodies[body].name);
             self.no_effect(message, span, "it is fixed");
         }
         named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
@@ -30,7 +30,7 @@ impl Reader<'_, '_> {
         let mut on = self.movable(view);
         for (body, span) in self.spans(view) {
             if bodies[body].start.charge == 0.0 {
-                let message = format!("the force has no effect on `{}`", bodies[body].name);
+                let message = || format!("the force has no effect on `{}`", bodies[body].name);
                 self.no_effect(message, span, "it has no charge");
             }
         }
@@ -56,9 +56,7 @@ impl Reader<'_, '_> {
         for item in items {
             let Some(body) = self.body(item) else { continue };
             if std::mem::replace(&mut seen[body], true) {
-                let message = format!("the body `{}` is named twice", self.bodies[body].name);
-                let error = Diagnostic::error(Code::NamedTwice, message);
-                self.context.diagnostics.push(error.at(item.span, "the second time"));
+                self.named_twice(body, item.span);
             } else {
                 named.push((body, item.span));
             }
@@ -66,10 +64,18 @@ impl Reader<'_, '_> {
         Some(named)
     }
 
+    /// Reports a body that is named a second time.
+    pub(super) fn named_twice(&mut self, body: usize, span: Span) {
+        let name = &self.bodies[body].name;
+        let error = || Diagnostic::error(Code::NamedTwice, format!("the body `{name}` is named twice"));
+        self.say(Code::NamedTwice, span, || error().at(span, "the second time"));
+    }
+
     /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() {
-            self.no_effect(format!("the force `{}` acts on no body", self.name), self.span, why);
+            let name = self.name;
+            self.no_effect(|| format!("the force `{name}` acts on no body"), self.span, why);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Forces between all pairs of bodies.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::view::View;
 use super::Reader;
@@ -86,9 +86,7 @@ impl Reader<'_, '_> {
         let mut seen = vec![false; self.bodies.len()];
         for (body, span) in groups.iter().flat_map(|(_, group)| group) {
             if std::mem::replace(&mut seen[*body], true) {
-                let message = format!("the body `{}` is named twice", self.bodies[*body].name);
-                let error = Diagnostic::error(Code::NamedTwice, message);
-                self.context.diagnostics.push(error.at(*span, "the second time"));
+                self.named_twice(*body, *span);
             }
         }
         let count = groups.len();
@@ -109,12 +107,11 @@ impl Reader<'_, '_> {
     fn one_of_pair(&mut self, body: usize, span: Span, endless: bool, able: bool) {
         let name = &self.bodies[body].name;
         if endless {
-            let message = format!("the plane `{name}` cannot act on other bodies: a plane is endless");
-            self.context
-                .diagnostics
-                .push(Diagnostic::error(Code::PlaneActs, message).at(span, "it has no centre"));
+            let message = || format!("the plane `{name}` cannot act on other bodies: a plane is endless");
+            let error = || Diagnostic::error(Code::PlaneActs, message()).at(span, "it has no centre");
+            self.say(Code::PlaneActs, span, error);
         } else if !able {
-            self.no_effect(format!("the force has no effect on `{name}`"), span, "it has no charge");
+            self.no_effect(|| format!("the force has no effect on `{name}`"), span, "it has no charge");
         }
     }
 
@@ -122,6 +119,7 @@ impl Reader<'_, '_> {
     fn apart(&mut self, groups: &[&[Member]]) {
         let bodies = self.bodies;
         let mut places: HashMap<[u64; 3], (usize, usize)> = HashMap::new();
+        let mut said: HashSet<[&str; 2]> = HashSet::new();
         let members =
             groups.iter().enumerate().flat_map(|(group, members)| members.iter().map(move |it| (group, *it)));
         for (group, (body, span)) in members {
@@ -133,10 +131,18 @@ impl Reader<'_, '_> {
                 continue;
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);
-            let message = format!("`{one}` and `{two}` are at the same place, where their force is infinite");
-            let error = Diagnostic::error(Code::SamePlace, message).at(span.unwrap_or(self.span), "");
+            // Of the copies of a body, two are enough.
+            let groups = &self.context.groups;
+            if !said.insert([one, two].map(|name| groups.original(name).unwrap_or(name))) {
+                continue;
+            }
+            let message =
+                || format!("`{one}` and `{two}` are at the same place, where their force is infinite");
+            let span = span.unwrap_or(self.span);
             let help = "move one of them, or give the force a `softening`";
-            self.context.diagnostics.push(error.help(help));
+            self.say(Code::SamePlace, span, || {
+                Diagnostic::error(Code::SamePlace, message()).at(span, "").help(help)
+            });
         }
     }
 }

@@ -52,12 +52,18 @@ impl Reader<'_, '_> {
     fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
         let moves = |end: Anchor| matches!(end, Anchor::Body(body) if !self.bodies[body.index()].start.fixed);
         if between[0] == between[1] {
-            let error = Diagnostic::error(Code::SpringEnds, "both ends of the spring are at the same place");
-            self.context.diagnostics.push(error.at(second.span, "the same as the end before it"));
+            let message = "both ends of the spring are at the same place";
+            let error = || {
+                Diagnostic::error(Code::SpringEnds, message).at(second.span, "the same as the end before it")
+            };
+            self.say(Code::SpringEnds, second.span, error);
         } else if !between.into_iter().any(moves) {
-            let error = Diagnostic::error(Code::SpringEnds, "neither end of the spring can move");
-            let error = error.at(first.span, "").at(second.span, "");
-            self.context.diagnostics.push(error.help("one end at least must be a body that is not fixed"));
+            let error = || {
+                let error = Diagnostic::error(Code::SpringEnds, "neither end of the spring can move");
+                let help = "one end at least must be a body that is not fixed";
+                error.at(first.span, "").at(second.span, "").help(help)
+            };
+            self.say(Code::SpringEnds, first.span, error);
         }
     }
 

@@ -63,7 +63,7 @@ impl Expander<'_> {
         let mut programs = Vec::new();
         for (number, item) in items.iter().enumerate() {
             let text = match &item.value {
-                Value::String(text) => text.clone(),
+                Value::String(text) => text.to_string(),
                 _ => item.as_number().filter(|number| number.is_finite())?.to_string(),
             };
             let place = format!("curve.at[{number}]");

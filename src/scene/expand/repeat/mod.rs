@@ -8,6 +8,7 @@ mod pattern;
 mod scatter;
 
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -18,13 +19,31 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::check::View;
 use crate::scene::grammar::{MAX_COPIES, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
+use crate::scene::timed::TimeFormula;
 
 /// What formulas call the index of a copy in each direction.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
 
+/// What copies with formulas may come to together, in units of some ten bytes: it is less memory than a usual machine has, and
+/// takes some seconds.
+const MAX_WORK: u64 = 100_000_000;
+
+/// What a copy costs beside its formulas.
+const WORK_OF_COPY: u64 = 100;
+
+/// What a formula costs that is evaluated once: so many letters are read, and the value is kept.
+pub(super) fn work_of_value(text: &str) -> u64 {
+    25 + text.len() as u64
+}
+
+/// What a formula of the time costs: it and its derivatives are kept as programs.
+pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
+    100 + 10 * formula.operations
+}
+
 /// A copy of a body, before it stands where it belongs.
 struct Copy {
-    name: String,
+    name: Arc<str>,
     index: [usize; 3],
     table: Table,
 }
@@ -51,14 +70,16 @@ impl Expander<'_> {
             }
         }
         self.unique(&all);
-        bodies.entries = all;
+        bodies.entries = all.into();
     }
 
     /// Adds the copies of a body.
     fn copies(&mut self, entry: Entry, name: &str, spec: &'static TableSpec, all: &mut Vec<Entry>) {
         let Entry { name: Name { span: named, .. }, node: Node { span, value } } = entry;
         let Value::Table(mut table) = value else { return };
-        let Some(place) = table.entries.iter().position(|entry| entry.name.text == "repeat") else { return };
+        let Some(place) = table.entries.iter().position(|entry| &*entry.name.text == "repeat") else {
+            return;
+        };
         let mut repeat = table.entries.remove(place);
         if let Some(key) = spec.key("repeat") {
             self.below(name, |this| this.below("repeat", |this| this.value(&mut repeat.node, &key.kind)));
@@ -66,16 +87,21 @@ impl Expander<'_> {
         let pattern = self.below(name, |this| this.below("repeat", |this| this.pattern(&repeat, spec)));
         let counts = pattern.as_ref().map(Pattern::counts);
         let counts = counts.filter(|counts| self.is_affordable(counts, name, &repeat));
-        let is_known = counts.is_some();
+        let mut is_known = counts.is_some();
         // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
-        let counts = counts.unwrap_or_else(|| vec![1]);
+        let mut counts = counts.unwrap_or_else(|| vec![1]);
         self.collisions(&counts, name, &repeat);
-        self.groups.add(name, Group { counts: counts.clone(), is_known });
 
-        let mut copies = Vec::new();
+        let number = counts.iter().product();
+        let mut copies: Vec<Copy> = Vec::with_capacity(number);
         let scope = self.scope.clone();
+        let before = self.work;
         for index in indices(&counts) {
-            let name = copy_name(name, &index[..counts.len()]);
+            if copies.len() == 1 && !self.is_workable(number, before, name, &repeat) {
+                (counts, is_known) = (vec![1], false);
+                break;
+            }
+            let name: Arc<str> = copy_name(name, &index[..counts.len()]).into();
             for (letter, number) in INDICES.iter().zip(&index).take(counts.len()) {
                 #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
                 self.scope.constant(*letter, *number as f64);
@@ -87,6 +113,9 @@ impl Expander<'_> {
             copies.push(Copy { name, index, table });
         }
         self.scope = scope;
+        self.formulas.clear();
+        let names = copies.iter().map(|copy| copy.name.clone()).collect();
+        self.groups.add(name, Group { counts, is_known, names });
         if let (Some(pattern), true) = (pattern, is_known) {
             self.place(&pattern, &mut copies, name, &repeat, spec);
         }
@@ -114,6 +143,23 @@ impl Expander<'_> {
         let message = format!("{all} bodies are too many: `repeat` makes at most {MAX_COPIES}");
         let label = format!("{number} copies of `{name}`");
         self.diagnostics.push(Diagnostic::error(Code::TooManyCopies, message).at(repeat.node.span, label));
+        false
+    }
+
+    /// Whether the formulas of so many copies are affordable, by what the one came to that has been made since `before`; it is
+    /// said if they are not.
+    fn is_workable(&mut self, number: usize, before: u64, name: &str, repeat: &Entry) -> bool {
+        let one = self.work - before;
+        if one == 0 || (one + WORK_OF_COPY).saturating_mul(number as u64) <= MAX_WORK.saturating_sub(before) {
+            return true;
+        }
+        let one = one + WORK_OF_COPY;
+        let most = MAX_WORK.saturating_sub(before) / one;
+        let message = format!("{number} copies of `{name}` have too many formulas");
+        let label = format!("at most {most} copies of this body are made");
+        let help = "copies share the values that are numbers: write a formula only where they differ";
+        let error = Diagnostic::error(Code::TooManyCopies, message).at(repeat.node.span, label);
+        self.diagnostics.push(error.help(help));
         false
     }
 
@@ -174,8 +220,8 @@ impl Expander<'_> {
             if has_turned && is_whole(&copy.table, "orientation") {
                 let turn = turn * self.geometer.of(&copy.table, spec).orientation;
                 let quaternion = numbers(&turn.normalize().to_array(), repeat.node.span);
-                let name = Name { span: repeat.name.span, text: "quaternion".to_owned() };
-                let table = Table { entries: vec![Entry { name, node: quaternion }] };
+                let name = Name { span: repeat.name.span, text: "quaternion".into() };
+                let table = Table { entries: vec![Entry { name, node: quaternion }].into() };
                 put(&mut copy.table, "orientation", Value::Table(table), repeat);
             }
             if is_whole(&copy.table, "location") {
@@ -204,7 +250,7 @@ fn put(table: &mut Table, key: &str, value: Value, repeat: &Entry) {
     match table.get_mut(key) {
         Some(entry) => entry.node.value = value,
         None => table.entries.push(Entry {
-            name: Name { span: repeat.name.span, text: key.to_owned() },
+            name: Name { span: repeat.name.span, text: key.into() },
             node: Node { span: repeat.node.span, value },
         }),
     }

@@ -47,7 +47,7 @@ pub(super) fn fraction(n: usize, of: usize) -> f64 {
 impl Expander<'_> {
     /// The pattern of a repeat; none where it is wrong, which the validation says, or has been said.
     pub(super) fn pattern(&mut self, repeat: &Entry, spec: &'static TableSpec) -> Option<Pattern> {
-        let alone = Table { entries: vec![repeat.clone()] };
+        let alone = Table { entries: vec![repeat.clone()].into() };
         let body = View::new(spec, Some(&alone));
         if matches!(repeat.node.value, Value::Integer(_)) {
             return Some(Pattern::Count(number(body.integer("repeat")?)));

@@ -1,0 +1,114 @@
+//! What is tried with an input: the tests beside this file make inputs that are almost right, and `fuzz/` lets cargo-fuzz look
+//! for them. A panic is a failure; so is an answer that contradicts itself.
+
+use std::fs;
+use std::path::Path;
+
+use jabuka::diagnostic::{Report, visible, visible_lines};
+use jabuka::output::{MANIFEST, Manifest};
+use jabuka::render::Record;
+use jabuka::scene::{Color, Options, Override};
+use jabuka::simulate::Selection;
+use jabuka::{Run, Scene};
+
+/// Where strings of other languages stand in a scene, and one that is right there.
+pub(crate) const PLACES: [(&str, &str); 8] = [
+    ("location = [TEXT, 0, 0]", "2*sin(3*t)^2 + min(1, abs(t - 3)) % (1 + exp(-t))"),
+    ("[variables]\na = TEXT\nb = \"a + 1\"", "sqrt(2) * pi / (1 - 0.5)"),
+    ("[label.l]\ntext = TEXT", "t = ${t:.3} s, v = ${ball.speed} · ${2*ball.x}"),
+    (
+        "[povray]\nsdl = TEXT",
+        "#declare A = 3; sphere { <0, A, 1>, 0.5 texture { pigment { rgb <1, 0, 0> } } } // x",
+    ),
+    ("[material.m]\nsdl = TEXT", "pigment { image_map { png \"a.png\" } } finish { phong 1 } #if (1) #end"),
+    ("[light.l]\npoint.location = [0, TEXT, 0]", "3 + uniform(0, 1) * normal(0, 2)"),
+    ("repeat = TEXT", "3 + 2"),
+    ("material = TEXT", "brass"),
+];
+
+/// The endings of files that a scene names, and the scene that does.
+pub(crate) const FILES: [(&str, &str); 4] = [
+    ("obj", "shape.mesh.file = 'FILE'"),
+    ("stl", "shape.mesh.file = 'FILE'"),
+    ("png", "fixed = true\nshape.heightfield = { file = 'FILE', size = [4, 1, 4] }"),
+    ("csv", "shape.sphere.radius = 1\nmotion.trajectory.file = 'FILE'"),
+];
+
+/// The text of a scene.
+pub(crate) fn scene(text: &str) {
+    say(&Scene::parse(text));
+}
+
+/// A string at one of [`PLACES`].
+pub(crate) fn string(place: &str, text: &str) {
+    let quoted = serde_json::to_string(text).unwrap().replace('\u{7f}', "");
+    scene(&format!("[body.ball]\nshape.sphere.radius = 1\n{}", place.replace("TEXT", &quoted)));
+}
+
+/// A text of the command line: an override, frames, a color, a name that is shown.
+pub(crate) fn argument(text: &str) {
+    let options = Options { overrides: vec![Override::new(text)], ..Options::default() };
+    say(&Scene::parse_with("[body.ball]\nshape.sphere.radius = 1", &options));
+    let _ = (text.parse::<Selection>(), Color::parse(text));
+    assert!(!visible(text).contains('\u{202e}') && !visible_lines(text).contains('\u{202e}'));
+}
+
+/// A file of one of [`FILES`], in a folder that is there for it. Says whether it is one.
+pub(crate) fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool {
+    let name = format!("input.{ending}");
+    fs::write(folder.join(&name), bytes).unwrap();
+    let path = folder.join("scene.toml");
+    fs::write(&path, format!("[body.ball]\n{}\n", scene.replace("FILE", &name))).unwrap();
+    let scene = Scene::from_path_with(&path, &Options::default());
+    say(&scene);
+    scene.is_ok()
+}
+
+/// A manifest, in a folder that is there for it. Says whether it is one.
+pub(crate) fn manifest(folder: &Path, bytes: &[u8]) -> bool {
+    fs::write(folder.join(MANIFEST), bytes).unwrap();
+    let manifest = Manifest::read(folder);
+    if let Some(manifest) = &manifest {
+        manifest.warnings();
+    }
+    manifest.is_some()
+}
+
+/// The record of an image, in a folder that is there for it. Says whether it is one.
+pub(crate) fn record(folder: &Path, bytes: &[u8]) -> bool {
+    let path = Record::path(folder, "frame_0001");
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(&path, bytes).unwrap();
+    Record::read(folder, "frame_0001").is_some()
+}
+
+/// A manifest as jabuka writes it.
+pub(crate) fn a_manifest(folder: &Path) -> Vec<u8> {
+    let scene = Scene::parse("simulation.duration = 0.04\n[body.ball]\nshape.sphere.radius = 1").unwrap();
+    let run = Run::new(&scene).unwrap();
+    let opened = jabuka::output::Folder::open(folder).unwrap();
+    jabuka::output::write(&run, &opened, &Selection::first(2), &|| {}).unwrap();
+    fs::read(folder.join(MANIFEST)).unwrap()
+}
+
+/// A record as jabuka writes it.
+pub(crate) fn a_record() -> Vec<u8> {
+    let digest = "0123456789abcdef".repeat(4);
+    let lines = format!(
+        "script {digest}\nfiles {digest}\noptions +W16 +H9\nframe 3\npovray 3.7\nbytes 900\nimage {digest}\n"
+    );
+    lines.into_bytes()
+}
+
+/// Whatever is said of an input can be said.
+fn say(result: &Result<Scene, Report>) {
+    let report = result.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
+    assert_eq!(result.is_ok(), report.errors() == 0);
+    assert_eq!(report.to_text(true).is_empty(), report.diagnostics.is_empty());
+    report.to_json();
+    for diagnostic in &report.diagnostics {
+        if let Some(span) = diagnostic.span() {
+            report.fixed(span.source);
+        }
+    }
+}
