@@ -30,6 +30,7 @@ pub use selection::Selection;
 pub use span::{Bounds, Span};
 pub use survey::{Crossing, Survey, Surveyor, survey, survey_watched};
 pub use track::{Ghost, Passed, Past, Way};
+pub(crate) use vectors::anchors;
 pub use vectors::{axis, root, shown, surface};
 
 /// A run of a scene: its frames, one after another, each made when it is asked for.

@@ -16,22 +16,10 @@ pub fn shown(quantity: Quantity, body: &Body, frame: &BodyFrame) -> DVec3 {
     }
 }
 
-/// How far it is from the centre of a shape to its surface in a direction (a unit vector in world axes), m; 0 for a
-/// plane.
-///
-/// A convex shape ends where the first of its tangent planes is met. Those are tried that matter for balls, boxes and
-/// whatever is round about its y; of other shapes the result is a little too large at most.
+/// How far it is from the centre of a shape to its surface in a direction (a unit vector in world axes), m: to the last
+/// surface, where there are several; 0 for a plane, and where nothing of the shape is there.
 pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
-    let axis = orientation * DVec3::Y;
-    let sideways = (direction - axis * axis.dot(direction)).normalize_or_zero();
-    let [x, z] = [orientation * DVec3::X, orientation * DVec3::Z];
-    let met = |normal: DVec3| {
-        let slope = normal.dot(direction);
-        (slope > 1e-9).then(|| shape.support(orientation, normal).map(|reach| reach / slope)).flatten()
-    };
-    let normals = [direction, sideways, axis, -axis, x, -x, z, -z];
-    let nearest = normals.into_iter().filter_map(met).fold(f64::MAX, f64::min);
-    if nearest < f64::MAX { nearest } else { 0.0 }
+    shape.exit(DVec3::ZERO, orientation.conjugate() * direction).unwrap_or(0.0)
 }
 
 /// Where an arrow for a vector begins, m: at the surface of the body, so that all of it is seen.
@@ -49,7 +37,7 @@ pub fn axis(body: &Body) -> Option<f64> {
 }
 
 /// The fixed points of the springs that are drawn, m.
-pub(super) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
+pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, coil: Some(_) } => Some(links),
         _ => None,
@@ -78,6 +66,9 @@ mod tests {
             (can.clone(), DQuat::IDENTITY, slanted, 0.5 / 0.6),
             (can, turned, slanted, 0.5 / 0.8),
             (Shape::Plane { normal: DVec3::Y }, DQuat::IDENTITY, DVec3::Y, 0.0),
+            // Nothing of a ring is on its axis.
+            (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::X, 0.0),
+            (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::Y, 2.5),
         ] {
             let found = surface(&shape, orientation, direction);
             assert!((found - distance).abs() < 1e-9, "{shape:?} {direction}: {found}");

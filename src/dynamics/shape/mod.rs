@@ -2,6 +2,7 @@
 
 mod compound;
 mod convex;
+mod exit;
 mod mesh;
 mod principal;
 mod solids;
