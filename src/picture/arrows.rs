@@ -2,6 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
+use super::beside;
+use super::camera::Placed;
 use crate::scene::{Body, Color, Quantity, Scene};
 use crate::simulate::{BodyFrame, Frame, axis, root, shown};
 
@@ -45,6 +47,8 @@ pub struct Axes {
 const LONGEST: f64 = 0.13;
 /// The radius of a shaft, in strokes.
 const SHAFT: f64 = 0.6;
+/// The radius of a head, in radii of the shaft.
+pub(super) const HEAD: f64 = 3.2;
 /// An arrow that is shorter than this part of the width of the picture is less than a tenth of a pixel long.
 const NOTHING: f64 = 5e-5;
 
@@ -131,10 +135,11 @@ impl Arrows {
         ArrowSizes { view, radius: SHAFT * stroke, scales: scales(self.longest, view) }
     }
 
-    /// The arrows of a frame.
-    pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes) -> Vec<Arrow> {
-        let arrow = |arrow: &Planned| self.arrow(arrow, &frame.bodies[self.bodies[arrow.of].0], sizes);
-        self.arrows.iter().filter_map(arrow).collect()
+    /// The arrows of a frame, as a camera sees them.
+    pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+        let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
+        let of_one = of_one.map(|its| (its, &frame.bodies[self.bodies[its[0].of].0]));
+        of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect()
     }
 
     /// The axes of a frame.
@@ -146,17 +151,25 @@ impl Arrows {
         self.bodies.iter().filter_map(axes).collect()
     }
 
-    /// The arrows of a body as it was, if its ghosts have any.
-    pub(super) fn of_ghost(&self, ghost: &BodyFrame, sizes: ArrowSizes) -> Vec<Arrow> {
+    /// The arrows of a body as it was, if its ghosts have any, as a camera sees them.
+    pub(super) fn of_ghost(&self, ghost: &BodyFrame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let Ok(of) = self.bodies.binary_search_by_key(&ghost.id, |(number, _)| *number) else {
             return Vec::new();
         };
         if !self.bodies[of].1.showing.ghosts.is_some_and(|ghosts| ghosts.arrows) {
             return Vec::new();
         }
-        let first = self.arrows.partition_point(|arrow| arrow.of < of);
-        let its = self.arrows[first..].iter().take_while(|arrow| arrow.of == of);
-        its.filter_map(|arrow| self.arrow(arrow, ghost, sizes)).collect()
+        let [first, end] = [of, of + 1].map(|of| self.arrows.partition_point(|arrow| arrow.of < of));
+        self.of_body(&self.arrows[first..end], ghost, sizes, camera)
+    }
+
+    /// The arrows of one body, side by side where they point the same way.
+    fn of_body(&self, its: &[Planned], at: &BodyFrame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+        let mut arrows: Vec<Arrow> = its.iter().filter_map(|arrow| self.arrow(arrow, at, sizes)).collect();
+        if arrows.len() > 1 {
+            beside::apart(&mut arrows, &self.bodies[its[0].of].1, at, camera);
+        }
+        arrows
     }
 
     fn arrow(&self, arrow: &Planned, at: &BodyFrame, sizes: ArrowSizes) -> Option<Arrow> {

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::framing::decimal_step;
 use super::grid::{LEAST_PIXELS, SIZE};
 use super::length::{prefixed, value};
+use super::room::Rectangle;
 use super::screen::Screen;
 use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};
@@ -25,6 +26,15 @@ pub struct Bar {
     pub above: f64,
     /// Its color.
     pub color: Color,
+}
+
+impl Bar {
+    /// The part of the picture that it takes, whose height is a part of its width.
+    pub(super) fn area(&self, aspect: f64) -> Rectangle {
+        let middle = self.y.above_middle(aspect);
+        let half = 2.5 * self.thickness;
+        Rectangle { left: self.from, right: self.to, bottom: middle - half, top: middle + half }
+    }
 }
 
 /// The scale bars of all frames.

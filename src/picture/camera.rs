@@ -7,6 +7,9 @@ use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
+/// How far a camera stays from a body that it follows, in halves of its width: the body is an eighth of the picture.
+const USUAL_DISTANCE: f64 = 22.0;
+
 /// A camera that has its place, in metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed {
@@ -60,7 +63,7 @@ impl Placed {
         let mut look_at = motion.look_at.as_ref().map_or(self.look_at, |look_at| look_at.at(time));
         if let Some(follow) = motion.follow {
             let away = if camera.location.is_some() { location - start } else { location - look_at };
-            let usual = if camera.location.is_some() { away.length() } else { 12.0 * size };
+            let usual = if camera.location.is_some() { away.length() } else { USUAL_DISTANCE * size };
             look_at = here;
             location = here + away.normalize_or(DVec3::Z) * follow.distance.unwrap_or(usual);
         }
@@ -89,6 +92,15 @@ impl Placed {
     /// The point in the middle of the picture, m.
     pub fn look_at(&self) -> DVec3 {
         self.look_at
+    }
+
+    /// The direction from a point towards it, a unit vector.
+    pub(super) fn towards(&self, point: DVec3) -> DVec3 {
+        let way = match self.lens {
+            Lens::Perspective { .. } => self.location - point,
+            Lens::Orthographic { .. } => self.location - self.look_at,
+        };
+        way.normalize_or(DVec3::Z)
     }
 
     /// How it sees.

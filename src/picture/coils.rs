@@ -38,6 +38,8 @@ pub(super) struct Coils {
     coils: Vec<Planned>,
     /// The drawn shapes of bodies, by their numbers.
     shapes: Vec<Shape>,
+    /// The numbers of bodies with the numbers of the coils that are fastened to them, in order.
+    of_bodies: Vec<(usize, usize)>,
 }
 
 #[derive(Clone, Debug)]
@@ -59,7 +61,23 @@ impl Coils {
         }
         let shapes =
             if coils.is_empty() { Vec::new() } else { scene.bodies.iter().map(Body::drawn).collect() };
-        Coils { coils, shapes }
+        let body = |end: Anchor| match end {
+            Anchor::Body(body) => Some(body.index()),
+            Anchor::Point(_) => None,
+        };
+        let ends = coils.iter().enumerate().flat_map(|(number, coil): (usize, &Planned)| {
+            coil.between.into_iter().filter_map(body).map(move |body| (body, number))
+        });
+        let mut of_bodies: Vec<(usize, usize)> = ends.collect();
+        of_bodies.sort_unstable();
+        Coils { coils, shapes, of_bodies }
+    }
+
+    /// The coils that are fastened to a body, as they are in a frame.
+    pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Coil<'_>> {
+        let first = self.of_bodies.partition_point(|(other, _)| *other < body);
+        let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
+        its.map(|(_, number)| self.coil(&self.coils[*number], frame))
     }
 
     /// The coils as they are in a frame.

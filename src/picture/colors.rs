@@ -9,6 +9,15 @@ pub fn pale(color: Color, dark: bool) -> Color {
     Color(color.0.map(|part| part + PALER * (towards - part)))
 }
 
+/// A color that is seen before what is behind it, which is `dark` or not: dark colors become lighter before the dark.
+pub(super) fn seen(color: Color, dark: bool) -> Color {
+    const BRIGHT_ENOUGH: f64 = 0.12;
+    let [red, green, blue] = color.linear();
+    let bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+    let white = if dark { (1.0 - bright / BRIGHT_ENOUGH).max(0.0) * 0.6 } else { 0.0 };
+    Color(color.0.map(|part| part + white * (1.0 - part)))
+}
+
 /// The single color of a look, if it has one that is known here.
 pub fn of_look(look: &Look) -> Option<Color> {
     match look {
@@ -26,6 +35,14 @@ pub(super) fn ink(scene: &Scene) -> Color {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dark_colors_become_lighter_before_the_dark() {
+        let (slate, amber) = (Color([0.15, 0.18, 0.24]), Color([0.97, 0.75, 0.13]));
+        assert_eq!([seen(slate, false), seen(amber, true)], [slate, amber]);
+        let [red, green, blue] = seen(slate, true).0;
+        assert!(red > 0.5 && red < green && green < blue);
+    }
 
     #[test]
     fn ghosts_are_nearer_to_what_is_behind_them() {

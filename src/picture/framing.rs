@@ -9,17 +9,24 @@ use crate::simulate::Bounds;
 const FRONT: f64 = 1.0;
 const ASIDE: f64 = 0.16;
 const ABOVE: f64 = 0.11;
+/// A little more, so that numbers on the ground can be read.
+const ABOVE_GRID: f64 = 0.36;
 /// High above: a circle on the ground is seen as an ellipse, and not from its edge.
 const HIGH_ABOVE: f64 = 0.7;
 
 /// From the middle of the motion towards a camera that the scene does not place. It looks onto the plane in which most
-/// happens: usually from the front; along x where everything moves in y and z; from above where it moves in x and z.
-pub(super) fn towards_camera(moving: Bounds) -> DVec3 {
+/// happens: usually from the front; along x where everything moves in y and z; from above where it moves in x and z, and
+/// from a little above where the ground is to be read.
+pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     let extent = moving.max - moving.min;
     let from_the_side = extent.z > 2.0 * extent.x;
     let (across, depth) = if from_the_side { (extent.z, extent.x) } else { (extent.x, extent.z) };
     let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
-    let above = if is_flat { HIGH_ABOVE } else { ABOVE };
+    let above = match (is_flat, reads_ground) {
+        (true, _) => HIGH_ABOVE,
+        (false, true) => ABOVE_GRID,
+        (false, false) => ABOVE,
+    };
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
 }
 
@@ -181,7 +188,7 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = perspective(bounds, field, None, towards_camera(bounds));
+            let framing = perspective(bounds, field, None, towards_camera(bounds, false));
             let (right, up, back) = axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
@@ -199,7 +206,7 @@ mod tests {
     #[test]
     fn without_perspective_all_corners_are_in_the_picture_too() {
         let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
-        for towards in [towards_camera(bounds), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)] {
+        for towards in [towards_camera(bounds, false), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)] {
             let (framing, width) = orthographic(bounds, WIDE, None, towards);
             let (right, up, _) = axes(towards);
             let mut fullest: f64 = 0.0;
@@ -216,13 +223,15 @@ mod tests {
     fn the_camera_looks_onto_the_plane_in_which_most_happens() {
         let towards = |size: [f64; 3]| {
             let half = DVec3::from_array(size) / 2.0;
-            towards_camera(Bounds { min: -half, max: half }).to_array()
+            towards_camera(Bounds { min: -half, max: half }, false).to_array()
         };
         let front = [ASIDE, ABOVE, FRONT];
         for size in [[9.0, 5.0, 1.0], [1.0, 1.0, 1.0], [5.0, 3.0, 3.0], [100.0, 0.8, 1.2], [0.2, 100.0, 0.2]]
         {
             assert_eq!(towards(size), front, "{size:?}");
         }
+        let cube = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
+        assert_eq!(towards_camera(cube, true).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
         assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([0.5, 6.0, 20.0]), [-FRONT, ABOVE, ASIDE]);

@@ -1,7 +1,6 @@
 //! Texts in the picture, with the numbers of the moment.
 
-use super::arrows::Arrow;
-use super::room::{Rectangle, Room};
+use super::room::Room;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
@@ -17,9 +16,6 @@ const SIZE: f64 = 0.055;
 const LEAST_PIXELS: f64 = 13.0;
 /// The distance from the base line of one line of text to the next, in heights of a line.
 const LINE: f64 = 1.15;
-/// How far the letters reach above and below their base line, in heights of a line.
-const ABOVE: f64 = 0.75;
-const BELOW: f64 = 0.25;
 
 /// The labels of a scene.
 #[derive(Clone, Debug)]
@@ -49,6 +45,13 @@ struct Moment<'a> {
     bodies: &'a [BodyFrame],
 }
 
+impl<'a> Moment<'a> {
+    /// The moment of a frame.
+    fn now(frame: &'a Frame) -> Moment<'a> {
+        Moment { time: frame.time, frame: frame.index, balance: Some(&frame.balance), bodies: &frame.bodies }
+    }
+}
+
 impl Labels {
     /// Plans the labels for pictures of a height, as part of their width.
     pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
@@ -72,56 +75,56 @@ impl Labels {
         Labels { labels, bodies, aspect }
     }
 
-    /// The labels of a frame, on the plane before its camera. Those beside bodies keep off its arrows and other texts.
-    pub(super) fn at<'a>(
-        &'a self,
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// A picture of which nothing is taken.
+    pub(super) fn room(&self) -> Room {
+        Room::new(self.aspect)
+    }
+
+    /// The labels of a frame that stand in corners, each with its number.
+    pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
+        let now = Moment::now(frame);
+        let labels = self.labels.iter().enumerate();
+        let text = |(number, planned)| Some((number, self.in_corner(planned, &now)?));
+        labels.filter_map(text).collect()
+    }
+
+    /// The labels of a frame that stand beside bodies, each with its number, on the plane before its camera. They keep
+    /// off what is taken.
+    pub(super) fn beside_bodies(
+        &self,
         frame: &Frame,
         screen: &Screen,
-        arrows: &[Arrow],
-        others: &[Text<'_>],
-    ) -> Vec<Text<'a>> {
-        let now = Moment {
-            time: frame.time,
-            frame: frame.index,
-            balance: Some(&frame.balance),
-            bodies: &frame.bodies,
-        };
-        let mut room = Room::new(self.aspect);
-        others.iter().for_each(|text| room.dislike(area(text, self.aspect)));
+        room: &mut Room,
+    ) -> Vec<(usize, Text<'_>)> {
+        let now = Moment::now(frame);
         let mut texts = Vec::new();
-        for planned in &self.labels {
-            if let LabelPlace::Corner(corner) = planned.label.place {
-                let text = self.in_corner(planned, corner, &now);
-                room.take(area(&text, self.aspect));
-                texts.push(text);
-            }
-        }
-        if texts.len() < self.labels.len() {
-            for arrow in arrows {
-                if let (Some(from), Some(to)) = (screen.spot(arrow.from), screen.spot(arrow.to)) {
-                    room.cross([from.x, from.y], [to.x, to.y], 4.0 * arrow.radius * to.metre);
-                }
-            }
-        }
-        for planned in &self.labels {
+        for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
-            texts.extend(self.beside(planned, (&frame.bodies[body], side), &now, screen, &mut room));
+            let text = self.beside(planned, (&frame.bodies[body], side), &now, screen, room);
+            texts.extend(text.map(|text| (number, text)));
             for ghost in frame.past.ghosts.iter().filter(|ghost| ghosts && ghost.body.id == body) {
                 let bodies = std::slice::from_ref(&ghost.body);
                 let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
-                texts.extend(self.beside(planned, (&ghost.body, side), &then, screen, &mut room));
+                let text = self.beside(planned, (&ghost.body, side), &then, screen, room);
+                texts.extend(text.map(|text| (number, text)));
             }
         }
         texts
     }
 
-    fn in_corner<'a>(&'a self, planned: &'a Planned, corner: Corner, now: &Moment<'_>) -> Text<'a> {
+    fn in_corner<'a>(&'a self, planned: &'a Planned, now: &Moment<'_>) -> Option<Text<'a>> {
+        let LabelPlace::Corner(corner) = planned.label.place else { return None };
         let (x, align) = across(corner);
         let y = match is_top(corner) {
             true => Vertical::Top(planned.inset + 0.3 * planned.height),
             false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
         };
-        self.text(planned, (x, y), align, now)
+        Some(self.text(planned, (x, y), align, now))
     }
 
     /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
@@ -163,20 +166,19 @@ impl Labels {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
             Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
         };
-        let near = others.map(|side| candidate(side, 0.0));
-        let far = (1..=8).flat_map(|lines| others.map(|side| candidate(side, f64::from(lines))));
-        let is_free = |text: &&Text<'_>| room.is_free(area(text, self.aspect));
-        let best = near.iter().find(|text| is_free(text) && room.is_liked(area(text, self.aspect)));
-        let free = best.or_else(|| near.iter().find(is_free)).cloned();
-        let free = free.or_else(|| far.into_iter().find(|text| room.is_free(area(text, self.aspect))));
+        // A line farther on its own side, or on the opposite one, before the other two sides.
+        let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
+        let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
+        let mut candidates = near.chain(far).map(|(side, lines)| candidate(side, f64::from(lines)));
+        let free = candidates.find(|text| room.has_room_for(text));
         let text = free.unwrap_or_else(|| candidate(side, 0.0));
-        room.take(area(&text, self.aspect));
+        room.take_text(&text);
         Some(text)
     }
 
     /// A text that would leave the picture, moved to its edge.
     fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
-        let area = area(&text, self.aspect);
+        let area = text.area(self.aspect);
         let edge = 1.0 - MARGIN / 2.0;
         let shift = |low: f64, high: f64, edge: f64| {
             if high - low > 2.0 * edge {
@@ -256,18 +258,6 @@ fn opposite(side: Side) -> Side {
     }
 }
 
-/// The part of the picture that a text takes.
-fn area(text: &Text<'_>, aspect: f64) -> Rectangle {
-    let wide = width(&text.says, text.height);
-    let (left, base) = (text.x - text.align * wide, text.y.above_middle(aspect));
-    Rectangle {
-        left,
-        right: left + wide,
-        bottom: base - BELOW * text.height,
-        top: base + ABOVE * text.height,
-    }
-}
-
 /// A text as long as what a label may say at any moment: numbers have up to four digits before their point.
 fn longest(label: &Label) -> String {
     let piece = |piece: &Piece| match piece {
@@ -288,13 +278,13 @@ struct Taken {
     inset: [f64; 2],
 }
 
-/// What a scale bar takes, whose length is about a fifth of the picture.
+/// What a scale bar takes, whose length is a quarter of the picture at most.
 fn under_bar(corner: Corner, aspect: f64) -> Taken {
     let (x, align) = across(corner);
-    let left = x - 0.6 * align;
+    let left = x - 0.5 * align;
     Taken {
         is_top: is_top(corner),
-        across: [left, left + 0.6],
+        across: [left, left + 0.5],
         inset: [0.0, MARGIN + 4.0 * aspect * grid::SIZE],
     }
 }

@@ -4,7 +4,7 @@ use super::number;
 
 /// The unit in which a length is written, m, and its symbol.
 pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
-    const UNITS: [(f64, &str); 8] = [
+    const UNITS: [(f64, &str); 9] = [
         (1e9, "million km"),
         (1e3, "km"),
         (1.0, "m"),
@@ -13,10 +13,11 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
         (1e-6, "µm"),
         (1e-9, "nm"),
         (1e-12, "pm"),
+        (1e-15, "fm"),
     ];
     // Tenths of a metre are more usual than tens of centimetres.
     let fits = |(unit, _): &&(f64, &str)| length >= if *unit == 1.0 { 0.1 } else { unit * 0.999_999 };
-    UNITS.iter().find(fits).copied().unwrap_or((1e-12, "pm"))
+    UNITS.iter().find(fits).copied().unwrap_or((1e-15, "fm"))
 }
 
 /// A number of a ruler: short, with a real minus sign.
@@ -37,6 +38,7 @@ mod tests {
             (0.5, "0.5 m"),
             (0.05, "5 cm"),
             (2e-9, "2 nm"),
+            (2e-14, "20 fm"),
             (5e4, "50 km"),
             (1e11, "100 million km"),
         ] {

@@ -7,12 +7,14 @@
 
 mod arrows;
 mod bar;
+mod beside;
 mod camera;
 mod coils;
 mod colors;
 mod framing;
 mod ghosts;
 mod grid;
+mod in_front;
 mod labels;
 mod length;
 mod lights;
@@ -36,7 +38,7 @@ pub(crate) use framing::{decimal_step, rounded_outward};
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};
 pub(crate) use plan::has_texts;
-pub use plan::{Largest, Plan};
+pub use plan::{Largest, Plan, Written};
 pub use screen::{Screen, Spot};
 pub use stage::{Scenery, Stage, StageGround};
 pub use text::{Text, Vertical};

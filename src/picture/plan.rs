@@ -2,21 +2,25 @@
 
 use std::borrow::Cow;
 
+use glam::{DMat3, DVec3};
+
 use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{Eye, Placed, half_width};
 use super::coils::{Coil, Coils};
 use super::ghosts::Ghosts;
 use super::grid::{Grid, Ruled, Ruler};
+use super::in_front::{Planes, lift_from_coil};
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
+use super::room::Room;
 use super::scope::{Scope, largest};
 use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
 use super::text::Text;
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Body, Camera, Scene};
+use crate::scene::{Body, Camera, GridPlane, Scene};
 use crate::simulate::{BodyFrame, Bounds, Frame, Ghost, Survey};
 
 /// What all frames of a run, seen by one camera, have in common; made once.
@@ -27,6 +31,8 @@ pub struct Plan {
     lights: Lights,
     lights_move: bool,
     arrows: Arrows,
+    /// What may hide arrows.
+    planes: Planes,
     coils: Coils,
     ghosts: Ghosts,
     trails: Trails,
@@ -54,6 +60,19 @@ struct Sizes {
     arrows: ArrowSizes,
 }
 
+/// What is written in a frame.
+#[derive(Clone, Debug)]
+pub struct Written<'a> {
+    /// The plane on which it stands.
+    pub screen: Screen,
+    /// The names and numbers of the grid.
+    pub grid: Vec<Text<'a>>,
+    /// The scale bar, and its number.
+    pub bar: Option<(Bar, Text<'a>)>,
+    /// The labels, in the order of the scene.
+    pub labels: Vec<Text<'a>>,
+}
+
 /// The largest body, and how small it is in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Largest {
@@ -70,19 +89,24 @@ pub(crate) fn has_texts(scene: &Scene) -> bool {
     !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
+/// Whether there are numbers to be read from the ground.
+pub(super) fn reads_ground(scene: &Scene) -> bool {
+    scene.grid.is_some_and(|grid| grid.plane == GridPlane::Ground)
+}
+
 impl Plan {
     /// The plan of a scene that one of its cameras sees, and whose run has been looked over.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
-        let towards = framing::towards_camera(span.moving);
+        let towards = framing::towards_camera(span.moving, reads_ground(scene));
         let eye_on = |bounds: Bounds| Eye::new(camera, framing::rounded_outward(bounds), towards, scene);
         // Arrows and grid are as large as a camera asks for that sees the bodies; then the camera is placed so that it
         // sees their ends, too.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene);
-        let scenery = Scenery::new(scene, span.bounds, whole, view);
+        let scenery = Scenery::new(scene, span.bounds, whole, view, scope.is_start);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| Ruler::new(scene, grid, &scenery, part, ink));
         let longest = [0, 1, 2].map(|kind: usize| span.arrows[kind].largest);
@@ -114,6 +138,7 @@ impl Plan {
             lights_move: lights.moves(),
             lights,
             arrows,
+            planes: Planes::new(scene, &stage),
             coils: Coils::new(scene),
             ghosts: Ghosts::new(scene),
             trails: Trails::new(scene, stroke(narrowest_view(scene, &eye, whole), scene.output)),
@@ -190,7 +215,23 @@ impl Plan {
 
     /// The arrows of a frame, in the order of the bodies.
     pub fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
-        self.arrows.arrows(frame, self.sizes(frame).arrows)
+        self.arrows.arrows(frame, self.sizes(frame).arrows, &self.eye.at(frame))
+    }
+
+    /// The same, but those that the ground or a spring would hide are nearer to the camera, which sees them as they
+    /// would be without it.
+    pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
+        let mut arrows = self.arrows(frame);
+        if !arrows.is_empty() {
+            let camera = self.eye.at(frame);
+            for arrow in &mut arrows {
+                self.planes.lift(arrow, &camera);
+                for coil in self.coils.of_body(arrow.body, frame) {
+                    lift_from_coil(arrow, &coil, &camera);
+                }
+            }
+        }
+        arrows
     }
 
     /// The axes that are drawn on bodies of a frame, in the order of the bodies.
@@ -210,7 +251,15 @@ impl Plan {
 
     /// The arrows of a body as it was, in the picture of a frame, if its ghosts have any.
     pub fn ghost_arrows(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
-        self.arrows.of_ghost(ghost, self.sizes(frame).arrows)
+        self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
+    }
+
+    /// The same, in front of the ground.
+    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
+        let mut arrows = self.ghost_arrows(frame, ghost);
+        let camera = self.eye.at(frame);
+        arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));
+        arrows
     }
 
     /// The trails up to a frame.
@@ -230,11 +279,52 @@ impl Plan {
 
     /// What is written in a frame: the numbers of the grid, that of the scale bar, the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
-        let Some(screen) = self.screen(frame) else { return Vec::new() };
-        let numbers = self.numbers(frame, &screen);
-        let labels = self.labels(frame, &screen, &numbers);
-        let bar = self.bar_on(&screen).map(|(_, number)| number);
-        numbers.into_iter().chain(bar).chain(labels).collect()
+        let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
+        grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
+    }
+
+    /// What is written in a frame, by kind; none if nothing is.
+    ///
+    /// Labels in corners and the scale bar stand where they stand; then the names of the grid's axes, the labels beside
+    /// bodies, and the numbers of the grid, each where there is room.
+    pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
+        let screen = self.screen(frame)?;
+        let mut room = self.labels.room();
+        let bar = self.bar.as_ref().and_then(|bar| bar.on(&screen));
+        if let Some((bar, number)) = &bar {
+            room.take_text(number);
+            room.take(bar.area(room.aspect()));
+        }
+        let mut labels = self.labels.in_corners(frame);
+        labels.iter().for_each(|(_, text)| room.take_text(text));
+        let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room));
+        let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
+        grid.iter().for_each(|title| room.take_text(title));
+        if labels.len() < self.labels.count() {
+            let before = labels.len();
+            self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
+            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
+            let mut beside = Room::new(room.aspect());
+            labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
+            grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
+            labels.sort_by_key(|(place, _)| *place);
+        } else {
+            grid.extend(numbers);
+        }
+        let labels = labels.into_iter().map(|(_, text)| text).collect();
+        Some(Written { screen, grid, bar, labels })
+    }
+
+    /// The lines of a frame on which no text should stand, each with its width, m: arrows and axes.
+    fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
+        let mut arrows = self.arrows(frame);
+        arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body)));
+        let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
+        let axes = self.axes(frame).into_iter().flat_map(|axes| {
+            let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
+            arms.map(|arm| ([axes.location, axes.location + arm * axes.length * 1.1], 0.1 * axes.length))
+        });
+        arrows.chain(axes).collect()
     }
 
     /// The lines of the grid, if they are the same in all frames: if the camera stands still.
@@ -253,8 +343,8 @@ impl Plan {
             return Some(Cow::Borrowed(ruled));
         }
         let sizes = self.sizes(frame);
-        let point = self.eye.at(frame).look_at();
-        self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.around(point, sizes.stroke, sizes.view)))
+        let camera = self.eye.at(frame);
+        self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.seen_by(&camera, sizes.stroke, sizes.view)))
     }
 
     /// The spacing that the scene gives the grid and the one that is drawn, m, if the first would make too many lines.
@@ -271,24 +361,6 @@ impl Plan {
     /// The plane before the camera of a frame on which texts stand, if there are any.
     pub fn screen(&self, frame: &Frame) -> Option<Screen> {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
-    }
-
-    /// The numbers of the grid of a frame on a plane.
-    pub(crate) fn numbers(&self, frame: &Frame, screen: &Screen) -> Vec<Text<'static>> {
-        self.ruled(frame).map_or_else(Vec::new, |grid| grid.numbers(screen))
-    }
-
-    /// The scale bar on a plane, and its number.
-    pub(crate) fn bar_on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
-        self.bar.as_ref()?.on(screen)
-    }
-
-    /// The labels of a frame on a plane, where other texts stand already.
-    pub(crate) fn labels<'a>(&'a self, frame: &Frame, screen: &Screen, others: &[Text<'_>]) -> Vec<Text<'a>> {
-        let mut arrows = self.arrows(frame);
-        let ghosts = self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body));
-        arrows.extend(ghosts);
-        self.labels.at(frame, screen, &arrows, others)
     }
 
     /// The end of what the camera frames, s, if that is only the start of the run: the whole of it would leave the
@@ -322,7 +394,7 @@ fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> O
     let body: &Body = largest(scene)?;
     let whole = survey.spans.last()?;
     let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
-    let towards = framing::towards_camera(whole.moving);
+    let towards = framing::towards_camera(whole.moving, reads_ground(scene));
     let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
     Some(Largest {
         name: body.name.clone(),
@@ -390,7 +462,7 @@ mod tests {
         let says = |name: &str| texts.iter().find(|text| text.name == name).map(|text| text.says.as_ref());
         assert_eq!((says("now"), says("scale bar")), (Some("0.5 s"), Some("1 m")));
         assert!(says("grid").is_some() && plan.grid(&frame).is_some_and(|grid| !grid.lines.is_empty()));
-        let (bar, number) = plan.bar_on(&plan.screen(&frame).unwrap()).unwrap();
+        let (bar, number) = plan.written(&frame).unwrap().bar.unwrap();
         assert_eq!(Some(bar), plan.bar(&frame));
         assert!(number.y.above_middle(0.5) > bar.y.above_middle(0.5));
         assert!((number.x - (bar.from + bar.to) / 2.0).abs() < 1e-12);

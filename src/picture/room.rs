@@ -1,5 +1,10 @@
 //! Which parts of a picture are taken, so that texts stand where there is room.
 
+use glam::DVec3;
+
+use super::screen::Screen;
+use super::text::Text;
+
 /// A part of the picture, whose width is 2; the middle of the picture is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rectangle {
@@ -23,15 +28,13 @@ pub(super) struct Room {
     /// The height of the picture, as part of its width.
     aspect: f64,
     taken: Vec<Rectangle>,
-    /// What is better left free.
-    disliked: Vec<Rectangle>,
     stripes: Vec<Stripe>,
 }
 
 impl Room {
     /// A picture of which nothing is taken.
     pub(super) fn new(aspect: f64) -> Room {
-        Room { aspect, taken: Vec::new(), disliked: Vec::new(), stripes: Vec::new() }
+        Room { aspect, taken: Vec::new(), stripes: Vec::new() }
     }
 
     /// Takes a part of the picture.
@@ -39,18 +42,30 @@ impl Room {
         self.taken.push(part);
     }
 
-    /// Marks a part that is better left free.
-    pub(super) fn dislike(&mut self, part: Rectangle) {
-        self.disliked.push(part);
+    /// Takes the part of the picture in which a text stands.
+    pub(super) fn take_text(&mut self, text: &Text<'_>) {
+        self.take(text.area(self.aspect));
     }
 
-    /// Whether nothing of a part is better left free.
-    pub(super) fn is_liked(&self, part: Rectangle) -> bool {
-        !self.disliked.iter().any(|other| part.overlaps(*other))
+    /// Whether a text is in the picture and nothing of its part is taken.
+    pub(super) fn has_room_for(&self, text: &Text<'_>) -> bool {
+        self.is_free(text.area(self.aspect))
+    }
+
+    /// The height of the picture, as part of its width.
+    pub(super) fn aspect(&self) -> f64 {
+        self.aspect
+    }
+
+    /// Takes a line in the world, from one point to another and of a width, m, as it is seen on the plane of a camera.
+    pub(super) fn cross(&mut self, ends: [DVec3; 2], width: f64, screen: &Screen) {
+        if let [Some(from), Some(to)] = ends.map(|end| screen.spot(end)) {
+            self.stripe([from.x, from.y], [to.x, to.y], width * to.metre);
+        }
     }
 
     /// Takes a line of a width.
-    pub(super) fn cross(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
+    fn stripe(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         self.stripes.push(Stripe { from, to, half: width / 2.0 });
     }
 
@@ -111,8 +126,6 @@ mod tests {
         assert!(room.is_free(PART));
         room.take(Rectangle { left: 0.1, right: 0.4, bottom: -0.1, top: 0.01 });
         assert!(!room.is_free(PART));
-        room.dislike(PART);
-        assert!(!room.is_liked(PART) && room.is_liked(Rectangle { left: 0.2, right: 0.3, ..PART }));
         assert!(!room.is_free(Rectangle { bottom: 0.45, top: 0.51, ..PART }));
     }
 
@@ -127,7 +140,7 @@ mod tests {
             ([0.3, 0.05], [0.3, 0.3], false),
         ] {
             let mut room = Room::new(0.5);
-            room.cross(from, to, 0.02);
+            room.stripe(from, to, 0.02);
             assert_eq!(!room.is_free(PART), meets, "{from:?} {to:?}");
         }
     }

@@ -3,6 +3,7 @@
 
 use super::camera::{Eye, half_width};
 use super::framing::{rounded_outward, towards_camera};
+use super::plan::reads_ground;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
@@ -51,7 +52,7 @@ fn start<'a>(scene: &Scene, camera: &Camera, spans: &'a [Span]) -> Option<&'a Sp
     let largest = largest(scene)?;
     let part = |span: &Span| {
         let bounds = rounded_outward(span.seen);
-        let eye = Eye::new(camera, bounds, towards_camera(span.moving), scene);
+        let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
         2.0 * half_width(largest).unwrap_or(0.0) / eye.placed().width_of_view(span.bounds)
     };
     let (all, starts) = spans.split_last()?;

@@ -78,6 +78,16 @@ impl Screen {
         (depth > 0.0 && spot.x.is_finite() && spot.y.is_finite()).then_some(spot)
     }
 
+    /// The ray through a place on the plane: a point of it, m, and its direction, of which the part straight away from
+    /// the viewer is 1.
+    pub(super) fn ray(&self, x: f64, y: f64) -> (DVec3, DVec3) {
+        let aside = self.right * x + self.up * y;
+        match self.slope {
+            Some(slope) => (self.location, aside * slope - self.back),
+            None => (self.location + aside * self.half, -self.back),
+        }
+    }
+
     /// The direction in the world that is up in the picture.
     pub fn up(&self) -> DVec3 {
         self.up
@@ -108,6 +118,18 @@ mod tests {
         for height in [-5.0, 0.0, 5.0] {
             let spot = screen.spot(DVec3::new(1.0, height, 1.0)).unwrap();
             assert!((spot.x - 0.5).abs() < 1e-12 && (spot.y + 0.5).abs() < 1e-12, "{spot:?}");
+        }
+    }
+
+    #[test]
+    fn a_ray_through_a_place_is_seen_there() {
+        for slope in [Some(0.5), None] {
+            let screen = Screen::new(DVec3::new(3.0, 4.0, 10.0), DVec3::ZERO, slope, 4.0, None);
+            let (origin, direction) = screen.ray(0.7, -0.3);
+            for far in [5.0, 40.0] {
+                let spot = screen.spot(origin + direction * far).unwrap();
+                assert!((spot.x - 0.7).abs() < 1e-12 && (spot.y + 0.3).abs() < 1e-12, "{spot:?}");
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::camera::Placed;
 use super::framing;
-use crate::scene::{Color, Environment, Output, Preset, Scene, Sky};
+use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
 
 /// What surrounds the bodies. Lengths are in metres.
@@ -60,23 +60,42 @@ pub struct Scenery {
     pub tile: f64,
     /// The edge of a tile where none is given.
     pub usual_tile: f64,
+    /// The distance between the lines of a grid where none is given.
+    pub spacing: f64,
+    /// The size of what is seen, m: of the motion, and of the air below it where the camera frames only the start of a
+    /// fall.
+    pub size: f64,
 }
 
 impl Scenery {
     /// What is measured where a camera frames the bounds `framed` and sees a width of `view` (m). The whole run takes
-    /// place within `whole`.
-    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64) -> Scenery {
+    /// place within `whole`, of which `framed` may be only the start.
+    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, is_start: bool) -> Scenery {
         let around = scene.environment.ground.as_ref();
-        let size = size(framed);
+        let framed_size = size(framed);
+        let ground =
+            around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
+        let depth = if is_start { two_digits_up((framed.max.y - ground).max(framed_size)) } else { 0.0 };
+        let size = framed_size.max(depth);
         // A camera near to a long motion sees little of it: then tiles are as large as fits its picture.
-        let usual_tile = tile(size.min(two_digits_up(view)));
+        let fit = framed_size.min(two_digits_up(view));
+        let usual_tile = tile(fit.max(depth));
+        let given_tile = around.and_then(|ground| ground.tile).or(ruled_tile(scene, usual_tile));
         Scenery {
             bounds: framed,
-            ground: around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, size)),
-            tile: around.and_then(|ground| ground.tile).unwrap_or(usual_tile),
+            ground,
+            tile: given_tile.unwrap_or(usual_tile),
+            spacing: given_tile.unwrap_or(tile(fit)),
             usual_tile,
+            size,
         }
     }
+}
+
+/// The spacing of a grid on the ground, whose lines are to be the edges of tiles, if it is fit for that.
+fn ruled_tile(scene: &Scene, usual: f64) -> Option<f64> {
+    let spacing = scene.grid.filter(|grid| grid.plane == GridPlane::Ground)?.spacing?;
+    (0.1 * usual..10.0 * usual).contains(&spacing).then_some(spacing)
 }
 
 /// The width of a line that is well seen in a picture that shows a width of `view`, m.
@@ -98,23 +117,23 @@ impl Stage {
     /// The surroundings of a scene that a camera sees, whose whole run takes place within bounds.
     pub(super) fn new(scene: &Scene, scenery: Scenery, whole: Bounds, camera: &Placed) -> Stage {
         let bounds = framing::rounded_outward(scenery.bounds);
-        let (center, size) = (bounds.middle(), size(scenery.bounds));
+        let (center, size, far) = (bounds.middle(), size(scenery.bounds), scenery.size);
         let distance = camera.location().distance(center);
         let around = scene.environment.ground.as_ref();
         let ground = around.filter(|_| !scene.output.transparent).map(|_| StageGround {
             height: scenery.ground,
             tile: scenery.tile,
             // Tiles that are given may be larger than all that moves.
-            tiles_fade: (4.5 * size).max(38.0 * scenery.tile),
+            tiles_fade: (4.5 * far).max(38.0 * scenery.tile),
         });
         Stage {
             size,
             center,
             ground,
             tile: scenery.usual_tile,
-            tiles_fade: 4.5 * size,
+            tiles_fade: 4.5 * far,
             // From far away, more of the ground is to be seen.
-            fade: 11.0 * size.max(distance / 2.0),
+            fade: 11.0 * far.max(distance / 2.0),
             preset: scene.environment.preset,
             ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
             sky: match scene.environment.sky {

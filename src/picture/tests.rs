@@ -31,7 +31,7 @@ fn a_camera_that_follows_sees_arrows_trails_and_grids_in_its_own_size() {
     let (scene, plan) = flight("arrows.force.scale = 0.002");
     for frame in frames(&scene).skip(1).step_by(25) {
         let [velocity, force] = plan.arrows(&frame)[..] else { panic!("two are asked for") };
-        assert!(velocity.radius < 0.02 && velocity.from.distance(velocity.to) < 0.2, "{velocity:?}");
+        assert!(velocity.radius < 0.02 && velocity.from.distance(velocity.to) < 0.22, "{velocity:?}");
         // As long as the scene says, however short that is.
         assert!(force.from.distance(force.to) < 0.1, "{force:?}");
         let stroke = plan.stroke(&frame);
@@ -39,7 +39,7 @@ fn a_camera_that_follows_sees_arrows_trails_and_grids_in_its_own_size() {
         assert!(plan.trails(&frame).iter().all(|trail| (trail.radius - stroke / 2.0).abs() < 1e-15));
         let grid = plan.grid(&frame).unwrap();
         assert!((6..40).contains(&grid.lines.len()), "{}", grid.lines.len());
-        assert!(grid.lines.iter().all(|line| line.from.distance(frame.bodies[0].location) < 2.0));
+        assert!(grid.lines.iter().all(|line| line.from.distance(frame.bodies[0].location) < 3.0));
     }
     assert_eq!(plan.too_small(), None);
     assert!((0.02..0.3).contains(&plan.stage().tile), "{}", plan.stage().tile);
@@ -130,13 +130,75 @@ fn texts_neither_overlap_nor_leave_the_picture() {
                 texts.iter().any(|text| text.says == "x (m)")
                     && texts.iter().any(|text| text.says == "y (m)")
             );
+            assert_legible(&texts, size);
             let labels: Vec<_> = texts.into_iter().filter(|text| text.name != "grid").collect();
             assert_eq!(labels.len(), 7);
-            assert_legible(&labels, size);
             let least = 10.9 * 2.0 / f64::from(scene.output.width);
             assert!(labels.iter().all(|label| label.height > least || label.name == "head"), "{size}");
         }
     }
+}
+
+#[test]
+fn a_grid_that_a_moving_camera_sees_fills_the_picture_and_has_its_numbers_at_the_edges() {
+    // The flight is 600 m long; in between, there is grid on all sides.
+    let (scene, plan) = flight("");
+    let frame = Frames::at(&scene, 3.0).unwrap();
+    let screen = plan.screen(&frame).unwrap();
+    let lines = plan.grid(&frame).unwrap().lines;
+    for line in &lines {
+        let [from, to] = [line.from, line.to].map(|end| screen.spot(end).unwrap());
+        let leaves = |spot: crate::picture::Spot| spot.x.abs() > 1.0 || spot.y.abs() > 0.5625;
+        assert!(leaves(from) && leaves(to), "{line:?}");
+    }
+    let numbers: Vec<_> = plan.texts(&frame).into_iter().filter(|text| text.name == "grid").collect();
+    let is_low = |text: &&Text<'_>| text.y.above_middle(0.5625) < -0.5;
+    let is_left = |text: &&Text<'_>| extent(text)[0] < -0.95;
+    assert!(numbers.iter().filter(is_low).count() >= 5, "{numbers:?}");
+    assert!(numbers.iter().filter(is_left).count() >= 3, "{numbers:?}");
+    assert!(numbers.iter().all(|text| is_low(&text) || is_left(&text)), "{numbers:?}");
+    assert_legible(&numbers, "the grid");
+    // With lines that are far apart, it has a number all the same.
+    let coarse = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }
+        [body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 100, 0]
+        [camera]\nfollow = { body = 'ball', distance = 25 }\n[grid]\nplane = 'wall'\nspacing = 10";
+    let (scene, plan) = self::plan(coarse);
+    for frame in frames(&scene).step_by(10) {
+        let texts = plan.texts(&frame);
+        assert_legible(&texts, "a coarse grid");
+        let is_number = |text: &Text<'_>| text.says.parse::<f64>().is_ok();
+        assert!(texts.iter().any(is_number), "{texts:?}");
+        assert!(
+            texts.iter().any(|text| text.says == "x (m)") && texts.iter().any(|text| text.says == "y (m)")
+        );
+    }
+}
+
+#[test]
+fn an_upright_grid_ends_at_the_ground_and_one_on_the_ground_lies_on_the_edges_of_tiles() {
+    let ball = "[simulation]\nduration = 2\n[body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, -0.3, 0]\nvelocity = [5, 1, 0]\n";
+    let (scene, wall) = plan(&format!("{ball}[grid]\nplane = 'wall'\nspacing = 2"));
+    let ground = wall.stage().ground.unwrap().height;
+    let lines = wall.grid(&frames(&scene).next().unwrap()).unwrap().lines;
+    let lowest = lines.iter().map(|line| line.from.y.min(line.to.y)).fold(f64::MAX, f64::min);
+    assert_eq!(lowest, ground);
+    let (_, floor) = plan(&format!("{ball}[grid]\nspacing = 2"));
+    assert_eq!(floor.stage().ground.unwrap().tile, 2.0);
+    // What is fit for no tile leaves the tiles as they are.
+    let (_, fine) = plan(&format!("{ball}[grid]\nspacing = 0.02"));
+    assert!(fine.stage().ground.unwrap().tile >= 0.5);
+}
+
+#[test]
+fn a_grid_reaches_as_far_as_the_springs() {
+    let text = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n[grid]\nplane = 'wall'\n\
+        [force.rod.spring]\nbetween = [[0, 2, 0], 'bob']\nstiffness = 100";
+    let (scene, plan) = plan(text);
+    let lines = plan.grid(&frames(&scene).next().unwrap()).unwrap().lines;
+    assert!(
+        lines.iter().any(|line| line.to.y >= 2.0) && lines.iter().any(|line| line.to.x <= 0.0),
+        "{lines:?}"
+    );
 }
 
 #[test]

@@ -2,10 +2,15 @@
 
 use std::borrow::Cow;
 
+use super::room::Rectangle;
 use crate::scene::{Color, Corner, Output};
 
 /// The distance of texts from the edges of the picture, whose width is 2.
 pub(super) const MARGIN: f64 = 0.035;
+
+/// How far the letters reach above and below their base line, in heights of a line.
+const ABOVE: f64 = 0.75;
+const BELOW: f64 = 0.25;
 
 /// A line of text on the plane before the camera, whose x goes from -1 at the left edge of the picture to 1 at the
 /// right one. Its y has the same scale.
@@ -25,6 +30,20 @@ pub struct Text<'a> {
     pub align: f64,
     /// Its color.
     pub color: Color,
+}
+
+impl Text<'_> {
+    /// The part of the picture that it takes, whose height is a part of its width.
+    pub(super) fn area(&self, aspect: f64) -> Rectangle {
+        let wide = width(&self.says, self.height);
+        let (left, base) = (self.x - self.align * wide, self.y.above_middle(aspect));
+        Rectangle {
+            left,
+            right: left + wide,
+            bottom: base - BELOW * self.height,
+            top: base + ABOVE * self.height,
+        }
+    }
 }
 
 /// A height in the picture, whose width is 2. The upper and the lower edge are those of the image that is made, whatever

@@ -90,6 +90,7 @@ impl Trails {
         for (number, body) in scene.bodies.iter().enumerate() {
             let Some(trail) = body.showing.trail else { continue };
             let of_body = body.material.and_then(|material| colors::of_look(&scene.materials[material].look));
+            let of_body = of_body.map(|color| colors::seen(color, scene.environment.is_dark()));
             let least = trail.width.unwrap_or(narrowest) / 2.0;
             let trail = Trail {
                 body: number,

@@ -6,7 +6,7 @@ use jabuka::{Run, simulate::Frames};
 
 use crate::image::{Image, Rgb, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
-use crate::povray::{render, render_all};
+use crate::povray::{render, render_all, run};
 use crate::scene::{DARK, script, script_of};
 
 fn front() -> Pinhole {
@@ -40,17 +40,93 @@ fn arrows_begin_at_the_surface_and_are_as_long_as_their_scale_says() {
             assert!(near(image, sees(x, 0.0), is_red), "velocity at {x}");
         }
         assert!(!near(image, sees(1.6, 0.0), is_red), "0.5 m + 2 m/s × 0.5 is the end");
-        // The acceleration of 1 m/s² is 1 m long. The force of 3 N is 0.3 m long and lies in it: its head is wider.
-        assert!(
-            near(image, sees(0.0, -0.7), |[r, g, b]| b > r.saturating_add(40) && b > g.saturating_add(40)),
-            "the head of the force"
-        );
-        for y in [-1.0, -1.4] {
-            assert!(near(image, sees(0.0, y), is_green), "acceleration at {y}");
+        // The acceleration of 1 m/s² is 1 m long, the force of 3 N 0.3 m. They are parallel, and stand side by side.
+        let is_blue = |[r, g, b]: Rgb| b > r.saturating_add(40) && b > g.saturating_add(40);
+        assert!(near(image, sees(-0.14, -0.7), is_blue), "the head of the force");
+        for y in [-0.6, -1.0, -1.4] {
+            assert!(near(image, sees(0.14, y), is_green), "acceleration at {y}");
         }
-        assert!(!near(image, sees(0.0, -1.7), is_green));
+        assert!(!near(image, sees(0.14, -1.7), is_green) && !near(image, sees(-0.14, -1.0), is_blue));
     }
     assert!(images[0].difference(&images[1]) < 0.5, "the unit changes nothing");
+}
+
+#[test]
+fn arrows_are_seen_where_the_ground_or_a_spring_would_hide_them() {
+    let camera = Pinhole::new([0.0, 3.0, 10.0], [0.0, 0.0, 0.0]);
+    let size = format!("[output]\nsize = [{}, {}]\n", SIZE[0], SIZE[1]);
+    let arrow = "arrows.force = { scale = 1, color = 'red' }\n";
+    let ball = "shape.sphere.radius = 0.5\nmaterial = { color = 'blue', finish = 'matte' }\n";
+    let seen = |place: &str, keys: &str| {
+        script(&format!("[body.ball]\n{ball}{arrow}location = {place}\nforce = [0, -2, 0]\n{keys}\n{size}"))
+    };
+    let fall = |place: &str, keys: &str| seen(place, &format!("{keys}{}", camera.toml()));
+    // Its tip is 1.5 m below the ground, or below a plane.
+    let ground = fall("[0, 1, 0]", "[environment]\nground.height = 0\n");
+    let plane = fall("[0, 1, 0]", "[body.floor]\nshape.plane = {}\n");
+    let parallel = seen(
+        "[0, 1, 0]",
+        "[environment]\nground.height = 0\n[camera]\nprojection = 'orthographic'\nwidth = 8\nlocation = [0, 3, 10]\nlook_at = [0, 0, 0]\n",
+    );
+    // A spring is fastened where the force pulls to.
+    let coil = "[force.s.spring]\nbetween = ['ball', [0, -3, 0]]\nstiffness = 0\ncoil = { color = 'lime', radius = 0.4, turns = 12 }\n";
+    let coil = fall("[0, 2, 0]", &format!("{coil}{DARK}"));
+    let images = render_all([ground, plane, parallel, coil], SIZE);
+    let sees = |y: f64| camera.sees(DVec3::Y * y);
+    for (number, image) in images[..2].iter().enumerate() {
+        for y in [0.2, -0.4, -1.0] {
+            assert!(near(image, sees(y), is_red), "image {number} at {y}");
+        }
+        assert!(!near(image, sees(-1.8), is_red), "image {number}: it is as long as it would be");
+    }
+    let across = DVec3::new(0.0, 10.0, -3.0).normalize();
+    for y in [0.2, -0.4, -1.0] {
+        let place = DVec2::new(80.0, 50.0 - y * across.y * 20.0);
+        assert!(near(&images[2], place, is_red), "by parallel rays, at {y}");
+    }
+    // Each row of the picture from the ball to the tip has some red of the shaft.
+    let spot = images[3].spot(is_red).0;
+    let (top, end) = (sees(1.3).y as usize, sees(-0.3).y as usize);
+    for row in top..end {
+        assert!(spot.iter().any(|pixel| pixel.y as usize == row), "row {row}");
+    }
+}
+
+/// In space, nothing but the stars is there to be mirrored: the night side of a planet is dark.
+#[test]
+fn the_night_side_of_a_planet_is_dark() {
+    let planet = "environment = 'space'\n[body.planet]\nshape.sphere.radius = 2\nmaterial.color = 'white'\n\
+        [light.sun]\nsun.direction = [0, 0, 1]\n";
+    let image = render(&script(&format!("{planet}{}", front().toml())), SIZE);
+    for x in [-1.2, -0.6, 0.0, 0.6, 1.2] {
+        for y in [-1.2, -0.6, 0.0, 0.6, 1.2] {
+            let [r, g, b] = image.at(front().sees(DVec3::new(x, y, 0.0)));
+            assert!(r.max(g).max(b) < 16, "{x} {y}: {:?}", [r, g, b]);
+        }
+    }
+}
+
+/// Their finish counts, too: in the dark, axes shine.
+#[test]
+fn axes_are_seen_by_night() {
+    let ball = "environment = 'space'\n[body.b]\nshape.sphere.radius = 0.2\naxes.length = 2\n\
+        [light.sun]\nsun.direction = [0, 0, 1]\n";
+    let image = render(&script(&format!("{ball}{}", front().toml())), SIZE);
+    let [x, y] = [DVec3::X, DVec3::Y].map(|axis| front().sees(axis * 1.2));
+    assert!(near(&image, x, |[r, g, _]| r > 120 && g < 80), "x is red");
+    assert!(near(&image, y, |[r, g, _]| g > 80 && r < 70), "y is green");
+}
+
+/// POV-Ray warns of a union of a single object, which large letters would be.
+#[test]
+fn large_labels_and_a_single_line_are_parsed_without_a_word() {
+    let text = "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [0, -1, 0]\n\
+        [label.large]\ntext = 'large'\nsize = 0.3\n[grid]\nplane = 'wall'\nspacing = 100\n\
+        [camera]\nfollow = { body = 'ball', distance = 5 }\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.pov"), script(text)).unwrap();
+    run(folder.path(), &["+Iscene.pov", "+Oscene.png", "+W1280", "+H720", "+SR1", "+ER1", "-A"])
+        .nothing("large letters");
 }
 
 #[test]

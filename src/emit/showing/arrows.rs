@@ -7,7 +7,7 @@ use crate::simulate::{BodyFrame, Frame};
 
 /// Appends the arrows and axes of all bodies, whose names are given; those of a body stand together.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[String], style: Style) {
-    let mut arrows = plan.arrows(frame).into_iter().peekable();
+    let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
         while let Some(before) = arrows.next_if(|arrow| arrow.body <= its.body) {
             arrow(out, &before, names, style);
@@ -26,7 +26,7 @@ pub(super) fn write_ghost(
     names: &[String],
     style: Style,
 ) {
-    plan.ghost_arrows(frame, ghost).iter().for_each(|its| arrow(out, its, names, style));
+    plan.ghost_arrows_in_front(frame, ghost).iter().for_each(|its| arrow(out, its, names, style));
 }
 
 fn axes(out: &mut String, axes: &Axes, names: &[String], style: Style) {

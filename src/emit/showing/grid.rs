@@ -6,7 +6,12 @@ use crate::picture::Grid;
 
 /// The lines of a grid in POV-Ray's words.
 pub(super) fn lines(grid: &Grid, style: Style) -> String {
-    let mut out = "union { // grid\n".to_owned();
+    if grid.lines.is_empty() {
+        return String::new();
+    }
+    // POV-Ray warns of a union of a single object.
+    let kind = if grid.lines.len() > 1 { "union" } else { "object" };
+    let mut out = format!("{kind} {{ // grid\n");
     for line in &grid.lines {
         out.push_str("  cylinder { ");
         style.point(&mut out, line.from);

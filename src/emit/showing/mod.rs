@@ -16,7 +16,7 @@ use self::trails::Trails;
 use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
-use crate::picture::{Plan, has_texts};
+use crate::picture::{Plan, Written, has_texts};
 use crate::scene::{Color, ForceKind, Scene};
 use crate::simulate::Frame;
 
@@ -93,18 +93,17 @@ impl Showing {
         }
         self.trails.write(out, plan, frame, names);
         arrows::write(out, plan, frame, names, style);
-        if let Some(screen) = plan.screen(frame) {
+        if let Some(Written { screen, grid, bar, labels }) = plan.written(frame) {
             out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));
             match plan.camera_moves() {
                 true => out.extend(plan.grid(frame).map(|grid| grid::lines(&grid, style))),
                 false => out.push_str(&self.grid),
             }
-            let numbers = plan.numbers(frame, &screen);
-            numbers.iter().for_each(|text| texts::write(out, text, style));
-            if let Some((bar, number)) = plan.bar_on(&screen) {
+            grid.iter().for_each(|text| texts::write(out, text, style));
+            if let Some((bar, number)) = bar {
                 texts::write_bar(out, &bar, &number, style);
             }
-            plan.labels(frame, &screen, &numbers).iter().for_each(|text| texts::write(out, text, style));
+            labels.iter().for_each(|text| texts::write(out, text, style));
         }
     }
 }

@@ -122,7 +122,7 @@ static FOLLOW: TableSpec = TableSpec {
             .also(&["name", "target"]),
         Key::new("distance", Number(Bound::Positive), "How far the camera stays from it")
             .unit("m")
-            .default("as far as `location` is from it at the start, or 12 times its size")
+            .default("as far as `location` is from it at the start, or 11 times its width")
             .also(&["offset"]),
         Key::new(
             "lag",

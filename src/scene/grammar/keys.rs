@@ -345,7 +345,7 @@ static GROUND: TableSpec = TableSpec {
             .also(&["y", "level"]),
         Key::new("tile", POSITIVE, "The edge of one tile")
             .unit("m")
-            .default("1, 2 or 5 times a power of ten, after the size of the motion"),
+            .default("the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, after the size of the motion"),
     ],
 };
 

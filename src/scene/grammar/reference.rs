@@ -173,6 +173,9 @@ Between `${` and `}` stands a [formula](#formulas) over the numbers of the momen
 decimals, `.2e` two decimals and a power of ten; without it, three digits are shown. A label beside a body knows the numbers of
 that body also without its name, and they come before variables of the same name; one with `ghosts` knows these and `t` alone.
 
+A label beside a body is left out of pictures that do not show the body. Where it would lie on an arrow or on another
+label, it stands on another side, or farther away. Numbers of a grid that a label would cover are left out.
+
 | name | meaning |
 | --- | --- |
 ";

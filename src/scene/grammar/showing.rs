@@ -12,7 +12,7 @@ static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 // What is shown of a body beside itself.
 
 pub(super) const ARROWS: Key =
-    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows for its velocity, its acceleration and the force on it")
+    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it; parallel ones stand side by side")
         .also(&["vectors", "arrow"]);
 pub(super) const AXES: Key =
     Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which turn with it")

@@ -1,0 +1,264 @@
+//! The grid: lines with numbers, to read lengths from.
+
+mod numbers;
+
+use glam::DVec3;
+
+use self::numbers::{Axis, Beside, Number};
+use super::camera::Placed;
+use super::length::{prefixed, value};
+use super::stage::Scenery;
+use super::text::least_height;
+use crate::scene::{self, Color, GridPlane, Preset, Scene};
+use crate::simulate::{Bounds, anchors};
+
+pub(super) use self::numbers::Ruled;
+
+/// The height of the numbers of rulers, as part of the picture's height.
+pub(super) const SIZE: f64 = 0.045;
+/// The least height of these numbers, pixels.
+pub(super) const LEAST_PIXELS: f64 = 11.0;
+/// The most lines of the grid, each way.
+const MOST_LINES: f64 = 400.0;
+/// The radius of a line, in strokes.
+const RADIUS: f64 = 0.22;
+/// The least radius of a line, pixels: thinner lines break up.
+const LEAST_RADIUS: f64 = 0.6;
+/// Of a grid that a moving camera sees, so much is drawn each way from what it looks at, in widths of the picture.
+const WINDOW: f64 = 1.5;
+
+/// The lines of a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// The lines, first those that are crossed by the axis to the right.
+    pub lines: Vec<Line>,
+    /// Their color.
+    pub color: Color,
+}
+
+/// A line of a grid: a cylinder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Where it begins, m.
+    pub from: DVec3,
+    /// Where it ends, m.
+    pub to: DVec3,
+    /// Half its width, m.
+    pub radius: f64,
+}
+
+/// What is known of a grid before its picture: where its plane is, and how far it extends.
+#[derive(Clone, Debug)]
+pub(super) struct Ruler {
+    plane: GridPlane,
+    /// The distance between lines, m.
+    spacing: f64,
+    /// The spacing that the scene gives, m, if it would make too many lines.
+    too_fine: Option<f64>,
+    /// The numbers of the first and the last lines along x, y and z, counted from the origin.
+    low: DVec3,
+    high: DVec3,
+    /// The height of the ground, m.
+    ground: f64,
+    /// The height below which the ground hides an upright grid, m.
+    floor: f64,
+    /// The height of a line of text on the screen.
+    height: f64,
+    /// The width of the image, pixels, and its height as part of its width.
+    pixels: f64,
+    aspect: f64,
+    color: Color,
+    ink: Color,
+}
+
+impl Ruler {
+    /// The grid of a scene. A camera that moves sees only a width of `part` (m) of it.
+    pub(super) fn new(
+        scene: &Scene,
+        grid: scene::Grid,
+        scenery: &Scenery,
+        part: Option<f64>,
+        ink: Color,
+    ) -> Ruler {
+        let (width, height) = (f64::from(scene.output.width), f64::from(scene.output.height));
+        let given = grid.spacing.unwrap_or(scenery.spacing);
+        let whole = (scenery.bounds.max - scenery.bounds.min).max_element();
+        let extent = part.map_or(whole, |part| (2.0 * WINDOW * part).min(whole));
+        let coarser = |spacing: &f64| extent / spacing <= MOST_LINES - 4.0;
+        let spacing = if coarser(&given) {
+            given
+        } else {
+            let decade = super::decimal_step(extent / (MOST_LINES - 4.0));
+            [2.0, 5.0, 10.0].map(|digit| digit * decade).into_iter().find(coarser).unwrap_or(scenery.spacing)
+        };
+        let point = |point: DVec3| Bounds { min: point, max: point };
+        let bounds = anchors(scene).map(point).fold(scenery.bounds, Bounds::union);
+        let (low, high) = extent_in_lines(grid.plane, bounds, spacing);
+        let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
+        let is_hidden = has_ground && scenery.ground < (high.y - 0.5) * spacing;
+        Ruler {
+            plane: grid.plane,
+            spacing,
+            too_fine: (spacing > given).then_some(given),
+            low,
+            high,
+            ground: scenery.ground,
+            floor: if is_hidden { scenery.ground } else { f64::NEG_INFINITY },
+            height: (SIZE * 2.0 * height / width).max(least_height(LEAST_PIXELS, scene.output)),
+            pixels: width,
+            aspect: height / width,
+            color: line_color(scene),
+            ink,
+        }
+    }
+
+    /// The spacing that the scene gives and the one that is drawn, m, if the first would make too many lines.
+    pub(super) fn too_fine(&self) -> Option<(f64, f64)> {
+        self.too_fine.map(|given| (given, self.spacing))
+    }
+
+    /// The box around the whole grid, m.
+    pub(super) fn bounds(&self) -> Bounds {
+        let (first, second, place) = self.axes();
+        let corner =
+            |number: DVec3| place + (first * number.dot(first) + second * number.dot(second)) * self.spacing;
+        let (min, max) = (self.above_floor(corner(self.low)), corner(self.high));
+        Bounds { min, max }
+    }
+
+    /// A point of an upright grid, or the one above it where the ground ends.
+    fn above_floor(&self, point: DVec3) -> DVec3 {
+        match self.plane {
+            GridPlane::Ground => point,
+            GridPlane::Wall => point.with_y(point.y.max(self.floor)),
+        }
+    }
+
+    /// The axes that span the plane, and a point of it. It stays where it is along the third: just before ground or air.
+    fn axes(&self) -> (DVec3, DVec3, DVec3) {
+        match self.plane {
+            GridPlane::Ground => (DVec3::X, DVec3::Z, DVec3::Y * self.ground),
+            GridPlane::Wall => (DVec3::X, DVec3::Y, DVec3::Z * (self.low.z * self.spacing)),
+        }
+    }
+
+    /// The whole grid with its numbers, in a picture where a stroke is so wide and the camera sees a width of `view`, m.
+    pub(super) fn whole(&self, stroke: f64, view: f64) -> Ruled {
+        self.rule(self.low, self.high, stroke, view)
+    }
+
+    /// The part of the grid that a camera sees that moves: its lines leave the picture on all sides.
+    pub(super) fn seen_by(&self, camera: &Placed, stroke: f64, view: f64) -> Ruled {
+        let (first, second, place) = self.axes();
+        let (look_at, normal) = (camera.look_at(), first.cross(second));
+        let screen = camera.screen();
+        let window = DVec3::splat(WINDOW * view);
+        let far = 2.0 * window.x + camera.location().distance(look_at);
+        // The points of the plane in the corners of the picture; where it is not to be seen there, some that are far.
+        let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]].map(|[x, y]| {
+            let (origin, direction) = screen.ray(x, y * self.aspect);
+            let away = (place - origin).dot(normal) / direction.dot(normal);
+            origin + direction * if away > 0.0 { away.min(far) } else { far }
+        });
+        let min = corners.into_iter().fold(corners[0], DVec3::min).max(look_at - window);
+        let max = corners.into_iter().fold(corners[0], DVec3::max).min(look_at + window);
+        let spanned = first + second;
+        let rest = DVec3::ONE - spanned;
+        let low = (min / self.spacing).floor().clamp(self.low, self.high) * spanned + self.low * rest;
+        let high = (max / self.spacing).ceil().clamp(self.low, self.high) * spanned + self.high * rest;
+        self.rule(low, high.max(low), stroke, view)
+    }
+
+    fn rule(&self, low: DVec3, high: DVec3, stroke: f64, view: f64) -> Ruled {
+        let spacing = self.spacing;
+        let (first, second, place) = self.axes();
+        let radius = (RADIUS * stroke).max(LEAST_RADIUS * view / self.pixels);
+        let corner = |a: f64, b: f64| self.above_floor(place + (first * a + second * b) * spacing);
+        let (a0, a1) = (low.dot(first), high.dot(first));
+        let (b0, b1) = (low.dot(second), high.dot(second));
+        let is_hidden = |b: f64| self.plane == GridPlane::Wall && b * spacing < self.floor;
+        // Numbers stand at the near end of lines, or at the lower one.
+        let (near, far) = if self.plane == GridPlane::Ground { (b1, b0) } else { (b0, b1) };
+        let across = marks(a0, a1).map(|a| (a, [corner(a, near), corner(a, far)]));
+        let along = marks(b0, b1).filter(|b| !is_hidden(*b)).map(|b| (b, [corner(a0, b), corner(a1, b)]));
+        let (across, along): (Vec<_>, Vec<_>) = (across.collect(), along.collect());
+        // The lines through 0 are the axes.
+        let width = |number: f64| if number == 0.0 { 2.2 * radius } else { radius };
+        let lines = across.iter().chain(&along).filter(|(_, [from, to])| from != to);
+        let lines = lines.map(|(number, [from, to])| Line { from: *from, to: *to, radius: width(*number) });
+        let (unit, symbol) = prefixed(spacing);
+        let numbers = |lines: &[(f64, [DVec3; 2])]| {
+            let number = |&(line, ends): &(f64, _)| Number { line, says: value(line * spacing / unit), ends };
+            lines.iter().map(number).collect::<Vec<_>>()
+        };
+        // From the first to the last that is named: on the ground, the last is the far one.
+        let (beside, name, along) = match self.plane {
+            GridPlane::Ground => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
+            GridPlane::Wall => (Beside::Left, "y", along.clone()),
+        };
+        let axis = |beside, name, lines: &[_]| Axis {
+            beside,
+            numbers: numbers(lines),
+            title: format!("{name} ({symbol})"),
+        };
+        Ruled {
+            axes: [axis(Beside::Below, "x", &across), axis(beside, name, &along)],
+            grid: Grid { lines: lines.collect(), color: self.color },
+            height: self.height,
+            aspect: self.aspect,
+            ink: self.ink,
+        }
+    }
+}
+
+/// The first and the last lines of a grid that is drawn where everything takes place.
+fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DVec3) {
+    // Bodies may reach out a little; and where 0 is near, it is there.
+    let (low, high) = ((bounds.min / spacing + 0.3).floor(), (bounds.max / spacing - 0.3).ceil());
+    let mut low = DVec3::select(low.cmpgt(DVec3::ZERO) & low.cmple(0.3 * high), DVec3::ZERO, low);
+    let mut high = high.max(low + 1.0);
+    // Motion along a line needs a plane to be seen in: at least 0.4 times as wide as long.
+    let widen = |low: &mut f64, high: &mut f64, least: f64| {
+        let lacking = (least - (*high - *low)).max(0.0);
+        *low -= (lacking / 2.0).ceil();
+        *high += (lacking / 2.0).ceil();
+    };
+    let [x, y, z] = (high - low).to_array();
+    match plane {
+        GridPlane::Ground => {
+            widen(&mut low.x, &mut high.x, 0.4 * z);
+            widen(&mut low.z, &mut high.z, 0.4 * x);
+        }
+        GridPlane::Wall => widen(&mut low.x, &mut high.x, 0.4 * y),
+    }
+    (low, high)
+}
+
+/// The whole numbers from `low` to `high`. They are counted: far from 0, the sum of a number and 1 is that number.
+fn marks(low: f64, high: f64) -> impl Iterator<Item = f64> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what is too large is cut")]
+    let last = (high - low).min(MOST_LINES) as u32;
+    (0..=last).map(move |number| low + f64::from(number)).filter(move |mark| *mark <= high)
+}
+
+/// The color of the lines of a grid: seen, and no more than that.
+fn line_color(scene: &Scene) -> Color {
+    match scene.environment.preset {
+        _ if scene.environment.is_dark() => Color([0.34, 0.38, 0.43]),
+        Preset::Paper | Preset::Studio => Color([0.70, 0.75, 0.80]),
+        _ => Color([0.36, 0.40, 0.46]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_end_also_where_one_more_makes_no_difference() {
+        assert_eq!(marks(-1.0, 2.0).collect::<Vec<_>>(), [-1.0, 0.0, 1.0, 2.0]);
+        assert!(marks(1e16, 1e16 + 2.0).count() <= 3);
+        assert!(marks(1e300, 2e300).count() <= 402);
+        assert_eq!(marks(f64::NAN, 1.0).count(), 0);
+    }
+}

@@ -1,0 +1,229 @@
+//! The numbers of a grid and the names of its axes, on the plane before a camera.
+
+use glam::DVec3;
+
+use super::super::room::{Rectangle, Room};
+use super::super::screen::Screen;
+use super::super::text::{MARGIN, Text, Vertical, width};
+use super::Grid;
+use crate::scene::Color;
+
+/// Numbers stand at every line, every second, every fifth and so on, as there is room.
+const STEPS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
+/// A line whose end is outside the picture is looked at in so many points for one that is in it.
+const POINTS: u32 = 48;
+
+/// A grid with its numbers.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Ruled {
+    pub(super) grid: Grid,
+    /// The numbers of both axes.
+    pub(super) axes: [Axis; 2],
+    /// The height of a line of text on the screen.
+    pub(super) height: f64,
+    /// The height of the picture, as part of its width.
+    pub(super) aspect: f64,
+    pub(super) ink: Color,
+}
+
+/// The numbers along one edge of a grid.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    /// On which side of their points they stand.
+    pub(super) beside: Beside,
+    /// One for each line that begins at the edge, in order.
+    pub(super) numbers: Vec<Number>,
+    /// The name of the axis.
+    pub(super) title: String,
+}
+
+/// The number of a line.
+#[derive(Clone, Debug)]
+pub(super) struct Number {
+    /// Which line it is, counted from the origin.
+    pub(super) line: f64,
+    pub(super) says: String,
+    /// The ends of the line, m; at the first, the number stands.
+    pub(super) ends: [DVec3; 2],
+}
+
+/// Where numbers stand beside the ends of their lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Beside {
+    /// Below, and the name of the axis behind the last.
+    Below,
+    /// To the left, and the name of the axis above the last.
+    Left,
+    /// To the left, and the name of the axis in the place of the last.
+    LeftOnGround,
+}
+
+/// What is written at a grid.
+pub(in super::super) struct Written {
+    pub(in super::super) titles: Vec<Text<'static>>,
+    pub(in super::super) numbers: Vec<Text<'static>>,
+}
+
+/// A text that has its place, without its color: its base line begins at x; how wide it is.
+struct Placed {
+    line: f64,
+    says: String,
+    x: f64,
+    y: f64,
+    align: f64,
+    middle: f64,
+    half: f64,
+}
+
+impl Ruled {
+    /// The lines.
+    pub(in super::super) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The numbers and names as they stand on the plane before a camera, where there is room for them.
+    pub(in super::super) fn written(&self, screen: &Screen, room: &Room) -> Written {
+        let lines = self.axes.each_ref().map(|axis| self.in_picture(axis, screen));
+        let mut titles: Vec<Placed> = Vec::new();
+        for (axis, numbers) in self.axes.iter().zip(&lines) {
+            titles.extend(self.title(axis, numbers, &titles, room));
+        }
+        let mut placed: Vec<Placed> = Vec::new();
+        for numbers in lines {
+            let every = |step: f64| numbers.iter().filter(move |number| number.line % step == 0.0);
+            let fits = |step: &f64| {
+                let texts: Vec<&Placed> = every(*step).collect();
+                !texts.windows(2).any(|pair| self.collide(pair[0], pair[1]))
+            };
+            let step = STEPS.into_iter().find(fits).unwrap_or(f64::INFINITY);
+            for number in numbers.into_iter().filter(|number| number.line % step == 0.0) {
+                let others = titles.iter().chain(&placed);
+                if others.into_iter().all(|other| !self.collide(other, &number))
+                    && room.is_free(self.area(&number))
+                {
+                    placed.push(number);
+                }
+            }
+        }
+        let texts = |placed: Vec<Placed>| placed.into_iter().map(|text| self.text(text)).collect();
+        Written { titles: texts(titles), numbers: texts(placed) }
+    }
+
+    /// The numbers of an axis that are in the picture.
+    fn in_picture(&self, axis: &Axis, screen: &Screen) -> Vec<Placed> {
+        axis.numbers.iter().filter_map(|number| self.place(number, axis.beside, screen)).collect()
+    }
+
+    /// The place of a number: at the end of its line, or where the line comes into the picture if its end is outside.
+    fn place(&self, number: &Number, beside: Beside, screen: &Screen) -> Option<Placed> {
+        let [begin, end] = number.ends;
+        let at = |part: f64| self.at(number, begin.lerp(end, part), beside, screen);
+        let is_in = |part: f64| at(part).filter(|text| self.is_inside(text));
+        if let Some(text) = is_in(0.0) {
+            return Some(text);
+        }
+        let part = |point: u32| f64::from(point) / f64::from(POINTS);
+        let first = (1..=POINTS).find(|point| is_in(part(*point)).is_some())?;
+        let (mut outside, mut inside) = (part(first - 1), part(first));
+        for _ in 0..24 {
+            let middle = (outside + inside) / 2.0;
+            if is_in(middle).is_some() { inside = middle } else { outside = middle }
+        }
+        // Numbers come in over their own edge of the picture alone, or both axes would stand at one edge.
+        let over = at(outside);
+        let own = over.is_none_or(|text| match beside {
+            Beside::Below => text.y <= self.lowest(),
+            Beside::Left | Beside::LeftOnGround => text.middle - text.half <= self.leftmost(),
+        });
+        at(inside).filter(|_| own)
+    }
+
+    fn at(&self, number: &Number, point: DVec3, beside: Beside, screen: &Screen) -> Option<Placed> {
+        let spot = screen.spot(point)?;
+        let height = self.height;
+        let (x, y, align) = match beside {
+            Beside::Below => (spot.x, spot.y - height, 0.5),
+            Beside::Left | Beside::LeftOnGround => (spot.x - 0.4 * height, spot.y - 0.3 * height, 1.0),
+        };
+        Some(self.aligned(number.line, number.says.clone(), (x, y), align))
+    }
+
+    fn aligned(&self, line: f64, says: String, (x, y): (f64, f64), align: f64) -> Placed {
+        let half = width(&says, self.height) / 2.0;
+        Placed { line, says, x, y, align, middle: x + (1.0 - 2.0 * align) * half, half }
+    }
+
+    /// The name of an axis: behind or above its last number, or in the place of one, as near to the last as there is
+    /// room.
+    fn title(&self, axis: &Axis, numbers: &[Placed], others: &[Placed], room: &Room) -> Option<Placed> {
+        let height = self.height;
+        let title = |(x, y): (f64, f64), align: f64| {
+            self.kept_inside(self.aligned(f64::NAN, axis.title.clone(), (x, y), align))
+        };
+        let last = numbers.last()?;
+        let beyond = match axis.beside {
+            Beside::Below => Some(title((last.middle + last.half + 0.6 * height, last.y), 0.0)),
+            Beside::Left => Some(title((last.x + 0.4 * height, last.y + height), 0.5)),
+            Beside::LeftOnGround => None,
+        };
+        // In the place of the only one, it would leave no number.
+        let behind = title((last.middle + last.half + 0.6 * height, last.y), 0.0);
+        let behind = (numbers.len() == 1 && axis.beside != Beside::Below).then_some(behind);
+        let instead = numbers.iter().skip(1).rev().map(|number| match axis.beside {
+            Beside::Below => title((number.middle, number.y), 0.5),
+            Beside::Left | Beside::LeftOnGround => title((number.x, number.y), 1.0),
+        });
+        let is_free = |text: &Placed| {
+            room.is_free(self.area(text)) && !others.iter().any(|other| self.collide(other, text))
+        };
+        // Moved to the edge, it would stand on the number that it is to stand behind.
+        let beyond = beyond.filter(|text| !self.collide(text, last));
+        beyond.into_iter().chain(behind).chain(instead).find(is_free)
+    }
+
+    /// A name that would leave the picture, moved to its edge.
+    fn kept_inside(&self, text: Placed) -> Placed {
+        let room = (1.0 - MARGIN / 2.0 - text.half).max(0.0);
+        let high = self.aspect - self.height;
+        let middle = text.middle.min(room).max(-room);
+        let y = text.y.min(high.max(0.0)).max(0.3 * self.height - self.aspect);
+        Placed { x: text.x + middle - text.middle, middle, y, ..text }
+    }
+
+    /// The lowest base line in the picture.
+    fn lowest(&self) -> f64 {
+        0.3 * self.height - self.aspect
+    }
+
+    /// Where the leftmost number may begin.
+    fn leftmost(&self) -> f64 {
+        0.2 * self.height - 1.0
+    }
+
+    fn is_inside(&self, text: &Placed) -> bool {
+        let above = text.y + 0.7 * self.height;
+        text.middle - text.half > self.leftmost()
+            && text.middle + text.half < -self.leftmost()
+            && text.y > self.lowest()
+            && above < self.aspect
+    }
+
+    fn collide(&self, a: &Placed, b: &Placed) -> bool {
+        (a.middle - b.middle).abs() < a.half + b.half + 0.3 * self.height
+            && (a.y - b.y).abs() < 0.9 * self.height
+    }
+
+    fn area(&self, text: &Placed) -> Rectangle {
+        Rectangle {
+            left: text.middle - text.half,
+            right: text.middle + text.half,
+            bottom: text.y - 0.25 * self.height,
+            top: text.y + 0.75 * self.height,
+        }
+    }
+
+    fn text(&self, Placed { says, x, y, align, .. }: Placed) -> Text<'static> {
+        let y = Vertical::Middle(y);
+        Text { name: "grid", says: says.into(), x, y, height: self.height, align, color: self.ink }
+    }
+}

@@ -1,0 +1,125 @@
+//! Arrows that the ground or a spring would hide, moved towards the camera: so they look the same, and are seen.
+
+use glam::DVec3;
+
+use super::arrows::{Arrow, HEAD};
+use super::camera::{Lens, Placed};
+use super::coils::Coil;
+use super::stage::Stage;
+use crate::dynamics::Shape;
+use crate::scene::Scene;
+
+/// No arrow is moved nearer to the camera than this part of its distance.
+const NEAREST: f64 = 0.02;
+
+/// What may hide arrows in all frames: the ground, and the planes among the bodies.
+#[derive(Clone, Debug)]
+pub(super) struct Planes {
+    /// A point of each, m, and its normal.
+    planes: Vec<(DVec3, DVec3)>,
+}
+
+impl Planes {
+    pub(super) fn new(scene: &Scene, stage: &Stage) -> Planes {
+        let ground = stage.ground.map(|ground| (DVec3::Y * ground.height, DVec3::Y));
+        let bodies = scene.bodies.iter().filter_map(|body| match body.shape {
+            Shape::Plane { normal } => Some((body.start.location, body.start.orientation * normal)),
+            _ => None,
+        });
+        Planes { planes: ground.into_iter().chain(bodies).collect() }
+    }
+
+    /// Moves an arrow in front of the planes that it goes into on its way away from the camera.
+    pub(super) fn lift(&self, arrow: &mut Arrow, camera: &Placed) {
+        for (point, normal) in &self.planes {
+            let above = |place: DVec3| (place - *point).dot(*normal);
+            let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
+            // Of the shaft and of the head, so much is to be above the plane.
+            let lacking = (HEAD * shaft - above(arrow.to)).max(shaft - above(arrow.from));
+            let eye = above(camera.location());
+            if lacking > 0.0 && eye > 0.0 {
+                let lowest = above(arrow.to).min(above(arrow.from));
+                let part = (eye - lowest - lacking) / (eye - lowest);
+                *arrow = match camera.lens() {
+                    Lens::Perspective { .. } => nearer(arrow, camera, part),
+                    Lens::Orthographic { .. } => {
+                        let towards = camera.towards(arrow.to);
+                        shifted(arrow, towards * (lacking / towards.dot(*normal).max(0.05)))
+                    }
+                };
+            }
+        }
+    }
+}
+
+/// Moves an arrow in front of a coil in which it lies.
+pub(super) fn lift_from_coil(arrow: &mut Arrow, coil: &Coil<'_>, camera: &Placed) {
+    let Some([begin, end]) = coil.span else { return };
+    let reach = coil.radius + coil.wire + HEAD * arrow.radius;
+    if distance([arrow.from, arrow.to], [begin, end]) >= reach {
+        return;
+    }
+    let middle = (arrow.from + arrow.to) / 2.0;
+    // Along a coil that is seen from its end, the way out of it would be long.
+    let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
+    let way = 1.5 * reach / across;
+    *arrow = match camera.lens() {
+        Lens::Perspective { .. } => nearer(arrow, camera, 1.0 - way / camera.location().distance(middle)),
+        Lens::Orthographic { .. } => shifted(arrow, camera.towards(middle) * way),
+    };
+}
+
+/// The same arrow at a part of its distance from the camera, which sees no difference.
+fn nearer(arrow: &Arrow, camera: &Placed, part: f64) -> Arrow {
+    let eye = camera.location();
+    let part = part.clamp(NEAREST, 1.0);
+    let place = |point: DVec3| eye + (point - eye) * part;
+    Arrow { from: place(arrow.from), to: place(arrow.to), radius: arrow.radius * part, ..*arrow }
+}
+
+fn shifted(arrow: &Arrow, way: DVec3) -> Arrow {
+    Arrow { from: arrow.from + way, to: arrow.to + way, ..*arrow }
+}
+
+/// The distance between two segments.
+///
+/// Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.9.
+fn distance([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
+    let (one, other, between) = (b - a, d - c, a - c);
+    let (ones, others) = (one.length_squared(), other.length_squared());
+    let (on_one, on_other, cross) = (one.dot(between), other.dot(between), one.dot(other));
+    let slope = ones * others - cross * cross;
+    let along = |part: f64| if ones > 0.0 { (part / ones).clamp(0.0, 1.0) } else { 0.0 };
+    let mut s = match slope > 0.0 {
+        true => ((cross * on_other - on_one * others) / slope).clamp(0.0, 1.0),
+        false => along(-on_one),
+    };
+    let t = if others > 0.0 { (cross * s + on_other) / others } else { 0.0 };
+    let clamped = t.clamp(0.0, 1.0);
+    if t != clamped {
+        s = along(cross * clamped - on_one);
+    }
+    (a + one * s).distance(c + other * clamped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn segments_are_as_far_apart_as_their_nearest_points() {
+        let segment = |from: [f64; 3], to: [f64; 3]| [from, to].map(DVec3::from_array);
+        let unit = segment([0.0; 3], [1.0, 0.0, 0.0]);
+        for (other, far) in [
+            (segment([0.5, 1.0, -1.0], [0.5, 1.0, 1.0]), 1.0),
+            (segment([2.0, 0.0, 0.0], [3.0, 0.0, 0.0]), 1.0),
+            (segment([-1.0, 0.3, 0.0], [2.0, 0.3, 0.0]), 0.3),
+            (segment([0.4, 0.0, 0.0], [0.6, 0.0, 0.0]), 0.0),
+            (segment([4.0, 4.0, 0.0], [4.0, 9.0, 0.0]), 5.0),
+            (segment([0.5, 2.0, 0.0], [0.5, 2.0, 0.0]), 2.0),
+        ] {
+            assert!((distance(unit, other) - far).abs() < 1e-12, "{other:?}");
+            assert!((distance(other, unit) - far).abs() < 1e-12, "{other:?}");
+        }
+    }
+}
