@@ -14,7 +14,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use glam::DVec3;
-use jabuka::dynamics::{Dynamics, Gravitation, RigidBody, Shape, World};
+use jabuka::dynamics::{Gravitation, RigidBody, Shape, World};
 
 const STARS: usize = 10_000;
 const ROUNDS: usize = 7;

@@ -1,81 +1,51 @@
 //! A scene on its way to scripts.
 
+use crate::cache::Cache;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::picture::{Largest, Plan, number};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{
-    Branch, Crossing, Diverged, Frame, Frames, Overlap, Selection, Survey, survey_watched,
+    Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError, Survey,
 };
 
-/// A scene whose run has been looked over, so that its frames can be made into scripts.
+/// A scene whose run has been simulated, so that its frames can be made into scripts.
 pub struct Run<'a> {
-    scene: &'a Scene,
-    survey: Survey,
+    recorded: Recorded<'a>,
     emitter: Emitter,
     /// The name of the view; none for the main camera.
     view: Option<String>,
     /// How the camera blurs what moves.
     shutter: Option<Shutter>,
-    /// Counts the interactions of pairs whenever the run is simulated.
-    effort: Effort,
-}
-
-/// A frame, and the run from there on if the camera blurs what moves.
-pub(crate) struct Exposed<'a> {
-    pub(crate) frame: Frame,
-    /// The shutter, and the branch of the run on which it is open.
-    pub(crate) shutter: Option<(Shutter, Branch<'a>)>,
 }
 
 /// Why a run cannot be drawn.
 #[derive(Clone, Debug)]
 pub enum RunError {
-    /// It left the numbers.
-    Diverged(Diverged),
+    /// It cannot be simulated, or read.
+    Simulate(SimulateError),
     /// A script cannot be written.
     Emit(EmitError),
 }
 
 impl<'a> Run<'a> {
-    /// Simulates the scene once, to learn where it takes place.
+    /// Simulates the scene. What the recording takes beyond a megabyte goes to a file without a name.
     ///
     /// # Errors
-    /// Where the run leaves the numbers, or a template fails.
+    /// Where the run leaves the numbers, there is no room for its recording, or a template fails.
     pub fn new(scene: &'a Scene) -> Result<Run<'a>, RunError> {
-        Run::new_seeing(scene, |_| {})
+        Run::of(Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})?)
     }
 
-    /// Like [`Run::new`]; `seen` is told of every frame that has been simulated.
-    ///
-    /// # Errors
-    /// Where the run leaves the numbers, or a template fails.
-    pub fn new_seeing(scene: &'a Scene, seen: impl FnMut(&Frame)) -> Result<Run<'a>, RunError> {
-        Run::new_watched(scene, &Effort::default(), seen)
-    }
-
-    /// Like [`Run::new_seeing`]; now and later, the interactions of pairs are counted, which tells how far a long frame is.
-    ///
-    /// # Errors
-    /// Where the run leaves the numbers, or a template fails.
-    pub fn new_watched(
-        scene: &'a Scene,
-        effort: &Effort,
-        seen: impl FnMut(&Frame),
-    ) -> Result<Run<'a>, RunError> {
-        let run = Run::surveyed(scene, survey_watched(scene, effort, seen)?)?;
-        Ok(Run { effort: effort.clone(), ..run })
-    }
-
-    /// The run of a scene that somebody has looked over.
+    /// The run of a scene that somebody has simulated.
     ///
     /// # Errors
     /// Where a template fails.
-    pub fn surveyed(scene: &'a Scene, survey: Survey) -> Result<Run<'a>, RunError> {
-        let emitter = Emitter::new(scene, &scene.camera, &survey)?;
-        let (shutter, effort) = (scene.camera.shutter, Effort::default());
-        Ok(Run { scene, survey, emitter, view: None, shutter, effort })
+    pub fn of(recorded: Recorded<'a>) -> Result<Run<'a>, RunError> {
+        let scene = recorded.scene();
+        let emitter = Emitter::new(scene, &scene.camera, recorded.survey())?;
+        Ok(Run { recorded, emitter, view: None, shutter: scene.camera.shutter })
     }
 
     /// The same run, seen by one of the scene's other cameras.
@@ -83,15 +53,19 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Where a template fails.
     pub fn seen_by(&self, view: &View) -> Result<Run<'a>, RunError> {
-        let emitter = Emitter::new(self.scene, &view.camera, &self.survey)?;
-        let survey = self.survey.clone();
+        let emitter = Emitter::new(self.scene(), &view.camera, self.survey())?;
         let (view, shutter) = (Some(view.name.clone()), view.camera.shutter);
-        Ok(Run { scene: self.scene, survey, emitter, view, shutter, effort: self.effort.clone() })
+        Ok(Run { recorded: self.recorded.clone(), emitter, view, shutter })
     }
 
     /// The scene.
     pub fn scene(&self) -> &'a Scene {
-        self.scene
+        self.recorded.scene()
+    }
+
+    /// The run as it was simulated.
+    pub fn recorded(&self) -> &Recorded<'a> {
+        &self.recorded
     }
 
     /// The name of the view that sees the run; none for the main camera.
@@ -106,7 +80,7 @@ impl<'a> Run<'a> {
 
     /// What is known of the run as a whole.
     pub fn survey(&self) -> &Survey {
-        &self.survey
+        self.recorded.survey()
     }
 
     /// What turns frames into scripts.
@@ -117,51 +91,44 @@ impl<'a> Run<'a> {
     /// What was noticed of the run and is no error: bodies that go through planes or each other, bodies too thin or too small to be
     /// seen, an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
-        let crossings = self.survey.crossings.iter().map(crossing);
+        let crossings = self.survey().crossings.iter().map(crossing);
         let thin = self.emitter.too_thin().map(|body| {
             let message =
                 format!("POV-Ray may not draw `{body}`: it is too thin against the size of the whole scene");
             Diagnostic::warning(Code::TooThin, message).help("look from nearer, or make the body larger")
         });
         let plan = self.emitter.plan();
-        let small = plan.too_small().map(|largest| too_small(self.scene, plan, largest));
+        let small = plan.too_small().map(|largest| too_small(self.scene(), plan, largest));
         let grid = plan.too_fine_grid().map(grid_too_fine);
         crossings
-            .chain(self.survey.overlap.iter().map(overlap))
+            .chain(self.survey().overlap.iter().map(overlap))
             .chain(thin)
             .chain(small)
             .chain(grid)
-            .chain(drift(self.survey.drift))
+            .chain(drift(self.survey().drift))
             .collect()
     }
 
     /// The frames, from the initial state.
     pub fn frames(&self) -> Frames<'a> {
-        Frames::watched(self.scene, &self.effort)
+        self.recorded.frames()
     }
 
-    /// The selected frames; the simulation ends with the last of them.
+    /// The selected frames, and with each the run from there on as far as shutters are open.
     pub(crate) fn selected(
         &self,
         selection: &Selection,
-    ) -> impl Iterator<Item = Result<Exposed<'a>, Diverged>> + Send {
-        let mut frames = self.frames();
-        let mut left = selection.last().map_or(0, |last| last.saturating_add(1));
-        let shutter = self.shutter;
-        let next = move || {
-            loop {
-                left = left.checked_sub(1)?;
-                match frames.next()? {
-                    Ok(frame) if !selection.contains(frame.index) => {}
-                    Ok(frame) => {
-                        let shutter = shutter.map(|shutter| (shutter, frames.branch()));
-                        return Some(Ok(Exposed { frame, shutter }));
-                    }
-                    Err(error) => return Some(Err(error)),
-                }
-            }
-        };
-        std::iter::from_fn(next)
+    ) -> impl Iterator<Item = Result<Exposure, SimulateError>> + Send + use<'a> {
+        self.recorded.exposures(selection)
+    }
+
+    /// The moment of any time (s), and the run from there on as far as the shutter is open. A time before the beginning is the
+    /// beginning, one after the end is the end.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or its recording cannot be read.
+    pub fn at(&self, time: f64) -> Result<Exposure, RunError> {
+        Ok(self.recorded.at(time)?)
     }
 
     /// The script of a frame.
@@ -172,16 +139,16 @@ impl<'a> Run<'a> {
         self.emitter.script(frame)
     }
 
-    /// The script of an image with motion blur: the moments from the frame on, by which [`Branch::at`] or
-    /// [`Frames::branch`] gives the run. None if the camera does not blur what moves.
+    /// The script of an image with motion blur, which begins with an exposure's frame. None if the camera does not blur what
+    /// moves.
     ///
     /// # Errors
-    /// Where a body is at a place that cannot be written, a template fails, or the run leaves the numbers.
-    pub fn shutter_script(&self, frame: &Frame, branch: Branch<'_>) -> Result<Option<String>, RunError> {
+    /// Where a body is at a place that cannot be written, a template fails, or the recording cannot be read.
+    pub fn shutter_script(&self, exposure: &Exposure) -> Result<Option<String>, RunError> {
         let Some(shutter) = self.shutter else { return Ok(None) };
         let mut script = String::new();
-        let moments = branch.moments(shutter).map(|moment| moment.map_err(RunError::from));
-        self.emitter.shutter::<RunError>(frame, shutter, moments, |piece| {
+        let moments = exposure.moments(shutter).map(|moment| moment.map_err(RunError::from));
+        self.emitter.shutter::<RunError>(&exposure.frame, shutter, moments, |piece| {
             script.push_str(piece);
             Ok(())
         })?;
@@ -255,9 +222,9 @@ fn overlap(overlap: &Overlap) -> Diagnostic {
     Diagnostic::warning(Code::Overlap, message).help("bodies do not collide yet: they go through each other")
 }
 
-impl From<Diverged> for RunError {
-    fn from(error: Diverged) -> RunError {
-        RunError::Diverged(error)
+impl From<SimulateError> for RunError {
+    fn from(error: SimulateError) -> RunError {
+        RunError::Simulate(error)
     }
 }
 
@@ -270,7 +237,7 @@ impl From<EmitError> for RunError {
 impl std::fmt::Display for RunError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            RunError::Diverged(error) => error.fmt(f),
+            RunError::Simulate(error) => error.fmt(f),
             RunError::Emit(error) => error.fmt(f),
         }
     }

@@ -12,7 +12,7 @@ use jabuka::simulate::Selection;
 
 use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
-use super::run_arguments::{RunArguments, seen, survey};
+use super::run_arguments::{self, RunArguments, seen};
 use super::video_arguments::VideoArguments;
 use super::{Failure, say, shell};
 
@@ -104,8 +104,9 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
         let kept = Kept::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
         say::spared(kept.and_then(|kept| kept.and_folder(&folder.join("images"))))?;
     }
+    let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
-    let run = survey(&scene, &progress)?;
+    let run = run_arguments::run(&scene, &cache, &progress)?;
     progress.phase("writing");
     for (view, folder) in &cameras {
         let seen = seen(&run, *view, &progress)?;

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use jabuka::cache::Cache;
 use jabuka::diagnostic::{Report, visible_path};
-use jabuka::output::OutputError;
 use jabuka::scene::Options;
+use jabuka::simulate::Moments;
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;
+use super::run_arguments::simulated;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, say};
 
@@ -38,10 +40,11 @@ enum Format {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let options = arguments.of_scene.options(&[]);
+    let cache = arguments.run.then(|| arguments.of_scene.cache()).transpose()?;
     let mut errors = 0;
     let mut json = Vec::new();
     for path in &arguments.scene {
-        let report = look_at(path, &options, arguments.run);
+        let report = look_at(path, &options, cache.as_ref());
         errors += report.errors();
         match arguments.format {
             Format::Text => show(path, &report),
@@ -60,20 +63,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// What is said of a scene, and of its run where that is asked for.
-fn look_at(path: &Path, options: &Options, simulate: bool) -> Report {
+fn look_at(path: &Path, options: &Options, cache: Option<&Cache>) -> Report {
     let scene = match Scene::from_path_with(path, options) {
         Ok(scene) => scene,
         Err(report) => return report,
     };
     let mut report = scene.warnings.clone();
-    if simulate {
+    if let Some(cache) = cache {
         let progress = Progress::of_run(&scene, 0);
-        progress.phase("simulating");
-        let run = Run::new_watched(&scene, progress.effort(), |_| progress.step());
+        let run = simulated(&scene, cache, Moments::of(&scene), &progress);
+        let run = run.and_then(|recorded| Ok(Run::of(recorded)?));
         progress.finish();
         report.diagnostics.extend(match run {
             Ok(run) => run.warnings(),
-            Err(error) => OutputError::from(error).report().diagnostics,
+            Err(error) => error.report().diagnostics,
         });
     }
     report

@@ -10,7 +10,7 @@ use jabuka::overwrite::Kept;
 use jabuka::simulate::Selection;
 
 use super::progress::Progress;
-use super::run_arguments::{RunArguments, seen, survey};
+use super::run_arguments::{self, RunArguments, seen};
 use super::{Failure, say, summary};
 
 /// Compile a scene into POV-Ray scripts, one per frame
@@ -41,8 +41,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             say::spared(Kept::of_scene(&scene).and_folder(folder))?;
         }
     }
+    let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
-    let run = survey(&scene, &progress)?;
+    let run = run_arguments::run(&scene, &cache, &progress)?;
     progress.phase(if arguments.check { "comparing" } else { "writing" });
     let mut result = Ok(());
     for (view, folder) in &cameras {

@@ -8,9 +8,10 @@ use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
 use jabuka::export::{ExportError, Exported, write_csv, write_glb};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
-use jabuka::scene::Scene;
-use jabuka::simulate::Selection;
+use jabuka::simulate::{Moments, Recorded, Selection};
 
+use super::progress::Progress;
+use super::run_arguments;
 use super::scene_arguments::SceneArguments;
 use super::summary::{bytes as size, two_digits};
 use super::{Failure, say};
@@ -64,9 +65,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let message = format!("there is no frame {last}: the frames of this scene are 0 to {}", frames - 1);
         return Err(Failure::Usage(message));
     }
+    let cache = arguments.of_scene.cache()?;
+    let progress = Progress::of_run(&scene, 0);
+    let run = run_arguments::simulated(&scene, &cache, Moments::of(&scene), &progress);
+    let run = run.map_err(|error| progress.failed(&error))?;
+    progress.finish();
     let done = match format {
-        Format::Csv => table(arguments, &scene, &selection),
-        Format::Glb => model(arguments, &scene, &selection),
+        Format::Csv => table(arguments, &run, &selection),
+        Format::Glb => model(arguments, &run, &selection),
     };
     let text = done.map_err(|error| {
         say::report(&report(error, &arguments.output));
@@ -76,16 +82,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn table(arguments: &Arguments, scene: &Scene, selection: &Selection) -> Result<String, ExportError> {
-    let rows = whole(&arguments.output, |file| write_csv(scene, selection, file))?;
+fn table(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
+    let rows = whole(&arguments.output, |file| write_csv(run, selection, file))?;
+    let scene = run.scene();
     let times = selection.count_within(scene.simulation.frames());
     Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))
 }
 
-fn model(arguments: &Arguments, scene: &Scene, selection: &Selection) -> Result<String, ExportError> {
+fn model(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
     let Exported { frames, bytes, faster } =
-        whole(&arguments.output, |file| write_glb(scene, selection, file))?;
-    let bodies = match scene.bodies.len() {
+        whole(&arguments.output, |file| write_glb(run, selection, file))?;
+    let bodies = match run.scene().bodies.len() {
         1 => "1 body".to_owned(),
         bodies => format!("{bodies} bodies"),
     };
@@ -101,7 +108,7 @@ fn model(arguments: &Arguments, scene: &Scene, selection: &Selection) -> Result<
 fn report(error: ExportError, path: &Path) -> Report {
     match error {
         ExportError::Io(error) => OutputError::Io(path.to_owned(), error).report(),
-        ExportError::Diverged(error) => OutputError::from(error).report(),
+        ExportError::Simulate(error) => OutputError::from(error).report(),
         ExportError::TooLarge(_) | ExportError::OutOfRange { .. } => {
             let message = format!("`{}`: {error}", visible_path(path));
             let diagnostic = Diagnostic::error(Code::CannotExport, message);

@@ -2,6 +2,7 @@
 
 mod average;
 mod batch;
+mod cache;
 mod check;
 mod compile;
 mod completions;
@@ -61,6 +62,7 @@ enum Command {
     Export(export::Arguments),
     Status(status::Arguments),
     Check(check::Arguments),
+    Cache(cache::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
     List(list::Arguments),
@@ -106,6 +108,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Status(arguments) => status::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Cache(arguments) => cache::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::List(arguments) => list::run(&arguments),

@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let preview = Preview {
         scene: arguments.scene.clone(),
         options: arguments.of_scene.options(&[]),
+        cache: arguments.of_scene.cache()?,
         port: arguments.port,
         povray: arguments.povray.clone(),
         launcher: Launcher::of_this_program(),

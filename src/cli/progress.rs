@@ -148,7 +148,7 @@ impl Shared {
 
 /// What a step moves the bar by: the interactions that its frame takes, or 1 where there are none.
 fn weight(labour: Labour, step: usize) -> u64 {
-    if labour.is_empty() { 1 } else { labour.of_frame(step).max(1) }
+    if labour.is_empty() { 1 } else { labour.of_step(step).max(1) }
 }
 
 /// Looks now and then how far a bar is, until that is finished.

@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use jabuka::Scene;
+use jabuka::cache::Cache;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder, OutputError};
 use jabuka::overwrite::Kept;
@@ -93,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::spared(kept.and_then(|kept| products.replace_nothing_of(&kept)))?;
     }
     products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
-    let folders = write_scripts(&scene, &selection, &cameras)?;
+    let folders = write_scripts(&scene, &arguments.scene.cache()?, &selection, &cameras)?;
     // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
     let mut result = Ok(());
     for (folder, drift) in &folders {
@@ -109,6 +110,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// and how right the run is.
 fn write_scripts(
     scene: &Scene,
+    cache: &Cache,
     selection: &Selection,
     cameras: &[(Option<&View>, PathBuf)],
 ) -> Result<Vec<(Folder, String)>, Failure> {
@@ -124,7 +126,7 @@ fn write_scripts(
         } else {
             let first = match run.take() {
                 Some(run) => run,
-                None => run_arguments::survey(scene, &progress)?,
+                None => run_arguments::run(scene, cache, &progress)?,
             };
             let first = run.insert(first);
             let seen = run_arguments::seen(first, *view, &progress)?;

@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use jabuka::cache::Cache;
+use jabuka::output::OutputError;
 use jabuka::sandbox::Confinement;
 use jabuka::scene::{Override, View};
-use jabuka::simulate::Selection;
+use jabuka::simulate::{Moments, Recorded, Selection};
 use jabuka::{Run, Scene};
 
 use super::Failure;
@@ -38,6 +40,11 @@ impl RunArguments {
     /// Whether something is said that only a scene has, not a folder of scripts.
     pub(super) fn change_the_scene(&self) -> bool {
         self.scene.change_the_scene() || !self.view.is_empty()
+    }
+
+    /// Where runs are kept between commands.
+    pub(super) fn cache(&self) -> Result<Cache, Failure> {
+        self.scene.cache()
     }
 
     /// Whether the scene is trusted.
@@ -102,11 +109,22 @@ pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure
     })
 }
 
-/// Simulates a scene once, with a step of the progress for every frame.
-pub(super) fn survey<'a>(scene: &'a Scene, progress: &Progress) -> Result<Run<'a>, Failure> {
+/// Simulates a scene once, with a step of the progress for every frame, or finds its run among those that are kept.
+pub(super) fn simulated<'a>(
+    scene: &'a Scene,
+    cache: &Cache,
+    moments: Moments,
+    progress: &Progress,
+) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
-    Run::new_watched(scene, progress.effort(), |_| progress.step())
-        .map_err(|error| progress.failed(&error.into()))
+    Ok(cache.run(scene, moments, progress.effort(), |_| progress.step())?)
+}
+
+/// The run of a scene, as its main camera sees it.
+pub(super) fn run<'a>(scene: &'a Scene, cache: &Cache, progress: &Progress) -> Result<Run<'a>, Failure> {
+    let recorded = simulated(scene, cache, Moments::of(scene), progress);
+    let run = recorded.and_then(|recorded| Ok(Run::of(recorded)?));
+    run.map_err(|error| progress.failed(&error))
 }
 
 /// The run as a camera sees it; `None` is the main one, by which it was made.

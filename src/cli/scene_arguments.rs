@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use jabuka::Scene;
+use jabuka::cache::Cache;
 use jabuka::diagnostic::Report;
 use jabuka::sandbox::{Confinement, Launcher};
 use jabuka::scene::{Options, Override};
@@ -22,6 +23,9 @@ pub(super) struct SceneArguments {
     /// files, and write in the folder of the scene and in those of the results
     #[arg(long)]
     trust: bool,
+    /// Simulate the scene anew, and keep nothing of the run: see `jabuka cache`
+    #[arg(long)]
+    no_cache: bool,
 }
 
 fn parse_set(argument: &str) -> Result<Override, String> {
@@ -52,6 +56,11 @@ impl SceneArguments {
     /// Whether anything is changed.
     pub(super) fn change_the_scene(&self) -> bool {
         !self.set.is_empty() || self.templates.is_some()
+    }
+
+    /// Where runs are kept between commands.
+    pub(super) fn cache(&self) -> Result<Cache, Failure> {
+        if self.no_cache { Ok(Cache::none()) } else { Cache::of_user().map_err(Failure::Usage) }
     }
 
     /// Whether the scene is trusted.

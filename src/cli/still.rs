@@ -8,6 +8,7 @@ use jabuka::output::{self, Folder};
 use jabuka::overwrite::Kept;
 use jabuka::render::{Images, Job, Sequence};
 use jabuka::scene::View;
+use jabuka::simulate::Moments;
 use jabuka::{Run, Scene};
 
 use super::picture_arguments::PictureArguments;
@@ -101,7 +102,11 @@ fn write_script(
     folder: &Path,
 ) -> Result<Folder, Failure> {
     let progress = Progress::of_run(scene, 0);
-    let run = run_arguments::survey(scene, &progress)?;
+    let cache = arguments.of_scene.cache()?;
+    let moments = Moments::of(scene).with(arguments.time);
+    let recorded = run_arguments::simulated(scene, &cache, moments, &progress);
+    let run =
+        recorded.and_then(|recorded| Ok(Run::of(recorded)?)).map_err(|error| progress.failed(&error))?;
     let seen = run_arguments::seen(&run, view, &progress)?;
     let run: &Run<'_> = seen.as_ref().unwrap_or(&run);
     let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;

@@ -103,6 +103,7 @@ codes! {
     NoFolder = "no-folder",
     NoImages = "no-images",
     NoPovray = "no-povray",
+    NoRecording = "no-recording",
     NoScripts = "no-scripts",
     NoTemplates = "no-templates",
     NotAFile = "not-a-file",

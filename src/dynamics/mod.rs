@@ -11,7 +11,9 @@
 //! | what acts at one moment | [`Force`], [`Loads`] |
 //! | motion that is given | [`Motion`], its [`Pose`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
+//! | what happens within a step | [`DenseOutput`] |
 //! | energy, momentum, drift | [`Balance`] |
+//! | all that can be known of one moment | [`Snapshot`] |
 //! | all of it together, with a clock | [`World`] |
 //! | what the rest of the program sees of it | [`Dynamics`] |
 //!
@@ -22,7 +24,7 @@
 //!
 //! ```
 //! use glam::DVec3;
-//! use jabuka::dynamics::{Dynamics, Method, RigidBody, Shape, World};
+//! use jabuka::dynamics::{Method, RigidBody, Shape, World};
 //!
 //! // The start is known to this closure, not to the world.
 //! let build = || {
@@ -72,6 +74,7 @@ mod loads;
 mod model;
 mod motion;
 mod shape;
+mod snapshot;
 mod state;
 mod track;
 mod world;
@@ -80,16 +83,16 @@ pub use body::{BodyId, RigidBody};
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
-pub use integrator::{Integrator, METHODS, Method};
+pub use integrator::{DenseOutput, Integrator, METHODS, Method, Step};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Motion, Pose};
 pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
-pub use state::State;
+pub(crate) use snapshot::find;
+pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
+pub use state::{Accounts, State};
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
-
-use glam::{DQuat, DVec3};
 
 /// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
 pub trait Dynamics: Send {
@@ -98,25 +101,20 @@ pub trait Dynamics: Send {
 
     /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
     /// not later (or not finite) leaves all as it is.
-    fn advance_to(&mut self, t: f64);
+    ///
+    /// `see` is told of each of `moments`, which are times (s) in rising order, later than now and not later than `t`.
+    /// Looking at moments changes nothing: the run is the same bit for bit without them.
+    ///
+    /// # Errors
+    /// Where the run cannot go on, or a moment is not finite.
+    fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown>;
 
-    /// The bodies as they are now.
-    fn state(&self) -> &State;
+    /// The present moment. The drift is relative to the largest kinetic energy among all snapshots so far.
+    ///
+    /// # Errors
+    /// Where a body is at no finite place.
+    fn snapshot(&mut self) -> Result<Snapshot, Breakdown>;
 
-    /// The orientation of a body (`world_from_body`).
-    fn orientation(&self, body: BodyId) -> DQuat;
-
-    /// The angular velocity of a body, world axes, rad/s.
-    fn angular_velocity(&self, body: BodyId) -> DVec3;
-
-    /// The resultant force on each body at this moment, N. It is evaluated for this call, zero for bodies that do not
-    /// move, and m a for those whose motion is given.
-    fn forces(&mut self) -> &[DVec3];
-
-    /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
-    /// measurements so far.
-    fn balance(&mut self) -> Balance;
-
-    /// A copy that goes on exactly as the original would. Advancing it never touches the original.
-    fn branch(&self) -> Box<dyn Dynamics>;
+    /// The number of steps that have been made.
+    fn steps(&self) -> u64;
 }

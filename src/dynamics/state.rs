@@ -13,13 +13,44 @@ pub struct State {
     /// Velocities of the centres of mass, m/s.
     pub velocity: Vec<DVec3>,
     /// Orientations of the principal axes of inertia, unit quaternions; but for compounds, `world_from_body`.
-    /// [`Dynamics::orientation`](super::Dynamics::orientation) is that of any body.
+    /// [`World::orientation`](super::World::orientation) is that of any body.
     pub orientation: Vec<DQuat>,
     /// Angular momenta, each about the body's own centre of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,
-    /// Work done so far by the forces without a potential, J: the integral of their power over time. It is
-    /// integrated along with the motion, so that energy can be balanced to the accuracy of the method.
+    /// The energy that has been brought in so far by what has no potential. It is integrated along with the motion, so
+    /// that energy can be balanced to the accuracy of the method.
+    pub accounts: Accounts,
+}
+
+/// The energy brought in so far by each thing that has no potential, J; negative where energy was taken out. To add an
+/// account, add a field here, in [`NAMES`](Self::NAMES), and in the two functions below.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accounts {
+    /// The work of the forces without a potential: the integral of their power over time.
     pub work: f64,
+}
+
+impl Accounts {
+    /// The names of the accounts, in the order of [`to_array`](Self::to_array).
+    pub const NAMES: [&'static str; 1] = ["work"];
+
+    /// All entries, in the order of the names.
+    #[must_use]
+    pub fn to_array(self) -> [f64; Self::NAMES.len()] {
+        [self.work]
+    }
+
+    /// The accounts with these entries, in the order of the names.
+    #[must_use]
+    pub fn from_array([work]: [f64; Self::NAMES.len()]) -> Self {
+        Self { work }
+    }
+
+    /// The sum of all, J.
+    #[must_use]
+    pub fn total(self) -> f64 {
+        self.to_array().into_iter().sum()
+    }
 }
 
 impl State {
@@ -44,7 +75,7 @@ impl Clone for State {
             velocity: self.velocity.clone(),
             orientation: self.orientation.clone(),
             angular_momentum: self.angular_momentum.clone(),
-            work: self.work,
+            accounts: self.accounts,
         }
     }
 
@@ -53,6 +84,6 @@ impl Clone for State {
         self.velocity.clone_from(&source.velocity);
         self.orientation.clone_from(&source.orientation);
         self.angular_momentum.clone_from(&source.angular_momentum);
-        self.work = source.work;
+        self.accounts = source.accounts;
     }
 }

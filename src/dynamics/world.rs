@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::{
-    Balance, BodyId, Dynamics, Effort, EnergyLedger, Force, Integrator, Loads, METHODS, Method, Model,
-    Motion, RigidBody, State,
+    Balance, BodyId, BodySnapshot, Breakdown, Dynamics, Effort, EnergyLedger, Force, Integrator, Loads,
+    METHODS, Method, Model, Motion, RigidBody, Snapshot, State, Step,
 };
 
 /// The longest timestep where none is set, s.
@@ -18,8 +18,8 @@ const STEP_TOLERANCE: f64 = 1e-9;
 
 /// Bodies that move under forces, advanced by one of the [`METHODS`].
 ///
-/// A world does not know where it began: to reset it, build it again. A clone is a branch: it goes on exactly as the
-/// original would, and neither touches the other.
+/// A world does not know where it began: to reset it, build it again. A clone goes on exactly as the original would, and
+/// neither touches the other.
 #[derive(Clone)]
 pub struct World {
     time: f64,
@@ -29,8 +29,11 @@ pub struct World {
     method: &'static Method,
     integrator: Box<dyn Integrator>,
     ledger: EnergyLedger,
-    /// Room for [`forces`](Dynamics::forces).
+    steps: u64,
+    /// Room for the loads at one moment.
     loads: Loads,
+    /// Room for the state before a step that is looked into.
+    before: State,
 }
 
 impl World {
@@ -46,7 +49,9 @@ impl World {
             method,
             integrator: (method.create)(),
             ledger: EnergyLedger::new(),
+            steps: 0,
             loads: Loads::default(),
+            before: State::default(),
         }
     }
 
@@ -107,13 +112,13 @@ impl World {
         self.method
     }
 
-    /// Sets the longest step that [`advance_to`](Dynamics::advance_to) may take, s. It must be positive; with
+    /// Sets the longest step that [`advance_to`](Self::advance_to) may take, s. It must be positive; with
     /// `f64::INFINITY` every call is one step.
     pub fn set_step(&mut self, step: f64) {
         self.step = step;
     }
 
-    /// The number of equal steps that [`advance_to`](Dynamics::advance_to) makes of an interval (s): the fewest that are not
+    /// The number of equal steps that [`advance_to`](Self::advance_to) makes of an interval (s): the fewest that are not
     /// longer than the longest allowed; at least 1, at most `u32::MAX`.
     #[must_use]
     pub fn steps_within(&self, interval: f64) -> u32 {
@@ -132,6 +137,86 @@ impl World {
         self.ledger.close(&self.model, t, &self.state);
         self.integrator.advance(&self.model, t, dt, &mut self.state);
         self.model.place(t + dt, &mut self.state);
+        self.steps += 1;
+    }
+
+    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
+    /// not later (or not finite) leaves all as it is.
+    pub fn advance_to(&mut self, t: f64) {
+        self.advance_seeing(t, &[], &mut |_| {});
+    }
+
+    fn advance_seeing(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let interval = t - self.time;
+        if !(interval > 0.0 && interval.is_finite()) {
+            return;
+        }
+        let start = self.time;
+        let steps = self.steps_within(interval);
+        let dt = interval / f64::from(steps);
+        let mut left = moments;
+        for k in 0..steps {
+            // Not start + dt + dt + …: rounding errors would add up.
+            let begin = start + f64::from(k) * dt;
+            let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
+            let (within, later) = left.split_at(left.partition_point(|&moment| moment <= end));
+            left = later;
+            if within.is_empty() {
+                self.step_from(begin, dt);
+                continue;
+            }
+            self.before.clone_from(&self.state);
+            self.step_from(begin, dt);
+            self.look_within(begin, dt, within, see);
+        }
+        self.time = t;
+        // Exactly there, and not where the sum of the steps has it.
+        self.model.place(t, &mut self.state);
+    }
+
+    /// Looks at some moments of the step that was made last.
+    fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let Self { model, state, integrator, ledger, loads, before, .. } = self;
+        let step = Step { model, start, duration, before, after: state };
+        let dense = integrator.dense(step);
+        let mut within = State::default();
+        for &time in moments {
+            dense.at(time, &mut within);
+            let balance = ledger.peek(model, time, &within);
+            see(picture(model, time, &within, balance, loads));
+        }
+    }
+
+    /// The time reached, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The bodies as they are now.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The angular velocity of a body, world axes, rad/s.
+    #[must_use]
+    pub fn angular_velocity(&self, body: BodyId) -> DVec3 {
+        self.model.angular_velocity(body.index(), &self.state)
+    }
+
+    /// The resultant force on each body at this moment, N. It is evaluated for this call, zero for bodies that do not
+    /// move, and m a for those whose motion is given.
+    pub fn forces(&mut self) -> &[DVec3] {
+        self.model.evaluate(self.time, &self.state, &mut self.loads);
+        self.model.guide(self.time, &mut self.loads);
+        &self.loads.force
+    }
+
+    /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
+    /// measurements so far.
+    pub fn balance(&mut self) -> Balance {
+        self.ledger.measure(&self.model, self.time, &self.state)
     }
 
     /// From now on, the interactions of pairs are counted there.
@@ -172,9 +257,7 @@ impl World {
     /// The orientation of a body (`world_from_body`).
     #[must_use]
     pub fn orientation(&self, body: BodyId) -> DQuat {
-        let orientation = self.state.orientation[body.index()];
-        let axes = self.model.principal_axes()[body.index()];
-        if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
+        world_from_body(&self.model, &self.state, body.index())
     }
 
     /// A body as it is now.
@@ -208,48 +291,45 @@ impl Dynamics for World {
         self.time
     }
 
-    fn advance_to(&mut self, t: f64) {
-        let interval = t - self.time;
-        if !(interval > 0.0 && interval.is_finite()) {
-            return;
-        }
-        let start = self.time;
-        let steps = self.steps_within(interval);
-        let dt = interval / f64::from(steps);
-        for k in 0..steps {
-            // Not start + dt + dt + …: rounding errors would add up.
-            self.step_from(start + f64::from(k) * dt, dt);
-        }
-        self.time = t;
-        // Exactly there, and not where the sum of the steps has it.
-        self.model.place(t, &mut self.state);
+    fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown> {
+        let mut broken = None;
+        self.advance_seeing(t, moments, &mut |moment| match moment.checked() {
+            Ok(moment) if broken.is_none() => see(moment),
+            Ok(_) => {}
+            Err(error) => broken = broken.or(Some(error)),
+        });
+        broken.map_or(Ok(()), Err)
     }
 
-    fn state(&self) -> &State {
-        &self.state
+    fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
+        let balance = self.balance();
+        picture(&self.model, self.time, &self.state, balance, &mut self.loads).checked()
     }
 
-    fn orientation(&self, body: BodyId) -> DQuat {
-        World::orientation(self, body)
+    fn steps(&self) -> u64 {
+        self.steps
     }
+}
 
-    fn angular_velocity(&self, body: BodyId) -> DVec3 {
-        self.model.angular_velocity(body.index(), &self.state)
-    }
+/// All that can be known of a moment; `loads` is room to work in.
+fn picture(model: &Model, time: f64, state: &State, balance: Balance, loads: &mut Loads) -> Snapshot {
+    model.evaluate(time, state, loads);
+    model.guide(time, loads);
+    let body = |id: usize| BodySnapshot {
+        id,
+        location: state.location[id],
+        orientation: world_from_body(model, state, id),
+        velocity: state.velocity[id],
+        angular_velocity: model.angular_velocity(id, state),
+        force: loads.force[id],
+    };
+    Snapshot { time, bodies: (0..state.len()).map(body).collect(), balance }
+}
 
-    fn forces(&mut self) -> &[DVec3] {
-        self.model.evaluate(self.time, &self.state, &mut self.loads);
-        self.model.guide(self.time, &mut self.loads);
-        &self.loads.force
-    }
-
-    fn balance(&mut self) -> Balance {
-        self.ledger.measure(&self.model, self.time, &self.state)
-    }
-
-    fn branch(&self) -> Box<dyn Dynamics> {
-        Box::new(self.clone())
-    }
+/// The orientation of a body; within a world it is that of the principal axes.
+fn world_from_body(model: &Model, state: &State, body: usize) -> DQuat {
+    let (orientation, axes) = (state.orientation[body], model.principal_axes()[body]);
+    if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
 }
 
 #[cfg(test)]

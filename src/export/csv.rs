@@ -5,8 +5,7 @@ use std::io::{self, Write};
 use csv::WriterBuilder;
 
 use super::ExportError;
-use crate::scene::Scene;
-use crate::simulate::{Frames, Selection};
+use crate::simulate::{Recorded, Selection};
 
 /// The columns, with their units.
 pub const HEADER: [&str; 15] = [
@@ -27,21 +26,18 @@ pub const HEADER: [&str; 15] = [
     "wz [rad/s]",
 ];
 
-/// Simulates a scene, and writes where all bodies are in some frames: centre of mass, orientation as a quaternion,
+/// Writes where all bodies are in some frames of a run: centre of mass, orientation as a quaternion,
 /// velocity, and angular velocity in world axes. Every number is the shortest that reads back as the same bits.
 ///
 /// # Errors
-/// Where it cannot be written, or the run leaves the numbers.
-pub fn write_csv(scene: &Scene, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
+/// Where it cannot be written, or the recording cannot be read.
+pub fn write_csv(run: &Recorded<'_>, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
+    let scene = run.scene();
     let mut csv = WriterBuilder::new().from_writer(out);
     csv.write_record(HEADER).map_err(io::Error::from)?;
-    let left = selection.last().map_or(0, |last| last.saturating_add(1));
     let mut rows = 0;
-    for frame in Frames::new(scene).take(left) {
-        let frame = frame?;
-        if !selection.contains(frame.index) {
-            continue;
-        }
+    for exposure in run.exposures(selection) {
+        let frame = exposure?.frame;
         for body in &frame.bodies {
             csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
             csv.write_field(&scene.bodies[body.id].name).map_err(io::Error::from)?;

@@ -2,15 +2,15 @@
 
 use std::{fmt, io};
 
-use crate::simulate::Diverged;
+use crate::simulate::SimulateError;
 
 /// Why a run cannot be exported.
 #[derive(Debug)]
 pub enum ExportError {
     /// It cannot be written.
     Io(io::Error),
-    /// The run leaves the numbers.
-    Diverged(Diverged),
+    /// The run cannot be simulated, or read.
+    Simulate(SimulateError),
     /// The file would be larger than its format allows: so many bytes, or more.
     TooLarge(u64),
     /// A body, a camera or a light is farther away than the numbers of the format reach.
@@ -39,7 +39,7 @@ impl fmt::Display for ExportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ExportError::Io(error) => error.fmt(f),
-            ExportError::Diverged(error) => error.fmt(f),
+            ExportError::Simulate(error) => error.fmt(f),
             ExportError::TooLarge(bytes) => {
                 write!(
                     f,
@@ -65,8 +65,8 @@ impl From<io::Error> for ExportError {
     }
 }
 
-impl From<Diverged> for ExportError {
-    fn from(error: Diverged) -> ExportError {
-        ExportError::Diverged(error)
+impl From<SimulateError> for ExportError {
+    fn from(error: SimulateError) -> ExportError {
+        ExportError::Simulate(error)
     }
 }

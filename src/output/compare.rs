@@ -12,8 +12,7 @@ use similar::{ChangeTag, TextDiff};
 use super::{OutputError, folder};
 use crate::Run;
 use crate::emit::{frame_name, shutter_name};
-use crate::run::Exposed;
-use crate::simulate::Selection;
+use crate::simulate::{Exposure, Selection};
 
 /// How the script of a frame differs from the one in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,16 +63,15 @@ pub fn compare(
     let frames = run.scene().simulation.frames();
     let trails = Mutex::new(HashSet::new());
     let check = |exposed| -> Result<Vec<Difference>, OutputError> {
-        let Exposed { frame, shutter } = exposed?;
-        let mut scripts = vec![(frame_name(frame.index, frames), run.script(&frame)?)];
+        let exposure: Exposure = exposed?;
+        let frame = &exposure.frame;
+        let mut scripts = vec![(frame_name(frame.index, frames), run.script(frame)?)];
         let is_seen =
             |name: &str| !trails.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
-        let files = run.emitter().trail_files(&frame, &is_seen);
+        let files = run.emitter().trail_files(frame, &is_seen);
         scripts.extend(files.into_iter().map(|file| (file.name, file.text)));
-        if let Some((_, branch)) = shutter {
-            let script = run.shutter_script(&frame, branch)?;
-            scripts.extend(script.map(|script| (shutter_name(frame.index, frames), script)));
-        }
+        let blurred = run.shutter_script(&exposure)?;
+        scripts.extend(blurred.map(|script| (shutter_name(frame.index, frames), script)));
         let mut found = Vec::new();
         for (name, script) in scripts {
             let kind = difference(&path.join(&name), &script)?;

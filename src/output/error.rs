@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
-use crate::simulate::Diverged;
+use crate::simulate::{Diverged, SimulateError};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub enum OutputError {
     Io(PathBuf, io::Error),
     /// The run left the numbers.
     Diverged(Diverged),
+    /// The recording of the run could not be written or read.
+    Recording(String),
     /// A script cannot be written.
     Emit(EmitError),
 }
@@ -47,6 +49,7 @@ impl OutputError {
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
             OutputError::Diverged(_) => Code::Diverged,
+            OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
             OutputError::Emit(_) => Code::CannotEmit,
         }
@@ -70,6 +73,9 @@ impl OutputError {
         match self {
             OutputError::Diverged(_) => Some(
                 "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+            ),
+            OutputError::Recording(_) => Some(
+                "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
             ),
             OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
             OutputError::Link(_) => Some("remove the link"),
@@ -114,6 +120,7 @@ impl fmt::Display for OutputError {
             }
             OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
             OutputError::Diverged(error) => error.fmt(f),
+            OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
             OutputError::Emit(error) => error.fmt(f),
         }
     }
@@ -121,9 +128,12 @@ impl fmt::Display for OutputError {
 
 impl std::error::Error for OutputError {}
 
-impl From<Diverged> for OutputError {
-    fn from(error: Diverged) -> OutputError {
-        OutputError::Diverged(error)
+impl From<SimulateError> for OutputError {
+    fn from(error: SimulateError) -> OutputError {
+        match error {
+            SimulateError::Diverged(error) => OutputError::Diverged(error),
+            SimulateError::Recording(message) => OutputError::Recording(message),
+        }
     }
 }
 
@@ -136,7 +146,7 @@ impl From<EmitError> for OutputError {
 impl From<RunError> for OutputError {
     fn from(error: RunError) -> OutputError {
         match error {
-            RunError::Diverged(error) => error.into(),
+            RunError::Simulate(error) => error.into(),
             RunError::Emit(error) => error.into(),
         }
     }

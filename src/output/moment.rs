@@ -6,7 +6,6 @@ use super::write::put_blurred;
 use super::{Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::frame_name;
-use crate::simulate::Branch;
 
 /// Writes the script of any moment of a run, time in s, in place of all scripts that are in the folder, and tells the
 /// number of the frame at or before it, by which the script is named.
@@ -16,9 +15,9 @@ use crate::simulate::Branch;
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
     // What cannot be made takes nothing away.
-    let mut branch = Branch::at(scene, time)?;
-    let frame = branch.frame()?;
-    let script = run.script(&frame)?;
+    let exposure = run.at(time)?;
+    let frame = &exposure.frame;
+    let script = run.script(frame)?;
 
     let head = Head::new(run);
     let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
@@ -37,10 +36,10 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
         put(None, name.to_owned(), &text)?;
     }
     let trails = TrailFiles::default();
-    trails.put(run, folder, &frame)?;
+    trails.put(run, folder, frame)?;
     put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &script)?;
     if let Some(shutter) = run.shutter() {
-        entries.push(put_blurred(run, folder, &frame, shutter, branch, &trails)?);
+        entries.push(put_blurred(run, folder, &exposure, shutter, &trails)?);
     }
     entries.extend(trails.into_entries());
     entries.extend(assets::copy(folder, &scene.povray.assets)?);

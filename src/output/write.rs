@@ -11,9 +11,8 @@ use super::trails::TrailFiles;
 use super::{Folder, OutputError, Tally, assets};
 use crate::Run;
 use crate::emit::{frame_name, shutter_name};
-use crate::run::Exposed;
 use crate::scene::Shutter;
-use crate::simulate::{Branch, Frame, Selection};
+use crate::simulate::{Exposure, Selection};
 
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,7 +90,7 @@ fn frames(entries: &[Entry]) -> usize {
     entries.chunk_by(|a, b| a.frame == b.frame).count()
 }
 
-/// Writes the selected scripts. The frames come one after another, as the simulation makes them; whichever thread is
+/// Writes the selected scripts. The frames come one after another, as the recording has them; whichever thread is
 /// free takes the next, so there are never more frames in memory than threads.
 fn scripts(
     run: &Run<'_>,
@@ -102,14 +101,15 @@ fn scripts(
 ) -> Result<Vec<Entry>, OutputError> {
     let frames = run.scene().simulation.frames();
     let put = |exposed| -> Result<Vec<Entry>, OutputError> {
-        let Exposed { frame, shutter } = exposed?;
-        let text = run.script(&frame)?;
-        trails.put(run, folder, &frame)?;
+        let exposure: Exposure = exposed?;
+        let frame = &exposure.frame;
+        let text = run.script(frame)?;
+        trails.put(run, folder, frame)?;
         let name = frame_name(frame.index, frames);
         folder.write(&name, text.as_bytes())?;
         let mut entries = vec![Entry::of(Some(frame.index), name, text.as_bytes())];
-        if let Some((shutter, branch)) = shutter {
-            entries.push(put_blurred(run, folder, &frame, shutter, branch, trails)?);
+        if let Some(shutter) = run.shutter() {
+            entries.push(put_blurred(run, folder, &exposure, shutter, trails)?);
         }
         done();
         Ok(entries)
@@ -122,14 +122,14 @@ fn scripts(
 pub(super) fn put_blurred(
     run: &Run<'_>,
     folder: &Folder,
-    frame: &Frame,
+    exposure: &Exposure,
     shutter: Shutter,
-    branch: Branch<'_>,
     trails: &TrailFiles,
 ) -> Result<Entry, OutputError> {
+    let frame = &exposure.frame;
     let name = shutter_name(frame.index, run.scene().simulation.frames());
     let mut digest = Tally::default();
-    let moments = branch.moments(shutter).map(|moment| {
+    let moments = exposure.moments(shutter).map(|moment| {
         let moment = moment?;
         trails.put(run, folder, &moment)?;
         Ok(moment)

@@ -3,7 +3,7 @@
 //! | what | where |
 //! | --- | --- |
 //! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
-//! | a run in the background, its frames on disk | `run`, `recording` |
+//! | a run in the background, its frames on disk | `run` |
 //! | a panic in either, as an error on the page | `panicked` |
 //! | what the page is told of it | `describe`, `shown`, `samples` |
 //! | the server, who may ask it, and why there is no answer | `routes`, `access`, `failed` |
@@ -13,9 +13,9 @@
 mod access;
 mod describe;
 mod failed;
+mod numbers;
 mod page;
 mod panicked;
-mod recording;
 mod render;
 mod routes;
 mod run;
@@ -38,6 +38,7 @@ use self::access::Token;
 use self::render::Renderer;
 use self::routes::Server;
 use self::session::Session;
+use crate::cache::Cache;
 use crate::diagnostic::Report;
 use crate::sandbox::{Confinement, Launcher};
 use crate::scene::Options;
@@ -49,6 +50,8 @@ pub struct Preview {
     pub scene: PathBuf,
     /// How it is read.
     pub options: Options,
+    /// Where runs are kept.
+    pub cache: Cache,
     /// The port; none: any that is free.
     pub port: Option<u16>,
     /// The program POV-Ray; none: that of the `PATH`.
@@ -77,7 +80,7 @@ impl Preview {
         if self.options.trust {
             confinement = confinement.trusting(Some(&self.scene), &[]);
         }
-        let session = Session::new(self.scene, self.options, said);
+        let session = Session::new(self.scene, self.options, self.cache, said);
         let renderer = Arc::new(Renderer::new(self.povray, confinement));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));

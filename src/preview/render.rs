@@ -14,6 +14,7 @@ use crate::diagnostic::{Code, Report};
 use crate::output::{self, Folder, OutputError};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
+use crate::simulate::Recorded;
 
 /// Renders one frame after another.
 pub(super) struct Renderer {
@@ -97,7 +98,8 @@ impl Renderer {
             return Err(Failed::Gone);
         }
         let scene = &run.scene;
-        let whole = Run::surveyed(scene, outcome.survey.clone()).map_err(OutputError::from)?;
+        let recorded = Recorded::of_parts(scene, run.recording(), outcome.survey.clone());
+        let whole = Run::of(recorded).map_err(OutputError::from)?;
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen.map_err(OutputError::from)?.unwrap_or(whole);

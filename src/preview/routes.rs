@@ -35,7 +35,7 @@ use super::page;
 use super::render::{Renderer, Wanted};
 use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
-use super::{describe, samples, shown};
+use super::{describe, numbers, samples, shown};
 
 /// What all answers are made from.
 #[derive(Clone)]
@@ -138,7 +138,7 @@ impl Frames {
 
     /// Those that have been simulated.
     fn recorded(&self, run: &Simulation) -> impl Iterator<Item = usize> + use<> {
-        (self.from..self.end(run).min(run.recording.recorded())).step_by(self.every.max(1))
+        (self.from..self.end(run).min(run.recorded())).step_by(self.every.max(1))
     }
 }
 
@@ -200,7 +200,7 @@ async fn poses(
     tokio::spawn(async move {
         let (mut frame, end) = (frames.from, frames.end(&run));
         while frame < end && !sender.is_closed() {
-            let (is_over, recorded) = (run.outcome().is_some(), run.recording.recorded().min(end));
+            let (is_over, recorded) = (run.outcome().is_some(), run.recorded().min(end));
             if frame >= recorded {
                 if is_over {
                     return;
@@ -208,13 +208,11 @@ async fn poses(
                 tokio::time::sleep(LOOK).await;
                 continue;
             }
-            let many = (TOGETHER / run.recording.pose_bytes().max(1)).max(1);
+            let many = (TOGETHER / numbers::pose_bytes(run.scene.bodies.len()).max(1)).max(1);
             let until = recorded.min(frame + many);
             let read = Arc::clone(&run);
             let bytes = tokio::task::spawn_blocking(move || {
-                let poses: std::io::Result<Vec<Vec<u8>>> =
-                    (frame..until).map(|frame| read.recording.poses(frame)).collect();
-                poses.map(|poses| Bytes::from(poses.concat()))
+                numbers::poses(&read.recording(), read.scene.bodies.len(), frame..until).map(Bytes::from)
             });
             let bytes = bytes.await.unwrap_or_else(|error| Err(std::io::Error::other(error)));
             if sender.send(bytes).await.is_err() {

@@ -9,11 +9,14 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::panicked::caught;
-use super::recording::Recording;
+use crate::cache::{Cache, Spill};
 use crate::diagnostic::{Code, Diagnostic, Report};
+use crate::dynamics::Effort;
 use crate::output::OutputError;
 use crate::picture::Plan;
-use crate::simulate::{Bounds, Diverged, Frame, Frames, Ghost, Lagging, Survey, Surveyor};
+use crate::simulate::{
+    Bounds, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, SimulateError, Survey,
+};
 use crate::{Run, RunError, Scene};
 
 /// The number of a run: no two runs of a server have the same, so what is known of one never passes for another's.
@@ -23,7 +26,10 @@ pub(super) type RunId = u64;
 pub(super) struct Simulation {
     pub(super) id: RunId,
     pub(super) scene: Arc<Scene>,
-    pub(super) recording: Recording,
+    /// What has been simulated so far.
+    recording: Mutex<Arc<Recording>>,
+    cache: Cache,
+    moments: Moments,
     cancelled: AtomicBool,
     past: Mutex<PastOfRun>,
     outcome: OnceLock<Result<Outcome, Report>>,
@@ -71,11 +77,16 @@ impl Simulation {
     pub(super) fn begin(
         id: RunId,
         scene: Arc<Scene>,
+        cache: Cache,
         pulse: impl Fn() + Send + 'static,
     ) -> io::Result<Arc<Simulation>> {
+        let moments = Moments::of(&scene);
+        let empty = Recording::new(scene.bodies.len(), Box::new(Spill::unnamed()));
         let run = Arc::new(Simulation {
             id,
-            recording: Recording::new(scene.bodies.len(), scene.simulation.frames())?,
+            recording: Mutex::new(Arc::new(empty)),
+            cache,
+            moments,
             scene,
             cancelled: AtomicBool::new(false),
             past: Mutex::default(),
@@ -89,6 +100,16 @@ impl Simulation {
             pulse();
         })?;
         Ok(run)
+    }
+
+    /// What has been simulated so far.
+    pub(super) fn recording(&self) -> Arc<Recording> {
+        Arc::clone(&self.recording.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// How many frames there are.
+    pub(super) fn recorded(&self) -> usize {
+        self.recording().frames()
     }
 
     /// Ends it early: nobody looks at it any more.
@@ -108,7 +129,7 @@ impl Simulation {
         Progress {
             id: self.id.to_string(),
             frames: self.scene.simulation.frames(),
-            recorded: self.recording.recorded(),
+            recorded: self.recorded(),
             settled: outcome.is_some(),
             problem: outcome.and_then(Result::err).map(|report| report.to_text(false)),
             warnings: warnings.filter(|text| !text.is_empty()),
@@ -117,7 +138,7 @@ impl Simulation {
 
     /// A frame that has been recorded, with as much of its past as pictures of the preview show.
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
-        let mut frame = self.recording.frame(index)?;
+        let mut frame = Frame::of(index, self.recording().read().frame(index)?);
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
         let slack = 1e-6 / self.scene.simulation.frame_rate;
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < frame.time - slack;
@@ -138,42 +159,79 @@ impl Simulation {
 
     fn simulate(&self, pulse: &dyn Fn()) -> Result<Outcome, Report> {
         let scene: &Scene = &self.scene;
-        let mut surveyor = Surveyor::new(scene);
-        let mut told = Instant::now();
-        for frame in Frames::new(scene) {
+        let recorded = match self.kept() {
+            Some(recorded) => recorded,
+            None => self.record(pulse)?,
+        };
+        self.remember(&recorded)?;
+        let survey = recorded.survey().clone();
+        let plan = |camera| Plan::new(scene, camera, &survey);
+        let views = scene.views.iter().map(|view| plan(&view.camera));
+        let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
+        let run = Run::of(recorded).map_err(failed)?;
+        let warnings = Report { diagnostics: run.warnings(), ..Report::default() };
+        Ok(Outcome { survey, plans, warnings })
+    }
+
+    /// The run that an earlier command has kept.
+    fn kept(&self) -> Option<Recorded<'_>> {
+        let recording = Arc::new(self.cache.find(&self.scene, &self.moments)?);
+        match Recorded::read(&self.scene, Arc::clone(&recording), |_| {}) {
+            Ok(recorded) => {
+                self.show(recording);
+                Some(recorded)
+            }
+            Err(_) => {
+                self.cache.forget(&self.scene, &self.moments);
+                None
+            }
+        }
+    }
+
+    fn show(&self, recording: Arc<Recording>) {
+        *self.recording.lock().unwrap_or_else(PoisonError::into_inner) = recording;
+    }
+
+    fn record(&self, pulse: &dyn Fn()) -> Result<Recorded<'_>, Report> {
+        let scene: &Scene = &self.scene;
+        let (begun, mut told) = (Instant::now(), Instant::now());
+        let spill = self.cache.spill(scene, &self.moments);
+        let mut recorder =
+            Recorder::new(scene, self.moments.clone(), &Effort::default(), Box::new(spill.clone()));
+        self.show(Arc::clone(recorder.recording()));
+        while recorder.advance().map_err(broken)?.is_some() {
             if self.cancelled.load(Ordering::Relaxed) {
                 return Err(Report::default());
             }
-            let mut frame = frame.map_err(diverged)?;
-            surveyor.see(&frame);
-            self.remember(&mut frame, surveyor.bounds());
-            self.recording.push(&frame).map_err(|error| no_room(&error))?;
+            self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds = recorder.bounds();
             if told.elapsed() > PULSE {
                 pulse();
                 told = Instant::now();
             }
         }
-        let survey = surveyor.finish();
-        let plan = |camera| Plan::new(scene, camera, &survey);
-        let views = scene.views.iter().map(|view| plan(&view.camera));
-        let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
-        let run = Run::surveyed(scene, survey.clone()).map_err(failed)?;
-        let warnings = Report { diagnostics: run.warnings(), ..Report::default() };
-        Ok(Outcome { survey, plans, warnings })
+        let recorded = recorder.finish().map_err(broken)?;
+        self.cache.keep(&spill, recorded.recording(), begun.elapsed());
+        Ok(recorded)
     }
 
-    fn remember(&self, frame: &mut Frame, bounds: Option<Bounds>) {
-        let mut past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
-        past.bounds = bounds;
-        past.ghosts = std::mem::take(&mut frame.past.ghosts);
-        let lagging = std::mem::take(&mut frame.past.lagging);
-        if !lagging.is_empty() {
-            past.lagging.push(lagging);
+    /// Collects what trails behind the frames, if anything does.
+    fn remember(&self, recorded: &Recorded<'_>) -> Result<(), Report> {
+        let mut collected = PastOfRun { bounds: recorded.survey().bounds(), ..PastOfRun::default() };
+        if Frames::recorded(&self.scene, recorded.recording()).remember_anything() {
+            for frame in recorded.frames() {
+                let frame = frame.map_err(broken)?;
+                collected.ghosts = frame.past.ghosts;
+                if !frame.past.lagging.is_empty() {
+                    collected.lagging.push(frame.past.lagging);
+                }
+            }
         }
+        *self.past.lock().unwrap_or_else(PoisonError::into_inner) = collected;
+        Ok(())
     }
 }
 
-fn diverged(error: Diverged) -> Report {
+fn broken(error: SimulateError) -> Report {
     OutputError::from(error).report()
 }
 

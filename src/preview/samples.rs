@@ -4,17 +4,19 @@ use std::io;
 
 use glam::DVec3;
 
-use super::recording::HEAD;
+use super::numbers::{put, put_balance};
 use super::run::Simulation;
 use crate::dynamics::RigidBody;
 use crate::simulate::BodyFrame;
 
-/// Of each frame: its time; kinetic, potential, total energy; work of the forces without potential; drift; linear
-/// momentum; angular momentum.
+/// Of each frame what is said of all bodies together, as [`put_balance`] writes it.
 pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
-    let mut all = Vec::with_capacity(frames.size_hint().0 * HEAD * 8);
+    let (recording, mut all) = (run.recording(), Vec::new());
+    let mut reader = recording.read();
     for frame in frames {
-        all.extend(run.recording.head(frame)?);
+        // One body is read faster than all.
+        let (moment, _) = reader.body(frame, 0)?;
+        put_balance(&mut all, moment.time, &moment.balance);
     }
     Ok(all)
 }
@@ -27,15 +29,17 @@ pub(super) fn of_body(
     frames: impl Iterator<Item = usize>,
 ) -> io::Result<Vec<u8>> {
     let rigid = &run.scene.bodies[body].start;
-    let mut all = Vec::new();
+    let (recording, mut all) = (run.recording(), Vec::new());
+    let mut reader = recording.read();
     for frame in frames {
-        let at = run.recording.body(frame, body)?;
+        let Some(at) = reader.body(frame, body)?.1 else { continue };
         let vectors =
             [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
         let time = [run.scene.simulation.time(frame)];
         let energy = [kinetic(rigid, &at)];
-        let numbers = time.iter().chain(vectors.iter().flatten()).chain(&energy);
-        numbers.for_each(|number| all.extend_from_slice(&number.to_le_bytes()));
+        put(&mut all, &time);
+        put(&mut all, vectors.as_flattened());
+        put(&mut all, &energy);
     }
     Ok(all)
 }
@@ -54,8 +58,10 @@ fn kinetic(body: &RigidBody, at: &BodyFrame) -> f64 {
 mod tests {
     use std::sync::Arc;
 
+    use super::super::numbers::HEAD;
     use super::*;
     use crate::Scene;
+    use crate::cache::Cache;
 
     /// The energies of all bodies together are that of the run.
     #[test]
@@ -79,7 +85,7 @@ mod tests {
             ",
         )
         .unwrap();
-        let run = Simulation::begin(1, Arc::new(scene), || {}).unwrap();
+        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
         while run.outcome().is_none() {
             std::thread::yield_now();
         }

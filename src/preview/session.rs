@@ -15,6 +15,7 @@ use super::panicked::caught;
 use super::run::{Progress, RunId, Simulation, no_room};
 use super::watch::{INTERVAL, Watched};
 use crate::Scene;
+use crate::cache::Cache;
 use crate::diagnostic::Report;
 use crate::scene::{Options, Override};
 
@@ -25,6 +26,7 @@ type Reader = dyn Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync;
 pub(super) struct Session {
     path: PathBuf,
     pub(super) options: Options,
+    cache: Cache,
     reader: Box<Reader>,
     inner: Mutex<Inner>,
     next: AtomicU64,
@@ -86,21 +88,23 @@ impl Session {
     pub(super) fn new(
         path: PathBuf,
         options: Options,
+        cache: Cache,
         said: impl Fn(&Report) + Send + Sync + 'static,
     ) -> Arc<Session> {
-        Session::with_reader(path, options, said, |path, options| Scene::from_path_with(path, options))
+        Session::with_reader(path, options, cache, said, |path, options| Scene::from_path_with(path, options))
     }
 
     /// A session whose scene is read by the given function.
     fn with_reader(
         path: PathBuf,
         options: Options,
+        cache: Cache,
         said: impl Fn(&Report) + Send + Sync + 'static,
         reader: impl Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync + 'static,
     ) -> Arc<Session> {
         let (inner, next) = (Mutex::default(), AtomicU64::new(1));
         let (reader, pulse, said) = (Box::new(reader), watch::Sender::new(0), Box::new(said));
-        Arc::new(Session { path, options, reader, inner, next, pulse, said })
+        Arc::new(Session { path, options, cache, reader, inner, next, pulse, said })
     }
 
     /// Reads the scene, and again whenever one of its files changes, until somebody asks to stop.
@@ -252,7 +256,7 @@ impl Session {
     fn begin(self: &Arc<Session>, scene: Scene) -> io::Result<Arc<Simulation>> {
         let id = self.next.fetch_add(1, Ordering::Relaxed);
         let session = Arc::downgrade(self);
-        Simulation::begin(id, Arc::new(scene), move || {
+        Simulation::begin(id, Arc::new(scene), self.cache.clone(), move || {
             session.upgrade().iter().for_each(|session| session.beat());
         })
     }
@@ -284,7 +288,7 @@ mod tests {
             }
             Ok(scene)
         };
-        Session::with_reader(path, Options::default(), |_| {}, read)
+        Session::with_reader(path, Options::default(), Cache::none(), |_| {}, read)
     }
 
     #[test]

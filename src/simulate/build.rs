@@ -67,7 +67,6 @@ impl Motion for ByFormula {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::Dynamics;
 
     /// A chain of three balls from a point, with 1 m from each to the next; the last is 0.5 m farther than that.
     #[test]

@@ -7,12 +7,18 @@ use super::world;
 use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
+/// To write a body takes about as long as so many interactions.
+const SCRIPT: u64 = 100;
+
 /// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
 /// count. Where there are none, nothing takes long within a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Labour {
     first: u64,
     each: u64,
+    frames: usize,
+    /// As many interactions as take about as long as to write a script.
+    script: u64,
 }
 
 impl Labour {
@@ -26,12 +32,22 @@ impl Labour {
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
         let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
         // Each frame is told its potential energy and its forces; the first one also what the run begins with.
-        Labour { first: pairs.saturating_mul(3), each: pairs.saturating_mul(evaluations.saturating_add(2)) }
+        Labour {
+            first: pairs.saturating_mul(3),
+            each: pairs.saturating_mul(evaluations.saturating_add(2)),
+            frames: scene.simulation.frames(),
+            script: SCRIPT * scene.bodies.len() as u64,
+        }
     }
 
     /// Those of one frame.
     pub fn of_frame(&self, index: usize) -> u64 {
         if index == 0 { self.first } else { self.each }
+    }
+
+    /// Those of a step of a command that simulates all frames and then writes scripts, or as many as take as long.
+    pub fn of_step(&self, step: usize) -> u64 {
+        if step < self.frames { self.of_frame(step) } else { self.script }
     }
 
     /// Whether there are none.

@@ -41,7 +41,7 @@ impl Lagging {
     /// The same at a frame, which is not earlier. Between two, the body is taken to move evenly; for that it is exact.
     #[must_use]
     pub(super) fn at(self, frame: &Frame) -> Lagging {
-        let there = frame.bodies[self.body].location;
+        let Some(there) = frame.body(self.body).map(|body| body.location) else { return self };
         let location = match self.seen {
             None => there,
             Some((time, _)) if frame.time <= time => self.location,

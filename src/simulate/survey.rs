@@ -1,14 +1,13 @@
 //! A run looked over as a whole, before its frames are drawn.
 //!
-//! The scene is simulated once for this and once more for its frames: poses are not stored, so memory does not
-//! grow with the number of frames, and both runs are the same bit for bit.
+//! The frames are looked over while they are recorded, or while a recording is read.
 
 use glam::DVec3;
 
 use super::overlap::{Overlap, Watch};
 use super::span::Spans;
-use super::{BodyFrame, Bounds, Diverged, Frame, Frames, Span, world};
-use crate::dynamics::{Effort, Shape};
+use super::{BodyFrame, Bounds, Frame, Frames, SimulateError, Span, world};
+use crate::dynamics::Shape;
 use crate::scene::{Body, Scene};
 
 /// What is known of a run as a whole.
@@ -48,21 +47,9 @@ pub struct Crossing {
 ///
 /// # Errors
 /// Where the run leaves the numbers.
-pub fn survey(scene: &Scene, seen: impl FnMut(&Frame)) -> Result<Survey, Diverged> {
-    survey_watched(scene, &Effort::default(), seen)
-}
-
-/// Like [`survey`]; the interactions of pairs are counted meanwhile.
-///
-/// # Errors
-/// Where the run leaves the numbers.
-pub fn survey_watched(
-    scene: &Scene,
-    effort: &Effort,
-    mut seen: impl FnMut(&Frame),
-) -> Result<Survey, Diverged> {
+pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, SimulateError> {
     let mut surveyor = Surveyor::new(scene);
-    for frame in Frames::watched(scene, effort).without_track() {
+    for frame in Frames::new(scene) {
         let frame = frame?;
         surveyor.see(&frame);
         seen(&frame);
@@ -194,7 +181,7 @@ impl Watched {
         let mut gone = Vec::new();
         let mut bodies = std::mem::take(&mut self.bodies);
         bodies.retain(|&(id, side)| {
-            let body = &frame.bodies[id];
+            let Some(body) = frame.body(id) else { return true };
             let is_through = self.gap(&scene.bodies[id].shape, body, side) < -self.tolerance(body);
             if is_through {
                 gone.push(id);

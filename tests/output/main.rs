@@ -13,6 +13,7 @@ mod full;
 mod kill;
 mod memory;
 mod meshes;
+mod recording;
 mod sameness;
 mod shutter;
 mod templates;

@@ -1,7 +1,7 @@
 //! Charges that act on each other.
 
 use glam::DVec3;
-use jabuka::dynamics::{Coulomb, Dynamics, Lorentz, METHODS, Method, World};
+use jabuka::dynamics::{Coulomb, Lorentz, METHODS, Method, World};
 
 use crate::common::{ball, tolerance, worlds};
 

@@ -1,7 +1,7 @@
 //! Motions whose end is known.
 
 use glam::DVec3;
-use jabuka::dynamics::{Drag, Dynamics, METHODS, UniformGravity};
+use jabuka::dynamics::{Drag, METHODS, UniformGravity};
 
 use crate::common::{air, ball, method, tether, tolerance, worlds};
 

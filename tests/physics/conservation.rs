@@ -1,7 +1,7 @@
 //! What a closed system keeps: momentum and angular momentum.
 
 use glam::DVec3;
-use jabuka::dynamics::{Anchor, Dynamics, METHODS, RigidBody, Shape, Spring, World};
+use jabuka::dynamics::{Anchor, METHODS, RigidBody, Shape, Spring, World};
 
 use crate::common::tolerance;
 

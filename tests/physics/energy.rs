@@ -1,7 +1,7 @@
 //! Energy: how methods keep it, and whether its books are right.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Drag, Dynamics, METHODS, Method, RigidBody, Shape, World};
+use jabuka::dynamics::{Drag, METHODS, Method, RigidBody, Shape, World};
 
 use crate::common::{air, ball, method, tether};
 
@@ -84,7 +84,7 @@ fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
             world.balance()
         };
         let (coarse, fine) = (run(128), run(256));
-        assert!(fine.work.abs() > 0.5, "{}: {}", method.name, fine.work);
+        assert!(fine.accounts.work.abs() > 0.5, "{}: {}", method.name, fine.accounts.work);
         let slope = libm::log2(coarse.drift / fine.drift);
         let off = (slope - f64::from(method.order)).abs();
         assert!(off < 0.1, "{}: order {slope}, drifts {:e}, {:e}", method.name, coarse.drift, fine.drift);

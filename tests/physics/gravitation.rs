@@ -1,7 +1,7 @@
 //! Orbits under Newton's gravitation.
 
 use glam::DVec3;
-use jabuka::dynamics::{Dynamics, Gravitation, METHODS, Method, RigidBody, Shape, State, World};
+use jabuka::dynamics::{Gravitation, METHODS, Method, RigidBody, Shape, State, World};
 
 use crate::common::method;
 

@@ -1,9 +1,7 @@
 //! Bodies whose motion is given, and what they do to others.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
-    Anchor, BodyId, Dynamics, METHODS, Method, Motion, Pose, Shape, Spring, UniformGravity, World,
-};
+use jabuka::dynamics::{Anchor, BodyId, METHODS, Method, Motion, Pose, Shape, Spring, UniformGravity, World};
 
 use crate::common::ball;
 
@@ -74,7 +72,7 @@ fn the_work_of_what_guides_a_body_is_counted() {
     }
     let mut world = driven(Method::by_name("rk4").unwrap(), 1000);
     let balance = world.balance();
-    assert!(balance.drift.abs() < 1e-9 && balance.work.abs() > 0.5, "{balance:?}");
+    assert!(balance.drift.abs() < 1e-9 && balance.accounts.work.abs() > 0.5, "{balance:?}");
     // Only the free ball counts.
     let v = exact(1.0).1;
     assert!((balance.kinetic - v * v / 2.0).abs() < 1e-9, "{balance:?}");
@@ -95,7 +93,7 @@ fn it_is_where_its_motion_says_whatever_pulls_at_it() {
             let pose = Shaken.at(t);
             assert_eq!((world.location(id), world.velocity(id)), (pose.location, pose.velocity));
             assert!(world.orientation(id).abs_diff_eq(pose.orientation, 1e-15));
-            let turning = Dynamics::angular_velocity(&world, id);
+            let turning = world.angular_velocity(id);
             assert!(turning.abs_diff_eq(pose.angular_velocity, 1e-14), "{turning}");
             assert_eq!(world.forces()[id.index()], 5.0 * pose.acceleration, "what guides it sees to that");
             // Weight, force and torque that what guides it bears are no error of the method.

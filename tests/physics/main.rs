@@ -7,6 +7,7 @@ mod charges;
 mod closed_forms;
 mod common;
 mod conservation;
+mod dense;
 mod energy;
 mod gravitation;
 mod guided;

@@ -1,7 +1,7 @@
 //! The order of each method, measured: the slope of the logarithm of the error over that of the step.
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, Dynamics, METHODS, Method, RigidBody, Shape, State, UniformGravity, World};
+use jabuka::dynamics::{BodyId, METHODS, Method, RigidBody, Shape, State, UniformGravity, World};
 
 use crate::common::{SwingingField, air, ball, method, tether};
 
@@ -24,7 +24,7 @@ fn world(method: &'static Method, steps: u32, body: RigidBody) -> World {
 
 /// The largest deviation between two states, of all quantities.
 fn distance(a: &State, b: &State) -> f64 {
-    let mut largest = (a.work - b.work).abs();
+    let mut largest = (a.accounts.work - b.accounts.work).abs();
     for i in 0..a.len() {
         largest = largest
             .max((a.location[i] - b.location[i]).length())
@@ -81,7 +81,7 @@ fn order_with_linear_drag() {
     let mut exact = linear_drag(method("rk4"), 1);
     exact.velocity[0] = terminal + (start - terminal) * decay;
     exact.location[0] = terminal + (start - terminal) * (1.0 - decay) / 2.0;
-    exact.work = -2.0 * (1.0 - (1.0 - decay) + (1.0 - decay * decay) / 2.0);
+    exact.accounts.work = -2.0 * (1.0 - (1.0 - decay) + (1.0 - decay * decay) / 2.0);
     assert_orders(linear_drag, &exact);
 }
 

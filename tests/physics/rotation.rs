@@ -1,7 +1,7 @@
 //! Free rotation about the middle axis (Dzhanibekov's nut, the tennis racket).
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, Dynamics, Method, RigidBody, Shape, World};
+use jabuka::dynamics::{BodyId, Method, RigidBody, Shape, World};
 
 use crate::common::{method, tolerance};
 

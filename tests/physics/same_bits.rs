@@ -1,8 +1,8 @@
-//! Equal runs are equal bit for bit: after a reset, and beside branches.
+//! Equal runs are equal bit for bit: after a reset, and beside clones.
 
 use glam::DVec3;
 use jabuka::dynamics::{
-    Anchor, ConstantForce, Dynamics, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
+    Anchor, ConstantForce, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
 };
 
 use crate::common::air;
@@ -49,17 +49,17 @@ fn a_run_after_a_reset_is_the_first_run() {
     }
 }
 
-/// Looking (balances, forces) and branching, between any two frames, leaves the run as it is; and a branch, once the
+/// Looking (balances, forces) and cloning, between any two frames, leaves the run as it is; and a clone, once the
 /// original is gone, ends where the original would have.
 #[test]
-fn branches_and_measurements_leave_no_trace() {
+fn clones_and_measurements_leave_no_trace() {
     for method in METHODS {
         let undisturbed = run(&mut build(method), 1..50, |_| {});
 
         let mut world = build(method);
         let watched = run(&mut world, 1..50, |world| {
             let before = world.state().clone();
-            let mut branch = world.branch();
+            let mut branch = world.clone();
             branch.advance_to(world.time() + 0.013);
             assert!(branch.state() != &before && world.state() == &before);
             world.balance();

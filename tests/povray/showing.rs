@@ -1,8 +1,8 @@
 //! What shows physics is where it must be.
 
 use glam::{DVec2, DVec3};
+use jabuka::Run;
 use jabuka::scene::Scene;
-use jabuka::{Run, simulate::Frames};
 
 use crate::image::{Image, Rgb, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
@@ -300,16 +300,15 @@ fn the_moments_of_a_shutter_have_their_own_past() {
         [label.t]\ntext = 't = ${t:.3} s'\n";
     let scene = Scene::parse(text).unwrap();
     let run = Run::new(&scene).unwrap();
-    let mut frames = Frames::new(&scene);
-    let frame = frames.nth(5).unwrap().unwrap();
+    let exposure = run.at(0.2).unwrap();
     let shutter = scene.camera.shutter.unwrap();
     let mut blurred = String::new();
     let put = |piece: &str| -> Result<(), Box<dyn std::error::Error>> {
         blurred.push_str(piece);
         Ok(())
     };
-    let moments = frames.branch().moments(shutter).map(|moment| moment.map_err(Into::into));
-    run.emitter().shutter(&frame, shutter, moments, put).unwrap();
+    let moments = exposure.moments(shutter).map(|moment| moment.map_err(Into::into));
+    run.emitter().shutter(&exposure.frame, shutter, moments, put).unwrap();
     assert!(blurred.contains("\"t = 0.210 s\"") && blurred.contains("\"t = 0.230 s\""), "{blurred}");
     let ghosts = |script: &str| script.matches("Material_").count() + script.matches("Ghost_").count();
     let (first, second) = blurred.split_once("#case (1)").unwrap();

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 use jabuka::render::linear_light;
-use jabuka::simulate::Branch;
 use jabuka::{Run, Scene};
 
 use crate::image::{Image, brightness};
@@ -182,8 +181,8 @@ sdl = '''
 fn a_moment_is_rendered_as_if_it_were_alone_in_both_layouts() {
     let scene = Scene::parse(RICH).unwrap();
     let run = Run::new(&scene).unwrap();
-    let moments_of_frame = Branch::at(&scene, 0.04).unwrap().moments(run.shutter().unwrap());
-    let last = run.script(&moments_of_frame.last().unwrap().unwrap()).unwrap();
+    let exposure = run.at(0.04).unwrap();
+    let last = run.script(&exposure.moments(run.shutter().unwrap()).last().unwrap().unwrap()).unwrap();
     assert!(last.starts_with("// frame 1, t = 0.065 s\n"));
     let alone = last.replace("#if (frame_number != 1)", "#if (0)");
     let alone = povray::render(&alone, [80, 60]);

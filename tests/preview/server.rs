@@ -80,6 +80,7 @@ impl Scene {
         let mut command = Command::new("env");
         command.arg("--default-signal=INT").arg(env!("CARGO_BIN_EXE_jabuka"));
         command.arg("preview").arg(self.path()).arg("--no-open").args(&self.arguments);
+        command.env("JABUKA_CACHE_SIZE", "0");
         command.current_dir(self.folder()).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(said);
         let mut child = command.spawn().unwrap();
         let mut address = String::new();

@@ -35,6 +35,8 @@ pub(crate) fn run(lines: &str, folder: &Path) -> Output {
         .current_dir(folder)
         .env("PATH", path)
         .env("HOME", folder)
+        .env_remove("XDG_CACHE_HOME")
+        .env_remove("JABUKA_CACHE_DIR")
         .output()
         .unwrap()
 }

@@ -9,10 +9,10 @@ use std::process::{Command, Output};
 
 use jabuka::diagnostic::Code;
 
-/// The `jabuka` command, as built for the tests.
+/// The `jabuka` command, as built for the tests. It keeps no runs.
 pub(crate) fn jabuka() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_jabuka"));
-    command.current_dir(root());
+    command.current_dir(root()).env("JABUKA_CACHE_SIZE", "0");
     command
 }
 

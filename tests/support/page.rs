@@ -95,6 +95,7 @@ impl Page {
                 .args(["-c", &format!("exec 2>&1; {short}")])
                 .current_dir(self.folder.path())
                 .env("PATH", &path)
+                .env("JABUKA_CACHE_DIR", self.folder.path().join(".cache"))
                 .output()
                 .unwrap();
             format!("$ {command}\n{}", String::from_utf8(output.stdout).unwrap().trim_end_matches('\n'))

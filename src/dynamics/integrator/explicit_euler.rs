@@ -1,6 +1,7 @@
 //! Explicit Euler: everything with the values at the start of the step.
 
 use super::super::{Model, State};
+use super::dense::{DenseOutput, Step, Tangent};
 use super::runge_kutta::{Slope, follow};
 use super::{Integrator, Method};
 
@@ -9,6 +10,7 @@ use super::{Integrator, Method};
 pub(super) const METHOD: Method = Method {
     name: "explicit-euler",
     order: 1,
+    symplectic: false,
     summary: "first order: gains energy without bound, for comparison only",
     create: || Box::new(ExplicitEuler::default()),
 };
@@ -22,6 +24,10 @@ impl Integrator for ExplicitEuler {
     fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
         self.slope.measure(model, t, state);
         follow([(1.0, &self.slope)], dt, state);
+    }
+
+    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        Box::new(Tangent(step))
     }
 
     fn clone_box(&self) -> Box<dyn Integrator> {

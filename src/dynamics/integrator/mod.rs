@@ -3,6 +3,7 @@
 //! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]; the tests of order and of
 //! energy then run on it by themselves.
 
+mod dense;
 mod euler_cromer;
 mod explicit_euler;
 mod rk4;
@@ -13,11 +14,19 @@ mod velocity_verlet;
 
 use super::{Model, State};
 
+pub use dense::{DenseOutput, Step};
+
 /// A method of integration. It advances a state; time belongs to the [`World`](super::World).
 pub trait Integrator: Send {
     /// Advances `state` from time `t` by one step of `dt` seconds. Where it evaluates forces at a later time, it must first
     /// [place](Model::place) the bodies whose motion is given; at the end of the step, the caller does.
     fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State);
+
+    /// What happened within the step that was made last, for whoever looks between two steps. The default takes
+    /// quintic Hermite polynomials, which suit smooth methods from order 2 up.
+    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        Box::new(dense::Hermite::new(step))
+    }
 
     /// Told after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from
     /// earlier steps do not hold any more.
@@ -40,6 +49,8 @@ pub struct Method {
     pub name: &'static str,
     /// The order p: halving the step divides the error by 2ᵖ.
     pub order: u32,
+    /// Whether it is symplectic: then the error of the energy stays bounded over any time.
+    pub symplectic: bool,
     /// One line for a list of methods.
     pub summary: &'static str,
     /// Makes a new integrator.

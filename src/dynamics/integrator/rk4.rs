@@ -9,6 +9,7 @@ use super::{Integrator, Method};
 pub(super) const METHOD: Method = Method {
     name: "rk4",
     order: 4,
+    symplectic: false,
     summary: "fourth order: accurate over short times, loses energy slowly over long ones",
     create: || Box::new(Rk4::default()),
 };

@@ -53,7 +53,7 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
         }
     }
     let power = slopes.iter().fold(0.0, |sum, (weight, slope)| sum + weight * slope.loads.power);
-    state.work += dt * power;
+    state.accounts.work += dt * power;
 }
 
 /// values += dt · Σ weight · slope. The small terms are summed first, as each sum with a large value is rounded.

@@ -11,6 +11,7 @@ use super::{Integrator, Method, splitting};
 pub(super) const METHOD: Method = Method {
     name: "velocity-verlet",
     order: 2,
+    symplectic: true,
     summary: "second order, symplectic: one evaluation of forces a step",
     create: || Box::new(VelocityVerlet::default()),
 };
@@ -42,7 +43,7 @@ impl Integrator for VelocityVerlet {
             state.velocity[i] += half * inverse_mass * (self.end.force[i] - self.start.force[i]);
             state.angular_momentum[i] += half * (self.end.torque[i] - self.start.torque[i]);
         }
-        state.work += half * (self.start.power + self.end.power);
+        state.accounts.work += half * (self.start.power + self.end.power);
 
         std::mem::swap(&mut self.start, &mut self.end);
         self.primed = true;

@@ -32,8 +32,7 @@ use std::io::Write;
 use self::motion::Motion;
 use self::sight::Sight;
 use super::ExportError;
-use crate::scene::Scene;
-use crate::simulate::Selection;
+use crate::simulate::{Recorded, Selection};
 
 /// What has been written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,15 +45,20 @@ pub struct Exported {
     pub faster: f64,
 }
 
-/// Simulates a scene, and writes its bodies, cameras and lights with their motion in some frames. Poses are kept for what
+/// Writes the bodies, cameras and lights of a run with their motion in some frames. Poses are kept for what
 /// moves, 28 bytes for each frame at most. An angle of view that changes stays as it is in the first of the frames, since
 /// glTF has no word for that.
 ///
 /// # Errors
-/// Where it cannot be written, the run leaves the numbers, or the format cannot hold it; then nothing is written.
-pub fn write_glb(scene: &Scene, selection: &Selection, mut out: impl Write) -> Result<Exported, ExportError> {
-    let (mut motion, survey) = Motion::of(scene, selection)?;
-    let sight = Sight::of(scene, &survey, selection, &mut motion)?;
+/// Where it cannot be written, the recording cannot be read, or the format cannot hold it; then nothing is written.
+pub fn write_glb(
+    run: &Recorded<'_>,
+    selection: &Selection,
+    mut out: impl Write,
+) -> Result<Exported, ExportError> {
+    let scene = run.scene();
+    let mut motion = Motion::of(run, selection)?;
+    let sight = Sight::of(run, selection, &mut motion)?;
     let (document, geometry) = model::model(scene, sight, &motion);
     let bytes = container::write(&document, &geometry, &motion, &mut out)?;
     out.flush()?;

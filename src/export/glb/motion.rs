@@ -5,8 +5,7 @@ use glam::{DQuat, DVec3};
 use super::container::LARGEST;
 use crate::export::ExportError;
 use crate::render::{Film, Pace};
-use crate::scene::Scene;
-use crate::simulate::{Selection, Survey, survey};
+use crate::simulate::{Recorded, Selection};
 
 /// The motion of all bodies in the frames that are asked for, and of what stands beside them.
 pub(super) struct Motion {
@@ -39,8 +38,9 @@ pub(super) struct Way {
 }
 
 impl Motion {
-    /// Simulates the scene, and keeps what is asked for.
-    pub(super) fn of(scene: &Scene, selection: &Selection) -> Result<(Motion, Survey), ExportError> {
+    /// Keeps what is asked for of a run.
+    pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<Motion, ExportError> {
+        let scene = run.scene();
         let count = selection.count_within(scene.simulation.frames());
         let mut rate = scene.simulation.frame_rate;
         if !Film::RATES.contains(&rate) {
@@ -51,22 +51,17 @@ impl Motion {
         let mut room = Room::default();
         room.take(count)?;
         let mut bodies = Recorder::new(count);
-        let mut failed = None;
-        let survey = survey(scene, |frame| {
-            if failed.is_none() && selection.contains(frame.index) {
-                times.push((frame.time * slower) as f32);
-                let poses = frame
-                    .bodies
-                    .iter()
-                    .map(|body| Pose { location: body.location, orientation: body.orientation.normalize() });
-                let name = |body: usize| scene.bodies[body].name.clone();
-                failed = bodies.add(poses, frame.time, name, &mut room).err();
-            }
-        })?;
-        match failed {
-            Some(error) => Err(error),
-            None => Ok((Motion { times, slower, ways: bodies.ways, room }, survey)),
+        for exposure in run.exposures(selection) {
+            let frame = exposure?.frame;
+            times.push((frame.time * slower) as f32);
+            let poses = frame
+                .bodies
+                .iter()
+                .map(|body| Pose { location: body.location, orientation: body.orientation.normalize() });
+            let name = |body: usize| scene.bodies[body].name.clone();
+            bodies.add(poses, frame.time, name, &mut room)?;
         }
+        Ok(Motion { times, slower, ways: bodies.ways, room })
     }
 
     /// Adds the ways of what stands beside what is there.

@@ -7,7 +7,7 @@ use super::motion::{Motion, Pose, Recorder};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Output, Scene};
-use crate::simulate::{Frames, Selection, Survey};
+use crate::simulate::{Recorded, Selection};
 
 /// The widest angle of view that is written, degrees: glTF has none of half a turn.
 const WIDEST: f64 = 179.9;
@@ -22,14 +22,13 @@ pub(super) struct Sight {
 }
 
 impl Sight {
-    /// The cameras and lights of a scene, in the frames of a motion. A camera that moves has the scene simulated once
-    /// more, since it takes the survey to place it, and what has been before if it lags.
+    /// The cameras and lights of a run, in the frames of a motion.
     pub(super) fn of(
-        scene: &Scene,
-        survey: &Survey,
+        run: &Recorded<'_>,
         selection: &Selection,
         motion: &mut Motion,
     ) -> Result<Sight, ExportError> {
+        let (scene, survey) = (run.scene(), run.survey());
         let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
         let all = std::iter::once(("camera".to_owned(), &scene.camera)).chain(views);
         let (names, plans): (Vec<String>, Vec<Plan>) =
@@ -42,15 +41,10 @@ impl Sight {
         };
         let mut ways = Recorder::new(motion.times().len());
         if plans.iter().any(Plan::camera_moves) {
-            for frame in Frames::new(scene) {
-                let frame = frame?;
-                if selection.contains(frame.index) {
-                    let placed = plans.iter().map(|plan| plan.camera(&frame)).collect();
-                    see(frame.time, placed, motion, &mut ways)?;
-                }
-                if selection.last().is_none_or(|last| frame.index >= last) {
-                    break;
-                }
+            for exposure in run.exposures(selection) {
+                let frame = exposure?.frame;
+                let placed = plans.iter().map(|plan| plan.camera(&frame)).collect();
+                see(frame.time, placed, motion, &mut ways)?;
             }
         } else {
             see(0.0, plans.iter().map(|plan| *plan.placed()).collect(), motion, &mut ways)?;

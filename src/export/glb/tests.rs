@@ -7,6 +7,7 @@ use super::container::{LARGEST, write};
 use super::model::model;
 use super::motion::{Motion, Room};
 use super::*;
+use crate::scene::Scene;
 
 const SCENE: &str = "
     title = 'Two balls'
@@ -32,7 +33,7 @@ fn scene(text: &str) -> Scene {
 
 fn file(scene: &Scene, frames: &str) -> Vec<u8> {
     let mut out = Vec::new();
-    let exported = write_glb(scene, &frames.parse().unwrap(), &mut out).unwrap();
+    let exported = write_glb(&Recorded::new(scene).unwrap(), &frames.parse().unwrap(), &mut out).unwrap();
     assert_eq!(exported.bytes, out.len() as u64);
     out
 }
@@ -81,7 +82,7 @@ fn balls_share_their_triangles() {
 /// Quaternions have two signs, and where the sign changed from key to key, a wheel would go back all around.
 #[test]
 fn orientations_go_on_with_the_nearer_sign() {
-    let (motion, _) = Motion::of(&scene(SCENE), &Selection::first(41)).unwrap();
+    let motion = Motion::of(&Recorded::new(&scene(SCENE)).unwrap(), &Selection::first(41)).unwrap();
     let keys = motion.ways()[0].rotations.chunks_exact(4);
     let keys: Vec<_> = keys.map(|key| DQuat::from_array([0, 1, 2, 3].map(|i| f64::from(key[i])))).collect();
     assert_eq!(keys.len(), 41);
@@ -98,7 +99,7 @@ fn the_same_scene_is_the_same_bytes() {
 fn a_scene_without_bodies_is_a_file() {
     let empty = "environment.ground = false\nsimulation.duration = 1\n";
     let mut out = Vec::new();
-    write_glb(&scene(empty), &Selection::first(2), &mut out).unwrap();
+    write_glb(&Recorded::new(&scene(empty)).unwrap(), &Selection::first(2), &mut out).unwrap();
     assert_eq!(number(&out, 8), out.len());
     assert_eq!(20 + number(&out, 12), out.len(), "there are no numbers");
 }
@@ -107,8 +108,8 @@ fn a_scene_without_bodies_is_a_file() {
 fn what_is_too_large_is_refused_before_anything_is_written() {
     let scene = scene(SCENE);
     let frames = Selection::first(2);
-    let (mut motion, survey) = Motion::of(&scene, &frames).unwrap();
-    let sight = Sight::of(&scene, &survey, &frames, &mut motion).unwrap();
+    let mut motion = Motion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
+    let sight = Sight::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
     let (mut document, geometry) = model(&scene, sight, &motion);
     document.buffers[0].byte_length = LARGEST - 8;
     let mut out = Vec::new();
@@ -127,16 +128,17 @@ fn what_no_film_can_show_is_shown_as_one_can() {
         simulation = { duration = 1e9, frame_rate = 1e-8, step = 1e7 }
         body.b.shape.sphere.radius = 1
         ";
-    let exported = write_glb(&scene(slow), &Selection::first(11), Vec::new()).unwrap();
+    let exported =
+        write_glb(&Recorded::new(&scene(slow)).unwrap(), &Selection::first(11), Vec::new()).unwrap();
     assert!((exported.faster / 2.5e9 - 1.0).abs() < 1e-12);
-    let (motion, _) = Motion::of(&scene(slow), &Selection::first(11)).unwrap();
+    let motion = Motion::of(&Recorded::new(&scene(slow)).unwrap(), &Selection::first(11)).unwrap();
     assert_eq!(motion.times().last(), Some(&0.4));
 }
 
 #[test]
 fn a_camera_beyond_the_numbers_is_an_error() {
     let far = format!("camera.location = [0, 0, 1e39]\n{SCENE}");
-    let refused = write_glb(&scene(&far), &Selection::first(2), Vec::new());
+    let refused = write_glb(&Recorded::new(&scene(&far)).unwrap(), &Selection::first(2), Vec::new());
     let Err(ExportError::OutOfRange { what, .. }) = refused else { panic!("it is written") };
     assert_eq!(what, "camera");
 }

@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::*;
 use crate::dynamics::shape::Shape;
-use crate::dynamics::{Dynamics, METHODS, RigidBody, World};
+use crate::dynamics::{METHODS, RigidBody, World};
 
 /// What rounding may do to sums over some thousand triangles.
 const ROUNDING: f64 = 1e-12;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{BodyFrame, Frame, Lagging};
-use crate::dynamics::Dynamics;
+use super::{BodyFrame, Frame, Lagging, Moments};
+use crate::dynamics::Snapshot;
 use crate::scene::{Scene, Showing, Trail};
 
 /// The most points of a trail; where frames are more, every second, fourth, … is kept.
@@ -78,8 +78,8 @@ impl Passed {
 }
 
 /// The past of a run as it goes on.
-#[derive(Clone)]
-pub(super) struct Track {
+#[derive(Clone, Default)]
+pub(super) struct History {
     /// What each body asks for that asks for something.
     asks: Arc<[(usize, Showing)]>,
     /// For each of them, the points of its trail, each with the number of its frame.
@@ -89,13 +89,13 @@ pub(super) struct Track {
     interval: f64,
 }
 
-impl Track {
+impl History {
     /// That of a run that has not begun.
-    pub(super) fn new(scene: &Scene) -> Track {
+    pub(super) fn new(scene: &Scene) -> History {
         let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
         let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
         let asks: Arc<[_]> = asks.map(|(number, showing)| (number, showing.clone())).collect();
-        Track {
+        History {
             ways: vec![Vec::new(); asks.len()],
             asks,
             ghosts: Vec::new(),
@@ -104,45 +104,29 @@ impl Track {
         }
     }
 
-    /// That of a run whose past nobody asks for.
-    pub(super) fn idle() -> Track {
-        Track { asks: Arc::new([]), ways: Vec::new(), ghosts: Vec::new(), lagging: Vec::new(), interval: 1.0 }
+    /// Whether nobody asks for what has been.
+    pub(super) fn is_idle(&self) -> bool {
+        self.asks.is_empty() && self.lagging.is_empty()
     }
 
-    /// Whether somebody wants to know how it was between frames.
-    pub(super) fn has_ghosts(&self) -> bool {
-        self.asks.iter().any(|(_, showing)| showing.ghosts.is_some())
-    }
-
-    /// Remembers the ghosts from now until shortly before a time: exact states, by branches of the run from where it
-    /// is, so that the run's own bits do not depend on them.
-    pub(super) fn pass(&mut self, dynamics: &dyn Dynamics, until: f64) {
-        let now = dynamics.time();
+    /// Remembers the ghosts that stand at a moment.
+    pub(super) fn note_ghosts(&mut self, moment: &Snapshot) {
         // What is the time of a frame but for rounding is that frame.
-        let slack = 1e-6 * self.interval;
+        let slack = Moments::slack(1.0 / self.interval);
         let mut due: Vec<(f64, usize)> = Vec::new();
         for (body, showing) in self.asks.iter() {
             let Some(ghosts) = showing.ghosts else { continue };
-            let mut number = ((now - slack) / ghosts.every).ceil().max(0.0);
-            while number * ghosts.every < until - slack {
-                due.push((number * ghosts.every, *body));
-                number += 1.0;
+            let time = (moment.time / ghosts.every).round() * ghosts.every;
+            if (time - moment.time).abs() <= slack {
+                due.push((time, *body));
             }
         }
         due.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        for together in due.chunk_by(|a, b| a.0 == b.0) {
-            let time = together[0].0;
-            let mut branch = dynamics.branch();
-            if time > now + slack {
-                branch.advance_to(time);
-            }
-            let frame = Frame::of(branch.as_mut(), 0, time);
-            let ghost = |(_, body): &(f64, usize)| Arc::new(Ghost { time, body: frame.bodies[*body] });
-            self.ghosts.extend(together.iter().map(ghost));
-        }
+        let ghost = |(time, body): (f64, usize)| Some(Arc::new(Ghost { time, body: *moment.body(body)? }));
+        self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
 
-    /// Remembers where bodies are in a frame.
+    /// Remembers where bodies are in a frame, but for their ghosts.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         for ((body, showing), way) in self.asks.iter().zip(&mut self.ways) {
@@ -156,7 +140,8 @@ impl Track {
             }
             way.retain(|(index, _)| index % stride == 0);
             if frame.index.is_multiple_of(stride) {
-                let point = Passed::of(frame.time, &frame.bodies[*body]);
+                let Some(body) = frame.body(*body) else { continue };
+                let point = Passed::of(frame.time, body);
                 way.push((frame.index, Passed { frame: Some(frame.index), ..point }));
             }
         }
@@ -169,7 +154,7 @@ impl Track {
             let Some(trail) = showing.trail else { continue };
             let mut points: Vec<Passed> = way.iter().map(|(_, point)| *point).collect();
             if points.last().is_none_or(|last| last.time < moment.time) {
-                points.push(Passed::of(moment.time, &moment.bodies[*body]));
+                points.extend(moment.body(*body).map(|body| Passed::of(moment.time, body)));
             }
             if let Some(duration) = trail.duration {
                 cut(&mut points, moment.time - duration);
@@ -177,7 +162,10 @@ impl Track {
             trails.push(Way { body: *body, points, stride: stride(trail, self.interval, moment.index) });
         }
         let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();
-        Past { trails, ghosts: self.ghosts.clone(), lagging }
+        let slack = Moments::slack(1.0 / self.interval);
+        let is_past = |ghost: &&Arc<Ghost>| ghost.time < moment.time - slack;
+        let ghosts = self.ghosts.iter().filter(is_past).cloned().collect();
+        Past { trails, ghosts, lagging }
     }
 }
 
@@ -217,7 +205,7 @@ fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Branch, Frames};
+    use super::super::Frames;
     use super::*;
 
     fn scene(keys: &str) -> Scene {
@@ -264,7 +252,7 @@ mod tests {
             assert_eq!(Frames::at(&scene, frame.time).unwrap(), *frame);
         }
         // 0.26 s is between two frames.
-        let later = Branch::at(&scene, 0.27).unwrap().frame().unwrap();
+        let later = Frames::at(&scene, 0.27).unwrap();
         assert_eq!(later.past.ghosts[..], frames[7].past.ghosts[..]);
         assert_eq!(later.past.ghosts.len(), 3);
         assert_eq!(frames[6].past.ghosts.len(), 2);

@@ -1,0 +1,106 @@
+//! What moves bodies, as a number.
+
+use std::fmt::{self, Write};
+
+use sha2::{Digest, Sha256};
+
+use crate::scene::{ForceKind, Scene};
+use crate::simulate::Moments;
+
+/// The digest by which a run is known.
+pub(super) type Key = [u8; 32];
+
+/// The digest of all that the recording of a run depends on: what moves bodies, the moments that are recorded, and the program
+/// itself. Looks, cameras, labels and names are not among it.
+pub(super) fn of(scene: &Scene, moments: &Moments) -> Key {
+    let mut text = Text(Sha256::new());
+    // It cannot fail: a digest takes all.
+    let _: fmt::Result = write_all(&mut text, scene, moments);
+    text.0.finalize().into()
+}
+
+fn write_all(text: &mut Text, scene: &Scene, moments: &Moments) -> fmt::Result {
+    // Numbers are written so that each has a text of its own.
+    writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
+    let simulation = &scene.simulation;
+    let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
+    writeln!(text, "{duration:?} {rate:?} {step:?} {} {:?}", simulation.method.name, simulation.gravity)?;
+    for body in &scene.bodies {
+        writeln!(text, "{:?} {:?}", body.start, body.motion)?;
+    }
+    for force in &scene.forces {
+        match &force.kind {
+            // How a spring is drawn does not matter.
+            ForceKind::Spring { links, coil: _ } => {
+                writeln!(text, "{links:?}")?;
+            }
+            kind => writeln!(text, "{kind:?}")?,
+        }
+    }
+    Ok(())
+}
+
+/// Whether a run is worth keeping: given motion alone is evaluated faster than it is read.
+pub(super) fn is_worth_keeping(scene: &Scene) -> bool {
+    scene.bodies.iter().any(|body| !body.start.fixed && body.motion.is_none())
+}
+
+/// A text of which only the digest is kept.
+struct Text(Sha256);
+
+impl Write for Text {
+    fn write_str(&mut self, piece: &str) -> fmt::Result {
+        self.0.update(piece.as_bytes());
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn digest(text: &str) -> Key {
+        let scene = Scene::parse(text).unwrap();
+        of(&scene, &Moments::of(&scene))
+    }
+
+    #[test]
+    fn all_that_moves_bodies_counts_and_nothing_else() {
+        let scene = |extra: &str| {
+            format!(
+                "{extra}\n[body.a]\nshape.sphere.radius = 1\nvelocity = [1, 0, 0]\n[body.b]\nshape.sphere.radius = 1\n\
+                 motion.formula.location = ['3 + t', 0, 0]\n[force.s.spring]\nbetween = ['a', [0, 0, 0]]\nstiffness = 3\n"
+            )
+        };
+        let plain = digest(&scene(""));
+        assert_eq!(plain, digest(&scene("")), "it is the same for the same");
+        for same in [
+            "title = 'x'",
+            "[camera]\nlocation = [0, 0, 20]\nlook_at = [0, 0, 0]",
+            "[label.x]\ntext = 'hello'",
+            "[output]\nwidth = 320\nheight = 180",
+        ] {
+            assert_eq!(plain, digest(&scene(same)), "{same}");
+        }
+        for (from, to) in [
+            ("radius = 1", "radius = 2"),
+            ("velocity = [1, 0", "velocity = [1.0000000000000002, 0"),
+            ("'3 + t'", "'3 + 2*t'"),
+            ("'3 + t'", "'4 + t'"),
+            ("stiffness = 3", "stiffness = 4"),
+            ("['a', [0, 0, 0]]", "['a', [0, 1, 0]]"),
+        ] {
+            assert_ne!(plain, digest(&scene("").replace(from, to)), "{to}");
+        }
+        for other in [
+            "simulation.gravity = [0, -1, 0]",
+            "simulation.step = 0.001",
+            "simulation.integrator = 'rk4'",
+            "simulation.duration = 3",
+            "simulation.frame_rate = 30",
+            "camera.shutter = 0.01",
+        ] {
+            assert_ne!(plain, digest(&scene(other)), "{other}");
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The file of a kept run.
+//!
+//! | what | bytes |
+//! | --- | --- |
+//! | the name of the format, and the key of the run | 8 + 32 |
+//! | the pages, in any order | |
+//! | of each page: its offset, its size, its digest | 8 + 8 + 32 |
+//! | the description of the recording | |
+//! | the number of pages; where the table of pages begins; the digest of all from there to here | 8 + 8 + 32 |
+
+use std::fs::File;
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use sha2::{Digest, Sha256};
+
+use super::KEPT;
+use super::digest::Key;
+use crate::simulate::{Recording, Store};
+
+const FORMAT: &[u8; 8] = b"jabuka 1";
+/// The bytes of the entry of a page.
+const ENTRY: usize = 48;
+/// The bytes at the end.
+const TAIL: usize = 48;
+/// No page is larger, bytes: one has a single moment of all bodies, or about 1 MB.
+const LARGEST: u64 = 4 << 30;
+
+/// Where a page is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct At {
+    pub(super) offset: u64,
+    pub(super) bytes: u64,
+    pub(super) digest: [u8; 32],
+}
+
+impl At {
+    /// The page, if it is what was written.
+    pub(super) fn read(&self, file: &File) -> io::Result<Arc<[u8]>> {
+        let size = usize::try_from(self.bytes.min(LARGEST)).map_err(|_| damaged())?;
+        let mut bytes = vec![0; size];
+        file.read_exact_at(&mut bytes, self.offset)?;
+        let digest: [u8; 32] = Sha256::digest(&bytes).into();
+        if digest == self.digest { Ok(bytes.into()) } else { Err(damaged()) }
+    }
+
+    fn to_bytes(self) -> [u8; ENTRY] {
+        let mut bytes = [0; ENTRY];
+        bytes[..8].copy_from_slice(&self.offset.to_le_bytes());
+        bytes[8..16].copy_from_slice(&self.bytes.to_le_bytes());
+        bytes[16..].copy_from_slice(&self.digest);
+        bytes
+    }
+
+    fn from_bytes(bytes: &[u8; ENTRY]) -> At {
+        let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
+        At { offset: number(0), bytes: number(8), digest: std::array::from_fn(|i| bytes[16 + i]) }
+    }
+}
+
+/// The name of the file of a run.
+pub(super) fn name(key: Key) -> String {
+    let hex: String = key.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
+    format!("{hex}.{KEPT}")
+}
+
+/// What stands before the pages.
+pub(super) fn begin(key: Key) -> Vec<u8> {
+    [&FORMAT[..], &key].concat()
+}
+
+/// What stands behind the pages, which end at an offset.
+pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
+    let mut bytes: Vec<u8> = pages.iter().flat_map(|at| at.to_bytes()).collect();
+    bytes.extend_from_slice(index);
+    bytes.extend((pages.len() as u64).to_le_bytes());
+    bytes.extend(offset.to_le_bytes());
+    let digest: [u8; 32] = Sha256::digest(&bytes).into();
+    bytes.extend(digest);
+    bytes
+}
+
+/// Opens the run of a key, and notes that it is used now.
+pub(super) fn open(path: &Path, key: Key, bodies: usize) -> io::Result<Recording> {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    let mut head = [0; 40];
+    file.read_exact_at(&mut head, 0)?;
+    if head[..8] != FORMAT[..] || head[8..] != key {
+        return Err(damaged());
+    }
+    let mut tail = [0; TAIL];
+    file.read_exact_at(&mut tail, length.checked_sub(TAIL as u64).ok_or_else(damaged)?)?;
+    let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| tail[at + i]));
+    let (pages, begin) = (number(0), number(8));
+    let size = length.checked_sub(begin).filter(|size| *size >= TAIL as u64).ok_or_else(damaged)?;
+    let mut bytes = vec![0; usize::try_from(size).map_err(|_| damaged())?];
+    file.read_exact_at(&mut bytes, begin)?;
+    let (covered, digest) = bytes.split_at(bytes.len() - 32);
+    let found: [u8; 32] = Sha256::digest(covered).into();
+    if found[..] != *digest {
+        return Err(damaged());
+    }
+    let table = usize::try_from(pages).ok().and_then(|pages| pages.checked_mul(ENTRY)).ok_or_else(damaged)?;
+    let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
+    let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
+    let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
+    // Where it cannot be noted, the run counts as older than it is.
+    let _: io::Result<()> = file.set_modified(SystemTime::now());
+    Recording::with_index(bodies, index, Box::new(Kept { file, pages }))
+}
+
+/// The pages of a file.
+struct Kept {
+    file: File,
+    pages: Vec<At>,
+}
+
+impl Store for Kept {
+    fn put(&self, _: &[u8]) -> io::Result<()> {
+        Err(io::Error::new(io::ErrorKind::ReadOnlyFilesystem, "a run that is kept does not grow"))
+    }
+
+    fn page(&self, number: usize) -> io::Result<Arc<[u8]>> {
+        self.pages.get(number).ok_or_else(damaged)?.read(&self.file)
+    }
+}
+
+pub(super) fn damaged() -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, "the recording of the run is damaged")
+}

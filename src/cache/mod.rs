@@ -1,0 +1,265 @@
+//! Runs that are kept between commands, so that a change of a color or a camera simulates nothing.
+//!
+//! A kept run is a file in the user's cache folder, named by the digest of all that moves bodies. Nothing depends on it: a
+//! file that is damaged, or gone, or of another version, is made again.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | what the name of a file says | `digest` |
+//! | what is in a file | `file` |
+//! | the pages of a run while it is simulated | `spill` |
+
+mod digest;
+mod file;
+mod spill;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+use std::{env, fs, io};
+
+use crate::dynamics::Effort;
+use crate::scene::Scene;
+use crate::simulate::{Frame, Moments, Recorded, Recorder, Recording, SimulateError};
+
+pub use spill::Spill;
+
+/// Runs that were simulated faster than this are not kept.
+const QUICK: Duration = Duration::from_millis(200);
+/// The most that is kept unless the user says otherwise, bytes.
+const USUAL_LIMIT: u64 = 2_000_000_000;
+/// How the names of kept runs end.
+const KEPT: &str = "run";
+/// How the names of those end that are being written.
+const PART: &str = "part";
+
+/// Where runs are kept, and how much.
+#[derive(Clone, Debug)]
+pub struct Cache {
+    /// None: nothing is kept.
+    folder: Option<PathBuf>,
+    /// The most that is kept, bytes.
+    limit: u64,
+    /// What is simulated faster is not kept.
+    quick: Duration,
+}
+
+/// What a cache holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Holding {
+    /// The number of runs.
+    pub runs: usize,
+    /// Their size, bytes.
+    pub bytes: u64,
+}
+
+impl Cache {
+    /// One that keeps nothing.
+    #[must_use]
+    pub fn none() -> Cache {
+        Cache { folder: None, limit: 0, quick: QUICK }
+    }
+
+    /// One that keeps at most so many bytes in a folder, which is made when it is needed.
+    #[must_use]
+    pub fn new(folder: PathBuf, limit: u64) -> Cache {
+        Cache { folder: Some(folder), limit, quick: QUICK }
+    }
+
+    /// The same, but runs are kept however fast they were simulated.
+    #[must_use]
+    pub fn keeping_all(self) -> Cache {
+        Cache { quick: Duration::ZERO, ..self }
+    }
+
+    /// The user's: in `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`; at most `JABUKA_CACHE_SIZE` MB,
+    /// or 2 GB.
+    ///
+    /// # Errors
+    /// Where `JABUKA_CACHE_SIZE` is not a number; the message says so.
+    pub fn of_user() -> Result<Cache, String> {
+        let limit = match env::var("JABUKA_CACHE_SIZE") {
+            Err(env::VarError::NotPresent) => USUAL_LIMIT,
+            text => text.ok().and_then(|text| text.trim().parse::<u64>().ok()).map(|mb| mb.saturating_mul(1_000_000)).ok_or(
+                "JABUKA_CACHE_SIZE is a number of megabytes, as in JABUKA_CACHE_SIZE=500; with 0, nothing is kept",
+            )?,
+        };
+        let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        // The rules of XDG: a path that is not absolute does not count.
+        let of_xdg = variable("XDG_CACHE_HOME").filter(|path| path.is_absolute());
+        let caches = of_xdg.or_else(|| variable("HOME").map(|home| home.join(".cache")));
+        let folder = variable("JABUKA_CACHE_DIR").or_else(|| caches.map(|caches| caches.join("jabuka")));
+        Ok(match folder {
+            Some(folder) if limit > 0 => Cache::new(folder, limit),
+            _ => Cache::none(),
+        })
+    }
+
+    /// The folder, if anything is kept.
+    #[must_use]
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// A run of a scene: the one that is kept, or else a new one. The interactions of pairs are counted meanwhile, and `seen` is
+    /// told of every frame.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or there is no room for its recording.
+    pub fn run<'a>(
+        &self,
+        scene: &'a Scene,
+        moments: Moments,
+        effort: &Effort,
+        mut seen: impl FnMut(&Frame),
+    ) -> Result<Recorded<'a>, SimulateError> {
+        if let Some(recording) = self.find(scene, &moments) {
+            if let Ok(recorded) = Recorded::read(scene, Arc::new(recording), &mut seen) {
+                return Ok(recorded);
+            }
+            self.forget(scene, &moments);
+        }
+        let start = Instant::now();
+        let spill = self.spill(scene, &moments);
+        let mut recorder = Recorder::new(scene, moments, effort, Box::new(spill.clone()));
+        while let Some(frame) = recorder.advance()? {
+            seen(&frame);
+        }
+        let recorded = recorder.finish()?;
+        self.keep(&spill, recorded.recording(), start.elapsed());
+        Ok(recorded)
+    }
+
+    /// The run of a scene that is kept, if it is. What is damaged may only show when it is read.
+    #[must_use]
+    pub fn find(&self, scene: &Scene, moments: &Moments) -> Option<Recording> {
+        let path = self.path(scene, moments)?;
+        let key = digest::of(scene, moments);
+        let opened = file::open(&path, key, scene.bodies.len());
+        if opened.is_err() {
+            // If it is not there, there is nothing to remove.
+            let _: io::Result<()> = fs::remove_file(&path);
+        }
+        opened.ok()
+    }
+
+    /// Removes the run of a scene: it is damaged.
+    pub fn forget(&self, scene: &Scene, moments: &Moments) {
+        if let Some(path) = self.path(scene, moments) {
+            // Somebody else may have removed it.
+            let _: io::Result<()> = fs::remove_file(path);
+        }
+    }
+
+    /// Where the pages of a new run go.
+    #[must_use]
+    pub fn spill(&self, scene: &Scene, moments: &Moments) -> Spill {
+        match &self.folder {
+            Some(folder) if digest::is_worth_keeping(scene) => {
+                Spill::to_keep(folder.clone(), digest::of(scene, moments))
+            }
+            _ => Spill::unnamed(),
+        }
+    }
+
+    /// Keeps a run that took so long to simulate, if that is worth it; then removes those that were not used for longest, until
+    /// the rest is within the limit. A run that cannot be kept is not: that is no error.
+    pub fn keep(&self, spill: &Spill, recording: &Recording, took: Duration) {
+        let Some(folder) = &self.folder else { return };
+        let kept = took >= self.quick
+            && recording.index().and_then(|index| spill.keep(&index)).is_ok_and(|kept| kept);
+        if kept {
+            // It will be tried again after the next run.
+            let _: io::Result<()> = self.tidy(folder);
+        }
+    }
+
+    /// What is kept.
+    ///
+    /// # Errors
+    /// Where the folder cannot be read.
+    pub fn holding(&self) -> io::Result<Holding> {
+        let Some(folder) = &self.folder else { return Ok(Holding::default()) };
+        let kept = files(folder, KEPT)?;
+        Ok(Holding { runs: kept.len(), bytes: kept.iter().map(|kept| kept.bytes).sum() })
+    }
+
+    /// Removes all that is kept, and says what that was.
+    ///
+    /// # Errors
+    /// Where a file cannot be removed.
+    pub fn clear(&self) -> io::Result<Holding> {
+        let held = self.holding()?;
+        let Some(folder) = &self.folder else { return Ok(held) };
+        sweep(folder)?;
+        files(folder, KEPT)?.iter().try_for_each(|kept| remove(&kept.path))?;
+        Ok(held)
+    }
+
+    fn tidy(&self, folder: &Path) -> io::Result<()> {
+        sweep(folder)?;
+        let mut kept = files(folder, KEPT)?;
+        kept.sort_by(|a, b| (a.used, &a.path).cmp(&(b.used, &b.path)));
+        let mut bytes: u64 = kept.iter().map(|kept| kept.bytes).sum();
+        for oldest in kept {
+            if bytes <= self.limit {
+                break;
+            }
+            remove(&oldest.path)?;
+            bytes -= oldest.bytes;
+        }
+        Ok(())
+    }
+
+    fn path(&self, scene: &Scene, moments: &Moments) -> Option<PathBuf> {
+        let folder = self.folder.as_ref().filter(|_| digest::is_worth_keeping(scene))?;
+        Some(folder.join(file::name(digest::of(scene, moments))))
+    }
+}
+
+/// A file of the cache.
+struct Kept {
+    path: PathBuf,
+    bytes: u64,
+    used: SystemTime,
+}
+
+/// The files of a folder whose names end so; none if there is no folder.
+fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries?,
+    };
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry?.path();
+        if path.extension().is_none_or(|extension| extension != ending) {
+            continue;
+        }
+        // Another process may remove it meanwhile.
+        let Ok(about) = fs::symlink_metadata(&path) else { continue };
+        if about.is_file() {
+            let used = about.modified().unwrap_or(SystemTime::UNIX_EPOCH);
+            files.push(Kept { path, bytes: about.len(), used });
+        }
+    }
+    Ok(files)
+}
+
+/// Removes what runs have left that were killed: nobody has locked it.
+fn sweep(folder: &Path) -> io::Result<()> {
+    for part in files(folder, PART)? {
+        let is_left = fs::File::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());
+        if is_left {
+            remove(&part.path)?;
+        }
+    }
+    Ok(())
+}
+
+fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        done => done,
+    }
+}

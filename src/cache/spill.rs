@@ -1,0 +1,213 @@
+//! The pages of a run while it is simulated: in memory while they are few, then in a file.
+
+use std::fs::{self, File, OpenOptions};
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use sha2::{Digest, Sha256};
+
+use super::PART;
+use super::digest::Key;
+use super::file::{self, At};
+use crate::simulate::Store;
+
+/// So much of a run stays in memory, bytes.
+const IN_MEMORY: usize = 1 << 20;
+/// A disk is full when it has no more room than this, bytes: to find out by filling it would hurt others.
+const RESERVE: u64 = 32 << 20;
+
+/// Keeps the pages of one run. A clone is the same store.
+#[derive(Clone)]
+pub struct Spill(Arc<Shared>);
+
+struct Shared {
+    /// Where the run is to be kept in the end, and its key.
+    to_keep: Option<(PathBuf, Key)>,
+    inner: Mutex<Inner>,
+}
+
+#[derive(Default)]
+struct Inner {
+    pages: Vec<Page>,
+    in_memory: usize,
+    /// The files, of which the last is written to. There is a second one where the first has no more room.
+    files: Vec<Part>,
+}
+
+enum Page {
+    InMemory(Arc<[u8]>),
+    /// In the file of this number.
+    InFile(usize, At),
+}
+
+/// A file that pages are written to.
+struct Part {
+    file: File,
+    /// Its path, if it has a name.
+    path: Option<PathBuf>,
+    end: u64,
+}
+
+impl Spill {
+    /// Pages whose file has no name, and goes with the process, however that ends.
+    #[must_use]
+    pub fn unnamed() -> Spill {
+        Spill(Arc::new(Shared { to_keep: None, inner: Mutex::default() }))
+    }
+
+    pub(super) fn to_keep(folder: PathBuf, key: Key) -> Spill {
+        Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner: Mutex::default() }))
+    }
+
+    /// Makes the pages a file of the cache, with the description of what is where. False if they are not to be kept, or the
+    /// folder has no room.
+    pub(super) fn keep(&self, index: &[u8]) -> io::Result<bool> {
+        let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
+        let inner = &mut *self.inner();
+        if inner.files.is_empty() {
+            inner.files.push(Part::named(folder, *key)?);
+        }
+        let [part] = &mut inner.files[..] else { return Ok(false) };
+        let Some(path) = part.path.clone() else { return Ok(false) };
+        for page in &mut inner.pages {
+            if let Page::InMemory(bytes) = page {
+                *page = Page::InFile(0, part.append(bytes)?);
+            }
+        }
+        let places = inner.pages.iter().map(|page| match page {
+            Page::InFile(_, at) => *at,
+            Page::InMemory(_) => At::default(),
+        });
+        let places: Vec<At> = places.collect();
+        let end = file::end(&places, index, part.end);
+        part.file.write_all_at(&end, part.end)?;
+        fs::rename(&path, folder.join(file::name(*key)))?;
+        part.path = None;
+        Ok(true)
+    }
+
+    fn inner(&self) -> MutexGuard<'_, Inner> {
+        self.0.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Opens the next file to write to: in the folder of the cache, and if that has no more room, without a name.
+    fn open_next(&self, files: usize) -> Option<io::Result<Part>> {
+        match (&self.0.to_keep, files) {
+            (Some((folder, key)), 0) => Some(Part::named(folder, *key).or_else(|_| Part::unnamed())),
+            (None, 0) | (Some(_), 1) => Some(Part::unnamed()),
+            _ => None,
+        }
+    }
+}
+
+impl Store for Spill {
+    fn put(&self, page: &[u8]) -> io::Result<()> {
+        let inner = &mut *self.inner();
+        if inner.files.is_empty() && inner.in_memory + page.len() <= IN_MEMORY {
+            inner.in_memory += page.len();
+            inner.pages.push(Page::InMemory(page.into()));
+            return Ok(());
+        }
+        loop {
+            let number = inner.files.len();
+            let written = inner.files.last_mut().map(|part| part.append(page));
+            match written {
+                Some(Ok(at)) => {
+                    inner.pages.push(Page::InFile(number - 1, at));
+                    return Ok(());
+                }
+                failed => match self.open_next(number) {
+                    Some(part) => inner.files.push(part?),
+                    None => return Err(failed.and_then(Result::err).unwrap_or_else(full)),
+                },
+            }
+        }
+    }
+
+    fn page(&self, number: usize) -> io::Result<Arc<[u8]>> {
+        let inner = self.inner();
+        match inner.pages.get(number).ok_or_else(file::damaged)? {
+            Page::InMemory(bytes) => Ok(Arc::clone(bytes)),
+            Page::InFile(part, at) => at.read(&inner.files[*part].file),
+        }
+    }
+}
+
+impl Part {
+    /// A file in the folder of the cache, locked for as long as it is open.
+    fn named(folder: &Path, key: Key) -> io::Result<Part> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        fs::create_dir_all(folder)?;
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let path =
+            folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
+        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
+        file.try_lock().map_err(io::Error::from)?;
+        file.set_len(0)?;
+        let begin = file::begin(key);
+        file.write_all_at(&begin, 0)?;
+        Ok(Part { file, path: Some(path), end: begin.len() as u64 })
+    }
+
+    /// A file without a name.
+    fn unnamed() -> io::Result<Part> {
+        Ok(Part { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
+    }
+
+    fn append(&mut self, page: &[u8]) -> io::Result<At> {
+        let space = rustix::fs::fstatvfs(&self.file)?;
+        if space.f_bavail.saturating_mul(space.f_frsize) < RESERVE + page.len() as u64 {
+            return Err(full());
+        }
+        self.file.write_all_at(page, self.end)?;
+        let at = At { offset: self.end, bytes: page.len() as u64, digest: Sha256::digest(page).into() };
+        self.end += at.bytes;
+        Ok(at)
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if let Some(path) = &self.path {
+            // It is no longer needed; what stays is swept by the next run.
+            let _: io::Result<()> = fs::remove_file(path);
+        }
+    }
+}
+
+fn full() -> io::Error {
+    io::Error::new(
+        io::ErrorKind::StorageFull,
+        format!("`{}` has no room for it", temporary_folder().display()),
+    )
+}
+
+/// Where large files go: the usual folder is in memory on some systems.
+fn temporary_folder() -> PathBuf {
+    let large = PathBuf::from("/var/tmp");
+    match std::env::var_os("TMPDIR") {
+        None if large.is_dir() => large,
+        _ => std::env::temp_dir(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_are_read_as_they_were_put_in_memory_and_in_a_file() {
+        let spill = Spill::unnamed();
+        let pages: Vec<Vec<u8>> = (0..5u8).map(|i| vec![i; 400_000]).collect();
+        pages.iter().for_each(|page| spill.put(page).unwrap());
+        assert!(matches!(spill.inner().pages[0], Page::InMemory(_)));
+        assert!(matches!(spill.inner().pages[4], Page::InFile(0, _)));
+        for (number, page) in pages.iter().enumerate().rev() {
+            assert_eq!(spill.page(number).unwrap()[..], page[..]);
+        }
+        assert!(spill.page(5).is_err());
+    }
+}

@@ -1,0 +1,37 @@
+//! `jabuka cache`: the runs that are kept between commands.
+
+use jabuka::cache::{Cache, Holding};
+use jabuka::diagnostic::{Code, Report, visible_path};
+
+use super::summary::bytes;
+use super::{Failure, say};
+
+/// Say which runs are kept between commands, or remove them
+///
+/// A scene whose bodies move as in an earlier command is not simulated again: its run is kept in JABUKA_CACHE_DIR, or else in
+/// the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept. Beyond JABUKA_CACHE_SIZE
+/// megabytes (2000 unless it says otherwise; 0 keeps nothing), the runs that were not used for longest go first.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Remove all that is kept
+    #[arg(long)]
+    clear: bool,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let cache = Cache::of_user().map_err(Failure::Usage)?;
+    let Some(folder) = cache.folder() else {
+        say::result("nothing is kept: JABUKA_CACHE_SIZE is 0, or there is no folder for it\n");
+        return Ok(());
+    };
+    let held = if arguments.clear { cache.clear() } else { cache.holding() };
+    let Holding { runs, bytes: size } = held.map_err(|error| {
+        let message = format!("`{}`: {error}", visible_path(folder));
+        say::report(&Report::of_error(Code::CannotWrite, message));
+        Failure::Errors
+    })?;
+    let runs = if runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
+    let removed = if arguments.clear { " removed" } else { "" };
+    say::result(&format!("{}: {runs}, {}{removed}\n", visible_path(folder), bytes(size)));
+    Ok(())
+}

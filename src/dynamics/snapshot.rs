@@ -1,0 +1,93 @@
+//! What can be known of all bodies at one moment.
+
+use glam::{DQuat, DVec3};
+
+use super::{Balance, BodyId};
+
+/// All bodies at one moment of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// The time, s.
+    pub time: f64,
+    /// The bodies that are there, in the order of their ids.
+    pub bodies: Vec<BodySnapshot>,
+    /// Energies, momenta and the drift.
+    pub balance: Balance,
+}
+
+/// A body at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodySnapshot {
+    /// The number of the body in the world.
+    pub id: usize,
+    /// Its centre of mass, m.
+    pub location: DVec3,
+    /// The rotation that takes its own axes to the world's.
+    pub orientation: DQuat,
+    /// Its velocity, m/s.
+    pub velocity: DVec3,
+    /// Its angular velocity in world axes, rad/s.
+    pub angular_velocity: DVec3,
+    /// The sum of the forces on it, N; m a where its motion is given.
+    pub force: DVec3,
+}
+
+/// Why a run cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breakdown {
+    /// A body is at no finite place, or has no finite velocity: the method cannot follow this motion at this step.
+    Diverged {
+        /// The body.
+        body: BodyId,
+        /// The time, s.
+        time: f64,
+    },
+}
+
+impl Snapshot {
+    /// A body, if it is there.
+    #[must_use]
+    pub fn body(&self, id: usize) -> Option<&BodySnapshot> {
+        find(&self.bodies, id)
+    }
+
+    /// The snapshot, unless a body is at no finite place.
+    ///
+    /// # Errors
+    /// Names the first body that is not.
+    pub fn checked(self) -> Result<Snapshot, Breakdown> {
+        match self.bodies.iter().find(|body| !body.is_finite()) {
+            None => Ok(self),
+            Some(body) => Err(Breakdown::Diverged { body: BodyId::new(body.id), time: self.time }),
+        }
+    }
+}
+
+/// The body of an id among some, in the order of their ids.
+pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> {
+    // Most runs have all bodies all the time.
+    match bodies.get(id) {
+        Some(body) if body.id == id => Some(body),
+        _ => bodies.binary_search_by_key(&id, |body| body.id).ok().map(|place| &bodies[place]),
+    }
+}
+
+impl BodySnapshot {
+    /// Whether the body is at a finite place and moves at a finite velocity.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.location.is_finite()
+            && self.orientation.is_finite()
+            && self.velocity.is_finite()
+            && self.angular_velocity.is_finite()
+    }
+}
+
+impl std::fmt::Display for Breakdown {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Breakdown::Diverged { body, time } = self;
+        write!(f, "at t = {time} s body {} is at no finite place", body.index())
+    }
+}
+
+impl std::error::Error for Breakdown {}

@@ -1,0 +1,58 @@
+//! Frames as the page reads them: little-endian 64-bit numbers.
+
+use std::io;
+use std::sync::Arc;
+
+use crate::dynamics::Balance;
+use crate::simulate::Recording;
+
+/// The numbers that are said of all bodies of a frame together.
+#[cfg(test)]
+pub(super) const HEAD: usize = 11 + crate::dynamics::Accounts::NAMES.len();
+/// The numbers of a body that say where it is.
+const POSE: usize = 7;
+/// The bytes of a number.
+const NUMBER: usize = 8;
+
+/// The bytes of the poses of a frame.
+pub(super) fn pose_bytes(bodies: usize) -> usize {
+    POSE * bodies * NUMBER
+}
+
+/// Where all bodies are in some frames: of each frame, the locations of all, then the orientations of all, x y z w. Those of a
+/// body that is not there are not numbers.
+pub(super) fn poses(
+    recording: &Arc<Recording>,
+    bodies: usize,
+    frames: impl Iterator<Item = usize>,
+) -> io::Result<Vec<u8>> {
+    let mut reader = recording.read();
+    let mut bytes = Vec::new();
+    for frame in frames {
+        let snapshot = reader.frame(frame)?;
+        let (mut locations, mut orientations) = (vec![[f64::NAN; 3]; bodies], vec![[f64::NAN; 4]; bodies]);
+        for body in &snapshot.bodies {
+            locations[body.id] = body.location.to_array();
+            orientations[body.id] = body.orientation.to_array();
+        }
+        put(&mut bytes, locations.as_flattened());
+        put(&mut bytes, orientations.as_flattened());
+    }
+    Ok(bytes)
+}
+
+/// Appends what is said of all bodies together: the time; kinetic, potential, total energy; the accounts; drift; linear
+/// momentum; angular momentum.
+pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance) {
+    let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
+    put(bytes, &[time, *kinetic, *potential, *total]);
+    put(bytes, &accounts.to_array());
+    put(bytes, &[*drift]);
+    put(bytes, &linear_momentum.to_array());
+    put(bytes, &angular_momentum.to_array());
+}
+
+/// Appends numbers.
+pub(super) fn put(bytes: &mut Vec<u8>, numbers: &[f64]) {
+    numbers.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
+}

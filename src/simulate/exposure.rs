@@ -1,0 +1,59 @@
+//! What a camera sees while its shutter is open.
+
+use std::sync::Arc;
+
+use super::past::History;
+use super::recording::{Reader, Recording};
+use super::simulation::Entry;
+use super::{Frame, SimulateError};
+use crate::scene::Shutter;
+
+/// A frame, or another moment, and the run from there on.
+pub struct Exposure {
+    /// The moment at which the shutter opens.
+    pub frame: Frame,
+    /// What has been up to there.
+    history: History,
+    /// The recording, and the number of the moment that comes next in it.
+    rest: (Arc<Recording>, usize),
+}
+
+impl Exposure {
+    pub(super) fn new(frame: Frame, history: History, rest: (Arc<Recording>, usize)) -> Exposure {
+        Exposure { frame, history, rest }
+    }
+
+    /// The moments at which a camera looks while its shutter is open, each read when it is asked for. They may be later than
+    /// the last frame, and have the number of the frame at which the shutter has opened.
+    pub fn moments(&self, shutter: Shutter) -> impl Iterator<Item = Result<Frame, SimulateError>> {
+        let (recording, next) = &self.rest;
+        let mut reader = recording.read();
+        reader.seek(*next);
+        let mut history = self.history.clone();
+        let index = self.frame.index;
+        shutter.moments(self.frame.time).map(move |time| moment(&mut reader, &mut history, index, time))
+    }
+}
+
+/// The moment of a time (s), which is not before the reader's.
+#[allow(clippy::float_cmp, reason = "moments are recorded at these very times")]
+fn moment(
+    reader: &mut Reader,
+    history: &mut History,
+    index: usize,
+    time: f64,
+) -> Result<Frame, SimulateError> {
+    let lost = || SimulateError::Recording(format!("t = {time} s was not recorded"));
+    loop {
+        let Entry { snapshot, .. } = reader.entry()?.ok_or_else(lost)?;
+        if snapshot.time > time {
+            return Err(lost());
+        }
+        history.note_ghosts(&snapshot);
+        if snapshot.time == time {
+            let mut frame = Frame::of(index, snapshot);
+            frame.past = history.before(&frame);
+            return Ok(frame);
+        }
+    }
+}

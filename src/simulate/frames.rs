@@ -1,0 +1,210 @@
+//! The frames of a run, one after another.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::past::History;
+use super::recording::{Reader, Recording};
+use super::simulation::{Entry, Simulation};
+use super::{Diverged, Frame, Moments, SimulateError};
+use crate::dynamics::{Effort, Snapshot};
+use crate::scene::Scene;
+
+/// The frames of a run in their order, each made when it is asked for.
+///
+/// The scene knows the initial state, so a run that begins again is another `Frames` of the same scene, and it
+/// gives the same frames bit for bit.
+pub struct Frames<'a> {
+    scene: &'a Scene,
+    source: Source<'a>,
+    history: History,
+}
+
+/// Where the moments come from.
+enum Source<'a> {
+    /// They are computed.
+    Live(Simulation<'a>, VecDeque<Entry>),
+    /// They are read.
+    Recorded(Arc<Recording>, Reader),
+}
+
+impl<'a> Frames<'a> {
+    /// The frames of a scene from its initial state, computed one by one.
+    pub fn new(scene: &'a Scene) -> Frames<'a> {
+        Frames::watched(scene, &Effort::default())
+    }
+
+    /// The same frames; the interactions of pairs are counted while they are made.
+    pub fn watched(scene: &'a Scene, effort: &Effort) -> Frames<'a> {
+        Frames::with(scene, Moments::of_ghosts(scene), effort)
+    }
+
+    fn with(scene: &'a Scene, moments: Moments, effort: &Effort) -> Frames<'a> {
+        let simulation = Simulation::new(scene, moments, effort);
+        let source = Source::Live(simulation, VecDeque::new());
+        Frames { scene, source, history: History::new(scene) }
+    }
+
+    /// The frames of a run that has been recorded.
+    pub fn recorded(scene: &'a Scene, recording: &Arc<Recording>) -> Frames<'a> {
+        let source = Source::Recorded(Arc::clone(recording), recording.read());
+        Frames { scene, source, history: History::new(scene) }
+    }
+
+    /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between
+    /// two. A time before the beginning is the beginning, one after the end is the end. The run is computed up to there.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers before.
+    pub fn at(scene: &Scene, time: f64) -> Result<Frame, SimulateError> {
+        let time = within(scene, time);
+        let moments = Moments::of_ghosts(scene).with(time);
+        Frames::with(scene, moments, &Effort::default()).moment(time)
+    }
+
+    /// The moment of a time (s), which must be that of a frame or a recorded one, with what has been before.
+    fn moment(mut self, time: f64) -> Result<Frame, SimulateError> {
+        let mut before = 0;
+        while let Some(Entry { frame, snapshot }) = self.entry()? {
+            before = frame.unwrap_or(before);
+            if snapshot.time >= time {
+                return Ok(self.see(frame.is_some(), Frame::of(before, snapshot)));
+            }
+            self.remember(frame, snapshot);
+        }
+        Err(SimulateError::Recording("the recording ends before this time".to_owned()))
+    }
+
+    /// The moment with a number in the recording, and what has been before; the number of the frame at or before it is known.
+    pub(super) fn recorded_moment(
+        mut self,
+        moment: usize,
+        index: usize,
+    ) -> Result<(Frame, History), SimulateError> {
+        if let Source::Recorded(_, reader) = &mut self.source
+            && self.history.is_idle()
+        {
+            reader.seek(moment);
+        }
+        while let Some(Entry { frame, snapshot }) = self.entry()? {
+            if self.position() > moment {
+                self.history.note_ghosts(&snapshot);
+                let frame = self.see(frame.is_some(), Frame::of(index, snapshot));
+                return Ok((frame, self.history));
+            }
+            self.remember(frame, snapshot);
+        }
+        Err(SimulateError::Recording("the recording ends before this time".to_owned()))
+    }
+
+    /// Whether frames say anything of what has been before.
+    pub fn remember_anything(&self) -> bool {
+        !self.history.is_idle()
+    }
+
+    /// The number of the moment of the recording that comes next.
+    pub(super) fn position(&self) -> usize {
+        match &self.source {
+            Source::Recorded(_, reader) => reader.position(),
+            Source::Live(..) => 0,
+        }
+    }
+
+    /// What has been up to the last frame.
+    pub(super) fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Goes on with a frame, without looking at those before, where nobody asks for what has been before.
+    pub(super) fn pass_to(&mut self, frame: usize) {
+        if let Source::Recorded(_, reader) = &mut self.source
+            && self.history.is_idle()
+        {
+            reader.seek_frame(frame);
+        }
+    }
+
+    /// Starts over, as the space key does in a simulation with a window.
+    pub fn reset(&mut self) {
+        *self = match &self.source {
+            Source::Live(..) => Frames::new(self.scene),
+            Source::Recorded(recording, _) => Frames::recorded(self.scene, recording),
+        };
+    }
+
+    /// The next moment of the run.
+    fn entry(&mut self) -> Result<Option<Entry>, SimulateError> {
+        match &mut self.source {
+            Source::Recorded(_, reader) => Ok(reader.entry()?),
+            Source::Live(simulation, waiting) => {
+                while waiting.is_empty() {
+                    if !simulation.advance(&mut |entry| waiting.push_back(entry))? {
+                        return Ok(None);
+                    }
+                }
+                Ok(waiting.pop_front())
+            }
+        }
+    }
+
+    fn remember(&mut self, frame: Option<usize>, snapshot: Snapshot) {
+        if self.history.is_idle() {
+            return;
+        }
+        self.history.note_ghosts(&snapshot);
+        if let Some(index) = frame {
+            self.history.note(&Frame::of(index, snapshot));
+        }
+    }
+
+    /// Gives a moment its past.
+    fn see(&mut self, is_frame: bool, mut moment: Frame) -> Frame {
+        if self.history.is_idle() {
+            return moment;
+        }
+        if is_frame {
+            self.history.note(&moment);
+        }
+        moment.past = self.history.before(&moment);
+        moment
+    }
+}
+
+impl Iterator for Frames<'_> {
+    type Item = Result<Frame, SimulateError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            match self.entry() {
+                Ok(Some(Entry { frame: Some(index), snapshot })) => {
+                    if !self.history.is_idle() {
+                        self.history.note_ghosts(&snapshot);
+                    }
+                    return Some(Ok(self.see(true, Frame::of(index, snapshot))));
+                }
+                Ok(Some(Entry { frame: None, snapshot })) => self.remember(None, snapshot),
+                Ok(None) => return None,
+                Err(error) => return Some(Err(error)),
+            }
+        }
+    }
+}
+
+/// The nearest time of a run, s.
+pub fn within(scene: &Scene, time: f64) -> f64 {
+    let simulation = &scene.simulation;
+    let end = simulation.duration.max(simulation.time(simulation.frames() - 1));
+    if time > 0.0 { time.min(end) } else { 0.0 }
+}
+
+impl From<Diverged> for SimulateError {
+    fn from(error: Diverged) -> SimulateError {
+        SimulateError::Diverged(error)
+    }
+}
+
+impl From<std::io::Error> for SimulateError {
+    fn from(error: std::io::Error) -> SimulateError {
+        SimulateError::Recording(error.to_string())
+    }
+}

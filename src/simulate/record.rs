@@ -1,0 +1,236 @@
+//! A scene, simulated once: its recording, and what is known of the run as a whole.
+
+use std::io;
+use std::sync::Arc;
+
+use super::frames::within;
+use super::past::History;
+use super::recording::{MemoryStore, Recording, Store};
+use super::simulation::{Entry, Simulation};
+use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, Surveyor};
+use crate::dynamics::{Dynamics, Effort};
+use crate::scene::Scene;
+
+/// A run of a scene that has been simulated, to be read in any order by all that draws, measures or exports.
+#[derive(Clone)]
+pub struct Recorded<'a> {
+    scene: &'a Scene,
+    recording: Arc<Recording>,
+    survey: Survey,
+}
+
+impl<'a> Recorded<'a> {
+    /// Simulates a scene, and keeps the recording in memory.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers.
+    pub fn new(scene: &'a Scene) -> Result<Recorded<'a>, SimulateError> {
+        let store = Box::<MemoryStore>::default();
+        let mut recorder = Recorder::new(scene, Moments::of(scene), &Effort::default(), store);
+        while recorder.advance()?.is_some() {}
+        recorder.finish()
+    }
+
+    /// Simulates a scene by somebody else's dynamics, at time 0, whose bodies have the numbers of the scene.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers.
+    pub fn of(scene: &'a Scene, dynamics: Box<dyn Dynamics>) -> Result<Recorded<'a>, SimulateError> {
+        let simulation = Simulation::of(scene, Moments::of(scene), dynamics);
+        let mut recorder = Recorder::of(scene, simulation, Box::<MemoryStore>::default());
+        while recorder.advance()?.is_some() {}
+        recorder.finish()
+    }
+
+    /// A run that was simulated and looked over by somebody else.
+    pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
+        Recorded { scene, recording, survey }
+    }
+
+    /// A run that was recorded earlier; `seen` is told of every frame. What is known of the run as a whole depends on what is
+    /// drawn, so it is found by reading all frames.
+    ///
+    /// # Errors
+    /// Where the recording cannot be read.
+    pub fn read(
+        scene: &'a Scene,
+        recording: Arc<Recording>,
+        mut seen: impl FnMut(&Frame),
+    ) -> Result<Recorded<'a>, SimulateError> {
+        let lost = || SimulateError::Recording("the recording lacks frames".to_owned());
+        if recording.frames() != scene.simulation.frames() {
+            return Err(lost());
+        }
+        let mut surveyor = Surveyor::new(scene);
+        let mut reader = recording.read();
+        for index in 0..recording.frames() {
+            reader.seek_frame(index);
+            let Entry { frame, snapshot } = reader.entry()?.ok_or_else(lost)?;
+            if frame != Some(index) {
+                return Err(lost());
+            }
+            let frame = Frame::of(index, snapshot);
+            surveyor.see(&frame);
+            seen(&frame);
+        }
+        Ok(Recorded { scene, recording, survey: surveyor.finish() })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// What is known of the run as a whole.
+    pub fn survey(&self) -> &Survey {
+        &self.survey
+    }
+
+    /// The moments of the run.
+    pub fn recording(&self) -> &Arc<Recording> {
+        &self.recording
+    }
+
+    /// All frames, from the first on.
+    pub fn frames(&self) -> Frames<'a> {
+        Frames::recorded(self.scene, &self.recording)
+    }
+
+    /// The selected frames, and with each the run from there on as far as shutters are open.
+    pub fn exposures(
+        &self,
+        selection: &Selection,
+    ) -> impl Iterator<Item = Result<Exposure, SimulateError>> + Send + use<'a> {
+        let (mut frames, recording) = (self.frames(), Arc::clone(&self.recording));
+        let count = self.recording.frames();
+        let mut cameras = self.scene.views.iter().map(|view| &view.camera).chain([&self.scene.camera]);
+        let is_exposed = cameras.any(|camera| camera.shutter.is_some());
+        let last = selection.last().map_or(0, |last| last.saturating_add(1).min(count));
+        let mut wanted = (0..last).filter({
+            let selection = selection.clone();
+            move |&frame| selection.contains(frame)
+        });
+        std::iter::from_fn(move || {
+            let wanted = wanted.next()?;
+            frames.pass_to(wanted);
+            loop {
+                match frames.next()? {
+                    Ok(frame) if frame.index < wanted => {}
+                    Ok(frame) => {
+                        let rest = (Arc::clone(&recording), frames.position());
+                        // Only who looks on from there needs to know what has been before.
+                        let history = if is_exposed { frames.history().clone() } else { History::default() };
+                        return Some(Ok(Exposure::new(frame, history, rest)));
+                    }
+                    Err(error) => return Some(Err(error)),
+                }
+            }
+        })
+    }
+
+    /// The moment of any time (s) and the run from there on as far as shutters are open. A time before the beginning is the
+    /// beginning, one after the end is the end. What was not recorded is simulated once more.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers before, or the recording cannot be read.
+    pub fn at(&self, time: f64) -> Result<Exposure, SimulateError> {
+        let time = within(self.scene, time);
+        let moments = Moments::of(self.scene).with(time);
+        if let Some(moment) = self.recording.moment_at(time)
+            && moments.times_of(time).all(|time| self.recording.moment_at(time).is_some())
+        {
+            return exposure(self.scene, &self.recording, moment);
+        }
+        let store = Box::<MemoryStore>::default();
+        let mut recorder = Recorder::new(self.scene, moments, &Effort::default(), store);
+        while recorder.advance()?.is_some() {}
+        let Recorder { recording, .. } = recorder;
+        let moment = recording.moment_at(time);
+        let lost = || SimulateError::Recording(format!("t = {time} s was not recorded"));
+        exposure(self.scene, &recording, moment.ok_or_else(lost)?)
+    }
+}
+
+fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<Exposure, SimulateError> {
+    let frames = Frames::recorded(scene, recording);
+    let (frame, history) = frames.recorded_moment(moment, recording.frame_at(moment))?;
+    Ok(Exposure::new(frame, history, (Arc::clone(recording), moment + 1)))
+}
+
+/// Simulates and records a run, frame by frame.
+pub struct Recorder<'a> {
+    scene: &'a Scene,
+    simulation: Simulation<'a>,
+    surveyor: Surveyor<'a>,
+    recording: Arc<Recording>,
+}
+
+impl<'a> Recorder<'a> {
+    /// Of a run that has not begun; the interactions of pairs are counted meanwhile.
+    pub fn new(scene: &'a Scene, moments: Moments, effort: &Effort, store: Box<dyn Store>) -> Recorder<'a> {
+        Recorder::of(scene, Simulation::new(scene, moments, effort), store)
+    }
+
+    fn of(scene: &'a Scene, simulation: Simulation<'a>, store: Box<dyn Store>) -> Recorder<'a> {
+        let recording = Arc::new(Recording::new(scene.bodies.len(), store));
+        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording }
+    }
+
+    /// Like [`new`](Self::new), into a recording that is still empty.
+    pub fn into(
+        scene: &'a Scene,
+        moments: Moments,
+        effort: &Effort,
+        recording: Arc<Recording>,
+    ) -> Recorder<'a> {
+        let simulation = Simulation::new(scene, moments, effort);
+        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording }
+    }
+
+    /// The recording, which can be read while it grows.
+    pub fn recording(&self) -> &Arc<Recording> {
+        &self.recording
+    }
+
+    /// Simulates up to the next frame, which is given without its past; none after the end.
+    ///
+    /// # Errors
+    /// Where the run leaves the numbers, or there is no room for it.
+    pub fn advance(&mut self) -> Result<Option<Frame>, SimulateError> {
+        let Self { simulation, surveyor, recording, .. } = self;
+        let (mut seen, mut failed): (_, Option<io::Error>) = (None, None);
+        while seen.is_none() && failed.is_none() {
+            let goes_on = simulation.advance(&mut |entry| {
+                failed = failed.take().or(recording.push(&entry).err());
+                if let Entry { frame: Some(index), snapshot } = entry {
+                    seen = Some(Frame::of(index, snapshot));
+                }
+            })?;
+            if !goes_on {
+                break;
+            }
+        }
+        if let Some(error) = failed {
+            return Err(error.into());
+        }
+        if let Some(frame) = &seen {
+            surveyor.see(frame);
+        }
+        Ok(seen)
+    }
+
+    /// The box in which everything has taken place so far.
+    pub fn bounds(&self) -> Option<super::Bounds> {
+        self.surveyor.bounds()
+    }
+
+    /// What was simulated.
+    ///
+    /// # Errors
+    /// Where there is no room for it.
+    pub fn finish(self) -> Result<Recorded<'a>, SimulateError> {
+        let Recorder { scene, surveyor, recording, .. } = self;
+        recording.index()?;
+        Ok(Recorded { scene, recording, survey: surveyor.finish() })
+    }
+}

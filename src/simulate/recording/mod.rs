@@ -1,0 +1,291 @@
+//! A run that has been simulated: the state of every frame and of the moments between, to be read in any order.
+//!
+//! Memory does not grow with it: moments stand in pages of at most 32 moments or about 1 MB, which a [`Store`] keeps.
+//! A page can be read without those before it. While a run goes on, what is recorded so far can be read.
+
+mod codec;
+mod store;
+
+use std::io;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
+
+use self::codec::{Decoder, Encoder, damaged};
+use super::simulation::Entry;
+use crate::dynamics::{BodySnapshot, Snapshot};
+
+pub use store::{MemoryStore, Store};
+
+/// A page is full after so many moments,
+const MOMENTS: usize = 32;
+/// or after so many bytes.
+const BYTES: usize = 1 << 20;
+
+/// The moments of a run, from the first on. One writes, any number read.
+pub struct Recording {
+    bodies: usize,
+    encoder: Mutex<Encoder>,
+    contents: RwLock<Contents>,
+    store: Box<dyn Store>,
+}
+
+/// What is where.
+#[derive(Default)]
+struct Contents {
+    /// The time of each moment, s, in rising order.
+    times: Vec<f64>,
+    /// The number of the moment of each frame.
+    frames: Vec<u32>,
+    /// The number of the first moment of each page that is in the store.
+    pages: Vec<u32>,
+    /// The page that is not full yet, and the number of its first moment.
+    open: Vec<u8>,
+    first: usize,
+}
+
+impl Recording {
+    /// That of a run of so many bodies which has not begun.
+    pub fn new(bodies: usize, store: Box<dyn Store>) -> Recording {
+        let (encoder, contents) = (Mutex::new(Encoder::new(bodies)), RwLock::default());
+        Recording { bodies, encoder, contents, store }
+    }
+
+    /// A recording that was [described](Self::index) before, of which the store has all pages.
+    ///
+    /// # Errors
+    /// Where the description is not one.
+    pub fn with_index(bodies: usize, index: &[u8], store: Box<dyn Store>) -> io::Result<Recording> {
+        let contents = RwLock::new(Contents::from_bytes(index)?);
+        Ok(Recording { bodies, encoder: Mutex::new(Encoder::new(0)), contents, store })
+    }
+
+    /// Adds the next moment.
+    pub(super) fn push(&self, Entry { frame, snapshot }: &Entry) -> io::Result<()> {
+        let mut encoder = self.encoder();
+        let mut bytes = Vec::new();
+        encoder.encode(*frame, snapshot, &mut bytes);
+        let mut contents = self.contents.write().unwrap_or_else(PoisonError::into_inner);
+        let number = contents.times.len();
+        contents.times.push(snapshot.time);
+        if frame.is_some() {
+            contents.frames.push(u32_of(number));
+        }
+        contents.open.append(&mut bytes);
+        if number + 1 - contents.first >= MOMENTS || contents.open.len() >= BYTES {
+            self.close_page(&mut contents, &mut encoder)?;
+        }
+        Ok(())
+    }
+
+    /// Puts the last page into the store, and describes what is where: with this and the store, the recording can be
+    /// read again.
+    ///
+    /// # Errors
+    /// Where there is no room for the page.
+    pub fn index(&self) -> io::Result<Vec<u8>> {
+        let mut encoder = self.encoder();
+        let mut contents = self.contents.write().unwrap_or_else(PoisonError::into_inner);
+        if !contents.open.is_empty() {
+            self.close_page(&mut contents, &mut encoder)?;
+        }
+        Ok(contents.to_bytes())
+    }
+
+    fn close_page(&self, contents: &mut Contents, encoder: &mut Encoder) -> io::Result<()> {
+        self.store.put(&contents.open)?;
+        let first = u32_of(contents.first);
+        contents.pages.push(first);
+        contents.open.clear();
+        contents.first = contents.times.len();
+        encoder.begin_page();
+        Ok(())
+    }
+
+    /// How many frames there are so far.
+    pub fn frames(&self) -> usize {
+        self.contents().frames.len()
+    }
+
+    /// A reader at the first moment.
+    pub fn read(self: &Arc<Self>) -> Reader {
+        Reader { recording: Arc::clone(self), next: 0, page: None, decoder: Decoder::new(self.bodies), at: 0 }
+    }
+
+    fn encoder(&self) -> MutexGuard<'_, Encoder> {
+        self.encoder.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn contents(&self) -> RwLockReadGuard<'_, Contents> {
+        self.contents.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The number of the moment at a time (s), if that was recorded.
+    pub(super) fn moment_at(&self, time: f64) -> Option<usize> {
+        self.contents().times.binary_search_by(|other| other.total_cmp(&time)).ok()
+    }
+
+    /// The number of the moment of a frame.
+    pub(super) fn moment_of(&self, frame: usize) -> Option<usize> {
+        self.contents().frames.get(frame).map(|&moment| moment as usize)
+    }
+
+    /// The number of the frame at or before a moment.
+    pub(super) fn frame_at(&self, moment: usize) -> usize {
+        let contents = self.contents();
+        contents.frames.partition_point(|&frame| frame as usize <= moment).saturating_sub(1)
+    }
+
+    /// The page that holds a moment: the number of its first one, and its bytes.
+    fn page_of(&self, moment: usize) -> io::Result<(usize, Option<usize>, Arc<[u8]>)> {
+        let contents = self.contents();
+        if moment >= contents.first {
+            return Ok((contents.first, None, contents.open.as_slice().into()));
+        }
+        let number = contents.pages.partition_point(|&first| first as usize <= moment);
+        let number = number.checked_sub(1).ok_or_else(damaged)?;
+        let first = contents.pages[number] as usize;
+        drop(contents);
+        Ok((first, Some(number), self.store.page(number)?))
+    }
+}
+
+impl Contents {
+    fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let counts = [self.times.len(), self.frames.len(), self.pages.len()];
+        counts.iter().for_each(|count| bytes.extend((*count as u64).to_le_bytes()));
+        self.times.iter().for_each(|time| bytes.extend(time.to_le_bytes()));
+        self.frames.iter().chain(&self.pages).for_each(|number| bytes.extend(number.to_le_bytes()));
+        bytes
+    }
+
+    fn from_bytes(bytes: &[u8]) -> io::Result<Contents> {
+        let (counts, rest) = bytes.split_at_checked(24).ok_or_else(damaged)?;
+        let counts: Vec<usize> = counts
+            .as_chunks::<8>()
+            .0
+            .iter()
+            .map(|chunk| usize::try_from(u64::from_le_bytes(*chunk)).unwrap_or(usize::MAX))
+            .collect();
+        let (times, rest) = rest.split_at_checked(counts[0].saturating_mul(8)).ok_or_else(damaged)?;
+        let (frames, pages) = rest.split_at_checked(counts[1].saturating_mul(4)).ok_or_else(damaged)?;
+        if pages.len() != counts[2].saturating_mul(4) {
+            return Err(damaged());
+        }
+        let numbers =
+            |bytes: &[u8]| bytes.as_chunks::<4>().0.iter().map(|chunk| u32::from_le_bytes(*chunk)).collect();
+        let times: Vec<f64> =
+            times.as_chunks::<8>().0.iter().map(|chunk| f64::from_le_bytes(*chunk)).collect();
+        let first = times.len();
+        Ok(Contents { times, frames: numbers(frames), pages: numbers(pages), open: Vec::new(), first })
+    }
+}
+
+/// Reads a recording moment by moment, from wherever it is put.
+pub struct Reader {
+    recording: Arc<Recording>,
+    next: usize,
+    /// The page that it is in: the number of its first moment, its number (none: it is not full yet), its bytes.
+    page: Option<(usize, Option<usize>, Arc<[u8]>)>,
+    decoder: Decoder,
+    /// The number of the moment that the decoder is at.
+    at: usize,
+}
+
+impl Reader {
+    /// Goes to the moment of a number.
+    pub(super) fn seek(&mut self, moment: usize) {
+        self.next = moment;
+    }
+
+    /// Goes to a frame; whether it is there.
+    pub(super) fn seek_frame(&mut self, frame: usize) -> bool {
+        let moment = self.recording.moment_of(frame);
+        self.next = moment.unwrap_or(usize::MAX);
+        moment.is_some()
+    }
+
+    /// The number of the moment that comes next.
+    pub(super) fn position(&self) -> usize {
+        self.next
+    }
+
+    /// The next moment; none at the end of what is recorded so far.
+    pub(super) fn entry(&mut self) -> io::Result<Option<Entry>> {
+        self.advance(Decoder::decode)
+    }
+
+    /// A frame as it was recorded.
+    ///
+    /// # Errors
+    /// Where it is not there, or cannot be read.
+    pub fn frame(&mut self, frame: usize) -> io::Result<Snapshot> {
+        if !self.seek_frame(frame) {
+            return Err(damaged());
+        }
+        Ok(self.entry()?.ok_or_else(damaged)?.snapshot)
+    }
+
+    /// One body in a frame, and what is said of all bodies together; none if the body is not there. It takes less time than to
+    /// read all.
+    ///
+    /// # Errors
+    /// Where the frame is not there, or cannot be read.
+    pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Snapshot, Option<BodySnapshot>)> {
+        if !self.seek_frame(frame) {
+            return Err(damaged());
+        }
+        // What the decoder knows of other bodies does not hold any more, and what it knows of this one may not.
+        self.page = None;
+        let found = self.advance(|decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
+        self.page = None;
+        let snapshot = found.ok_or_else(damaged)?.snapshot;
+        let body = snapshot.bodies.first().copied();
+        Ok((snapshot, body))
+    }
+
+    fn advance(
+        &mut self,
+        mut decode: impl FnMut(&mut Decoder, &[u8]) -> io::Result<Entry>,
+    ) -> io::Result<Option<Entry>> {
+        let moment = self.next;
+        let count = self.recording.contents().times.len();
+        if moment >= count {
+            return Ok(None);
+        }
+        let is_in_page = self.page.as_ref().is_some_and(|(first, number, _)| {
+            let contents = self.recording.contents();
+            match number {
+                // A page that was not full may have grown since it was read.
+                None => false,
+                Some(number) => {
+                    let end = contents.pages.get(number + 1).map_or(contents.first, |&end| end as usize);
+                    (*first..end).contains(&moment)
+                }
+            }
+        });
+        if !is_in_page {
+            let page = self.recording.page_of(moment)?;
+            self.at = page.0;
+            self.page = Some(page);
+            self.decoder.begin_page();
+        }
+        let Some((first, _, bytes)) = &self.page else { return Err(damaged()) };
+        if self.at > moment {
+            self.at = *first;
+            self.decoder.begin_page();
+        }
+        loop {
+            let entry = decode(&mut self.decoder, bytes)?;
+            self.at += 1;
+            if self.at > moment {
+                self.next = moment + 1;
+                return Ok(Some(entry));
+            }
+        }
+    }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "the check of a scene limits the number of frames")]
+fn u32_of(number: usize) -> u32 {
+    number as u32
+}

@@ -1,0 +1,35 @@
+//! Where the pages of a recording are.
+
+use std::io;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A place for the pages of a recording: one writes, any number read.
+pub trait Store: Send + Sync {
+    /// Adds a page; pages have numbers from 0 on.
+    ///
+    /// # Errors
+    /// Where there is no room for it.
+    fn put(&self, page: &[u8]) -> io::Result<()>;
+
+    /// The page of a number.
+    ///
+    /// # Errors
+    /// Where it cannot be read, or is not what was put there.
+    fn page(&self, number: usize) -> io::Result<Arc<[u8]>>;
+}
+
+/// Pages in memory, however many there are.
+#[derive(Default)]
+pub struct MemoryStore(Mutex<Vec<Arc<[u8]>>>);
+
+impl Store for MemoryStore {
+    fn put(&self, page: &[u8]) -> io::Result<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(page.into());
+        Ok(())
+    }
+
+    fn page(&self, number: usize) -> io::Result<Arc<[u8]>> {
+        let pages = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        pages.get(number).cloned().ok_or_else(super::codec::damaged)
+    }
+}

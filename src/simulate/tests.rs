@@ -1,0 +1,245 @@
+//! What holds of a run as a whole.
+
+use super::*;
+
+const TUMBLE: &str = "
+    [simulation]
+    duration = 1
+    gravity = [0, -9.81, 0]
+    [body.box]
+    shape.box.size = [3, 1, 2]
+    angular_velocity = [0.1, 0.2, 5]
+    torque = [1, 0, 0]
+    ";
+
+#[test]
+fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
+    for method in crate::dynamics::METHODS {
+        let set = crate::scene::Override::new(format!("simulation.integrator={}", method.name));
+        let options = crate::scene::Options { overrides: vec![set], ..Default::default() };
+        let scene = Scene::parse_with(TUMBLE, &options).unwrap();
+        let mut frames = Frames::new(&scene);
+        let first: Vec<Frame> = frames.by_ref().map(Result::unwrap).collect();
+        assert_eq!(first.len(), 26);
+        assert_ne!(first[0].bodies, first[25].bodies);
+        frames.reset();
+        assert_eq!(frames.map(Result::unwrap).collect::<Vec<_>>(), first, "{}", method.name);
+    }
+}
+
+/// The same brick, whole and in two halves whose common frame is turned against it, tumbles the same.
+#[test]
+fn a_compound_tumbles_as_the_solid_that_it_makes_up() {
+    let tumble = |shape: &str, orientation: &str| {
+        let text = format!(
+            "
+            [simulation]
+            duration = 2
+            integrator = 'rk4'
+            [body.brick]
+            mass = 2
+            angular_velocity = [0.3, 0.2, 3]
+            torque = [0.1, 0, 0]
+            shape.{shape}
+            orientation = {orientation}
+            "
+        );
+        let scene = Scene::parse(&text).unwrap();
+        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+        (frames[0].bodies[0], frames[50].bodies[0])
+    };
+    let turn = glam::DQuat::from_rotation_z(30f64.to_radians());
+    let (_, whole) = tumble("box.size = [3, 1, 2]", "[0, 0, 30]");
+    let half = |x: f64| {
+        let place = turn * glam::DVec3::new(x, 0.0, 0.0) + 5.0;
+        format!("{{ box.size = [1.5, 1, 2], orientation = [0, 0, 30], location = {place} }}")
+    };
+    let parts = format!("compound.parts = [{}, {}]", half(-0.75), half(0.75));
+    let (first, halves) = tumble(&parts, "[0, 0, 0]");
+    assert!(first.orientation.abs_diff_eq(glam::DQuat::IDENTITY, 1e-15), "{}", first.orientation);
+    assert!(halves.angular_velocity.abs_diff_eq(whole.angular_velocity, 1e-9));
+    let whole = whole.orientation * turn.conjugate();
+    assert!((halves.orientation.dot(whole).abs() - 1.0).abs() < 1e-9, "{whole} {}", halves.orientation);
+}
+
+#[test]
+fn frames_know_their_time_and_the_forces() {
+    let scene = Scene::parse(TUMBLE).unwrap();
+    let last = Frames::new(&scene).last().unwrap().unwrap();
+    assert_eq!((last.index, last.time), (25, 1.0));
+    assert_eq!(last.bodies[0].force, glam::DVec3::new(0.0, -9.81, 0.0));
+}
+
+#[test]
+fn a_run_that_leaves_the_numbers_ends_there() {
+    let text = "
+        simulation.integrator = 'explicit-euler'
+        [body.far]
+        shape.sphere.radius = 1
+        location = [1, 0, 0]
+        [force.spring]
+        spring = { between = ['far', [0, 0, 0]], stiffness = 1e50, rest_length = 0 }
+        ";
+    let scene = Scene::parse(text).unwrap();
+    let frames: Vec<_> = Frames::new(&scene).collect();
+    let Some(Err(SimulateError::Diverged(diverged))) = frames.last() else {
+        panic!("the run did not diverge")
+    };
+    assert_eq!(diverged.body, "far");
+    assert!(frames.len() < 251 && frames[..frames.len() - 1].iter().all(Result::is_ok));
+}
+
+mod between_frames {
+    use super::*;
+    use crate::dynamics::METHODS;
+    use crate::scene::{Options, Override, Shutter};
+
+    const SCENE: &str = "
+        [simulation]
+        duration = 0.4
+        gravity = [0, -9.81, 0]
+        step = 0.007
+        [body.box]
+        shape.box.size = [3, 1, 2]
+        angular_velocity = [0.1, 0.2, 5]
+        ghosts.every = 0.03
+        [body.ball]
+        shape.sphere.radius = 1
+        location = [9, 0, 0]
+        trail.duration = 0.1
+        [force.air.drag]
+        quadratic = 0.3
+        [force.spring.spring]
+        between = ['box', 'ball']
+        stiffness = 50
+        [camera]
+        shutter = 0.035
+        samples = 5
+        ";
+
+    fn scenes() -> impl Iterator<Item = Scene> {
+        METHODS.iter().map(|method| {
+            let overrides = vec![Override::new(format!("simulation.integrator={}", method.name))];
+            Scene::parse_with(SCENE, &Options { overrides, ..Options::default() }).unwrap()
+        })
+    }
+
+    /// Places, velocities, energies, momenta, drift; ghosts and trails.
+    #[test]
+    fn a_recording_gives_the_frames_of_the_run_bit_for_bit_and_nobody_changes_it_by_looking() {
+        for scene in scenes() {
+            let live: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+            let recorded = Recorded::new(&scene).unwrap();
+            let frames: Vec<Frame> = recorded.frames().map(Result::unwrap).collect();
+            assert_eq!(frames, live, "{}", scene.simulation.method.name);
+            let unseen = Scene::parse_with(
+                &SCENE
+                    .replace("ghosts.every = 0.03", "")
+                    .replace("shutter = 0.035", "")
+                    .replace("samples = 5", ""),
+                &Options {
+                    overrides: vec![Override::new(format!(
+                        "simulation.integrator={}",
+                        scene.simulation.method.name
+                    ))],
+                    ..Options::default()
+                },
+            )
+            .unwrap();
+            for (frame, plain) in frames.iter().zip(Frames::new(&unseen)) {
+                let plain = plain.unwrap();
+                assert_eq!((&frame.bodies, frame.balance), (&plain.bodies, plain.balance));
+            }
+        }
+    }
+
+    #[test]
+    fn moments_are_evenly_spread_over_the_time_that_the_shutter_is_open() {
+        for scene in scenes() {
+            let recorded = Recorded::new(&scene).unwrap();
+            let shutter = scene.camera.shutter.unwrap();
+            let exposures: Vec<Exposure> =
+                recorded.exposures(&Selection::first(11)).map(Result::unwrap).collect();
+            assert_eq!(exposures.len(), 11);
+            for exposure in &exposures {
+                let moments: Vec<Frame> = exposure.moments(shutter).map(Result::unwrap).collect();
+                let times: Vec<f64> =
+                    moments.iter().map(|moment| moment.time - exposure.frame.time).collect();
+                let near = |(time, expected): (&f64, f64)| (time - expected).abs() < 1e-12;
+                assert!(times.iter().zip([0.0035, 0.0105, 0.0175, 0.0245, 0.0315]).all(near), "{times:?}");
+                assert!(moments.iter().all(|moment| moment.index == exposure.frame.index));
+            }
+            // Those of a frame are those of its time.
+            let alone = recorded.at(exposures[4].frame.time).unwrap();
+            assert_eq!(alone.frame, exposures[4].frame);
+            let of = |exposure: &Exposure| exposure.moments(shutter).map(Result::unwrap).collect::<Vec<_>>();
+            assert_eq!(of(&alone), of(&exposures[4]));
+        }
+    }
+
+    /// A body that spins evenly without a force is where it must be, to rounding, whatever the method.
+    #[test]
+    fn moments_are_states_of_the_motion_and_not_something_between() {
+        for method in METHODS.iter().filter(|method| method.name != "explicit-euler") {
+            let text = format!(
+                "
+                simulation = {{ duration = 0.2, integrator = '{}', step = 0.001 }}
+                [body.ball]
+                shape.sphere.radius = 1
+                velocity = [3, 0, 0]
+                angular_velocity = [0, 0, 40]
+                [camera]
+                shutter = 0.03
+                samples = 5
+                ",
+                method.name
+            );
+            let scene = Scene::parse(&text).unwrap();
+            let recorded = Recorded::new(&scene).unwrap();
+            let exposure = recorded.at(0.12).unwrap();
+            for moment in exposure.moments(Shutter { open: 0.03, samples: 5 }) {
+                let Frame { time, bodies, .. } = moment.unwrap();
+                assert!((bodies[0].location.x - 3.0 * time).abs() < 1e-12);
+                let expected = glam::DQuat::from_rotation_z(40.0 * time);
+                // Runge and Kutta's steps of 0.04 rad are off by 0.04⁵ / 120 each.
+                assert!((bodies[0].orientation.dot(expected).abs() - 1.0).abs() < 1e-9, "at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn at_the_time_of_a_frame_there_is_the_frame_and_between_two_what_is_between() {
+        for scene in scenes() {
+            let recorded = Recorded::new(&scene).unwrap();
+            let frames: Vec<Frame> = recorded.frames().map(Result::unwrap).collect();
+            for frame in &frames {
+                assert_eq!(&Frames::at(&scene, frame.time).unwrap(), frame);
+                assert_eq!(&recorded.at(frame.time).unwrap().frame, frame);
+            }
+            // What was not recorded is simulated.
+            let between = recorded.at(0.21).unwrap().frame;
+            assert_eq!(between, Frames::at(&scene, 0.21).unwrap());
+            assert_eq!((between.index, between.time), (5, 0.21));
+            let height = |frame: &Frame| frame.bodies[0].location.y;
+            assert!(height(&frames[5]) > height(&between) && height(&between) > height(&frames[6]));
+            // What is before the beginning or after the end.
+            for (time, index) in [(-1.0, 0), (f64::NAN, 0), (7.0, 10)] {
+                assert_eq!(&recorded.at(time).unwrap().frame, &frames[index]);
+            }
+        }
+    }
+
+    #[test]
+    fn any_frame_can_be_read_in_any_order_also_one_body_of_it() {
+        let scene = Scene::parse(SCENE).unwrap();
+        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+        let recorded = Recorded::new(&scene).unwrap();
+        let mut reader = recorded.recording().read();
+        for index in [7, 3, 10, 0, 4, 5] {
+            assert_eq!(reader.frame(index).unwrap().bodies, frames[index].bodies);
+            let (moment, body) = reader.body(index, 1).unwrap();
+            assert_eq!((moment.time, body), (frames[index].time, Some(frames[index].bodies[1])));
+        }
+        assert!(reader.frame(11).is_err());
+    }
+}

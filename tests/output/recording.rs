@@ -1,0 +1,273 @@
+//! A run is simulated once, and kept between commands: each step is taken once, and whatever happens to what is kept, the
+//! scripts are the same bytes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use jabuka::Run;
+use jabuka::cache::Cache;
+use jabuka::dynamics::{DenseOutput, Effort, Integrator, METHODS, Method, Model, State, Step};
+use jabuka::output::{self, Folder};
+use jabuka::scene::Scene;
+use jabuka::simulate::{Moments, Recorded, Selection};
+
+use crate::support::{self, contents, stderr};
+
+/// The steps that have been taken by [`COUNTED`].
+static STEPS: AtomicU64 = AtomicU64::new(0);
+
+/// The default method, which counts its steps.
+static COUNTED: Method =
+    Method { name: "counted", order: 1, symplectic: true, summary: "", create: || Box::new(Counted::new()) };
+
+struct Counted(Box<dyn Integrator>);
+
+impl Counted {
+    fn new() -> Counted {
+        Counted((METHODS[0].create)())
+    }
+}
+
+impl Integrator for Counted {
+    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+        STEPS.fetch_add(1, Ordering::Relaxed);
+        self.0.advance(model, t, dt, state);
+    }
+
+    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        self.0.dense(step)
+    }
+
+    fn clone_box(&self) -> Box<dyn Integrator> {
+        Box::new(Counted(self.0.clone_box()))
+    }
+}
+
+const STARS: &str = "
+    simulation = { duration = 0.2, step = 0.004 }
+    [defaults.body]
+    ghosts.every = 0.07
+    arrows.velocity = true
+    [body.star]
+    repeat = 300
+    shape.sphere.radius = 0.01
+    location = ['i % 7', 'i % 11', 'i / 100']
+    [force.all.gravitation]
+    constant = 1e-3
+    softening = 0.1
+    [camera]
+    shutter = 0.02
+    samples = 4
+    [view.left]
+    location = [-30, 0, 0]
+    look_at = [0, 0, 0]
+    [view.top]
+    location = [0, 30, 0.1]
+    look_at = [0, 0, 0]
+    ";
+
+fn write_all(recorded: Recorded<'_>, folder: &Path) {
+    let scene = recorded.scene();
+    let run = Run::of(recorded).unwrap();
+    let write = |run: &Run<'_>, name: &str| {
+        let folder = Folder::open(&folder.join(name)).unwrap();
+        output::write(run, &folder, &Selection::first(scene.simulation.frames()), &|| ()).unwrap();
+    };
+    write(&run, "main");
+    scene.views.iter().for_each(|view| write(&run.seen_by(view).unwrap(), &view.name));
+}
+
+#[test]
+fn each_step_is_taken_once_and_the_second_time_none() {
+    let mut scene = Scene::parse(STARS).unwrap();
+    scene.simulation.method = &COUNTED;
+    let folder = tempfile::tempdir().unwrap();
+    let cache = Cache::new(folder.path().join("cache"), 1 << 30).keeping_all();
+    let run = || cache.run(&scene, Moments::of(&scene), &Effort::default(), |_| {}).unwrap();
+    write_all(run(), &folder.path().join("first"));
+    // Five intervals of 40 ms; the shutter is open for half a sixth one.
+    assert_eq!(STEPS.swap(0, Ordering::Relaxed), 60);
+    write_all(run(), &folder.path().join("second"));
+    assert_eq!(STEPS.load(Ordering::Relaxed), 0);
+    for camera in ["main", "left", "top"] {
+        let [first, second] =
+            ["first", "second"].map(|which| contents(&folder.path().join(which).join(camera)));
+        assert_eq!(first.len(), 2 * 6 + 3);
+        assert!(first == second, "{camera}");
+    }
+}
+
+/// A scene whose run takes a while, in a folder with a cache of its own.
+struct Kept {
+    folder: tempfile::TempDir,
+}
+
+const CLOUD: &str = "
+    simulation = { duration = 0.4, step = 0.0001 }
+    [body.star]
+    repeat = 150
+    shape.sphere.radius = 0.01
+    location = ['i % 7', 'i % 11', 'i / 50']
+    [force.all.gravitation]
+    constant = 1e-3
+    softening = 0.1
+    [camera]
+    location = [0, 0, 30]
+    look_at = [3, 3, 0]
+    ";
+
+impl Kept {
+    fn new() -> Kept {
+        let kept = Kept { folder: tempfile::tempdir().unwrap() };
+        fs::write(kept.folder.path().join("scene.toml"), CLOUD).unwrap();
+        kept
+    }
+
+    fn command(&self, out: &str) -> Command {
+        let mut command = support::jabuka();
+        command.current_dir(self.folder.path()).env("JABUKA_CACHE_DIR", self.cache());
+        command.env_remove("JABUKA_CACHE_SIZE").args(["compile", "scene.toml", "-o", out]);
+        command
+    }
+
+    fn compile(&self, out: &str, arguments: &[&str]) -> Vec<(String, Vec<u8>)> {
+        let output = self.command(out).args(arguments).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+        contents(&self.folder.path().join(out))
+    }
+
+    fn cache(&self) -> PathBuf {
+        self.folder.path().join("cache")
+    }
+
+    fn files(&self, ending: &str) -> Vec<PathBuf> {
+        let Ok(entries) = fs::read_dir(self.cache()) else { return Vec::new() };
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        files.retain(|path| path.extension().is_some_and(|extension| extension == ending));
+        files.sort();
+        files
+    }
+}
+
+#[test]
+fn a_change_of_the_camera_takes_the_run_that_is_kept_and_gives_the_bytes_of_a_new_one() {
+    let kept = Kept::new();
+    kept.compile("first", &[]);
+    assert_eq!(kept.files("run").len(), 1);
+    let camera = ["--set", "camera.location=[0, 40, 1]", "--set", "title=Other"];
+    let by_cache = kept.compile("second", &camera);
+    assert_eq!(kept.files("run").len(), 1, "the run is the same");
+    let anew = kept.compile("third", &[&camera[..], &["--no-cache"]].concat());
+    assert!(by_cache == anew);
+    kept.compile("fourth", &["--set", "simulation.step=0.00012"]);
+    assert_eq!(kept.files("run").len(), 2, "another step is another run");
+}
+
+#[test]
+fn what_is_damaged_is_made_again() {
+    let kept = Kept::new();
+    let right = kept.compile("right", &[]);
+    let path = kept.files("run").remove(0);
+    let whole = fs::read(&path).unwrap();
+    type Damage = Box<dyn Fn(&mut Vec<u8>)>;
+    let damages: [(&str, Damage); 8] = [
+        ("the format", Box::new(|bytes| bytes[3] ^= 1)),
+        ("the key, as of another version", Box::new(|bytes| bytes[20] ^= 1)),
+        ("a bit of a page", Box::new(|bytes| bytes[5_000] ^= 4)),
+        (
+            "a bit in the middle",
+            Box::new(|bytes| {
+                let middle = bytes.len() / 2;
+                bytes[middle] ^= 64;
+            }),
+        ),
+        (
+            "the description",
+            Box::new(|bytes| {
+                let near_the_end = bytes.len() - 60;
+                bytes[near_the_end] ^= 1;
+            }),
+        ),
+        ("the end", Box::new(|bytes| bytes.truncate(bytes.len() - 1))),
+        ("half", Box::new(|bytes| bytes.truncate(bytes.len() / 2))),
+        ("all", Box::new(Vec::clear)),
+    ];
+    for (what, damage) in damages {
+        let mut bytes = whole.clone();
+        damage(&mut bytes);
+        fs::write(&path, bytes).unwrap();
+        assert!(kept.compile("again", &[]) == right, "{what}");
+        assert!(fs::read(&path).unwrap() == whole, "{what}: it is mended");
+    }
+}
+
+#[test]
+fn a_killed_run_leaves_nothing_that_matters_and_two_at_once_do_not_disturb_each_other() {
+    let kept = Kept::new();
+    let right = kept.compile("right", &["--no-cache"]);
+    for delay in 1..=20 {
+        let mut child = kept.command("out").spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(delay * delay));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    let mut children = ["one", "two"].map(|out| kept.command(out).spawn().unwrap());
+    assert!(children.iter_mut().all(|child| child.wait().unwrap().success()));
+    for out in ["one", "two"] {
+        assert!(contents(&kept.folder.path().join(out)) == right);
+    }
+    assert!(kept.compile("out", &[]) == right);
+    assert_eq!((kept.files("run").len(), kept.files("part").len()), (1, 0));
+}
+
+#[test]
+fn those_that_were_not_used_for_longest_go_first_and_all_can_be_cleared() {
+    let kept = Kept::new();
+    let scenes: Vec<Scene> = [0.0001, 0.00012, 0.00014]
+        .map(|step| Scene::parse(&CLOUD.replace("step = 0.0001", &format!("step = {step}"))).unwrap())
+        .into();
+    let run = |cache: &Cache, scene: &Scene| {
+        cache.run(scene, Moments::of(scene), &Effort::default(), |_| {}).unwrap();
+    };
+    let cache = Cache::new(kept.cache(), 1 << 30).keeping_all();
+    run(&cache, &scenes[0]);
+    let size = cache.holding().unwrap().bytes;
+    run(&cache, &scenes[1]);
+    let [older, newer] =
+        [0, 1].map(|scene| cache.find(&scenes[scene], &Moments::of(&scenes[scene])).is_some());
+    assert!(older && newer);
+    // Times of files are coarse: what was used is said outright.
+    let path = |scene: &Scene| {
+        let before = kept.files("run");
+        cache.forget(scene, &Moments::of(scene));
+        let gone = before.into_iter().find(|path| !path.exists()).unwrap();
+        run(&cache, scene);
+        gone
+    };
+    let (first, second) = (path(&scenes[0]), path(&scenes[1]));
+    let set = |path: &Path, seconds: u64| {
+        let time = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(seconds);
+        fs::File::options().append(true).open(path).unwrap().set_modified(time).unwrap();
+    };
+    set(&first, 2_000);
+    set(&second, 1_000);
+    let small = Cache::new(kept.cache(), size * 5 / 2).keeping_all();
+    run(&small, &scenes[2]);
+    assert!(first.exists() && !second.exists(), "the one that was not used for longest is gone");
+    assert_eq!(small.holding().unwrap().runs, 2);
+
+    let said = |arguments: &[&str]| {
+        let mut command = support::jabuka();
+        command
+            .env("JABUKA_CACHE_DIR", kept.cache())
+            .env_remove("JABUKA_CACHE_SIZE")
+            .arg("cache")
+            .args(arguments);
+        support::stdout(&command.output().unwrap())
+    };
+    assert!(said(&[]).contains(": 2 runs, "), "{}", said(&[]));
+    assert!(said(&["--clear"]).contains("2 runs, ") && kept.files("run").is_empty());
+    assert!(said(&[]).ends_with(": 0 runs, 0 B\n"), "{}", said(&[]));
+}
