@@ -78,7 +78,7 @@ mod tests {
             "title = 'x'",
             "[camera]\nlocation = [0, 0, 20]\nlook_at = [0, 0, 0]",
             "[label.x]\ntext = 'hello'",
-            "[output]\nwidth = 320\nheight = 180",
+            "output.size = [320, 180]",
         ] {
             assert_eq!(plain, digest(&scene(same)), "{same}");
         }

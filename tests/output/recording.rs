@@ -94,7 +94,7 @@ fn each_step_is_taken_once_and_the_second_time_none() {
     for camera in ["main", "left", "top"] {
         let [first, second] =
             ["first", "second"].map(|which| contents(&folder.path().join(which).join(camera)));
-        assert_eq!(first.len(), 2 * 6 + 3);
+        assert!(first.len() > 2 * 6, "scripts of frames, of images with blur, and of the sequence");
         assert!(first == second, "{camera}");
     }
 }

@@ -176,7 +176,7 @@ impl DenseOutput for Hermite<'_> {
         let rate = quintic_rate(s);
         let cubic = cubic(s);
         state.clone_from(before);
-        for i in 0..state.len() {
+        for (i, turn) in turns.iter().enumerate() {
             let inverse_mass = model.inverse_mass()[i];
             let (a, b) = (start.force[i] * inverse_mass, end.force[i] * inverse_mass);
             let terms = [
@@ -203,7 +203,7 @@ impl DenseOutput for Hermite<'_> {
                 + cubic[1] * h * start.torque[i]
                 + cubic[2] * gained
                 + cubic[3] * h * end.torque[i];
-            if let Some(turn) = &turns[i] {
+            if let Some(turn) = turn {
                 let theta = place[1] * h * turn.rate
                     + place[2] * h * h * turn.curvature
                     + place[3] * turn.end
