@@ -19,7 +19,7 @@ pub(super) fn of(scene: &Scene, moments: &Moments) -> Key {
     text.0.finalize().into()
 }
 
-fn write_all(text: &mut Text, scene: &Scene, moments: &Moments) -> fmt::Result {
+fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Result {
     // Numbers are written so that each has a text of its own.
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
     let simulation = &scene.simulation;
@@ -102,5 +102,27 @@ mod tests {
         ] {
             assert_ne!(plain, digest(&scene(other)), "{other}");
         }
+    }
+
+    /// An address would be another one in each process.
+    #[test]
+    fn no_address_is_in_what_is_digested() {
+        let scene = Scene::parse(
+            "
+            simulation.integrator = 'rk4'
+            [body.a]
+            shape.sphere.radius = 1
+            [body.b]
+            shape.sphere.radius = 1
+            motion.formula.location = ['3 + sin(t) * hypot(t, 2)', 'uniform(0, 1)', 'clamp(t, 0, 1)']
+            [force.all.gravitation]
+            [force.air.drag]
+            linear = 0.1
+            ",
+        )
+        .unwrap();
+        let mut text = String::new();
+        write_all(&mut text, &scene, &Moments::of(&scene)).unwrap();
+        assert!(text.contains("Sin") && !text.contains("0x"), "{text}");
     }
 }

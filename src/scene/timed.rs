@@ -18,7 +18,6 @@ pub enum Timed {
 }
 
 /// A formula of the time `t`, and its first two derivatives.
-#[derive(Debug)]
 pub struct TimeFormula {
     /// What is written.
     pub text: Arc<str>,
@@ -27,6 +26,13 @@ pub struct TimeFormula {
     curvature: Steps,
     /// How many operations the three have together.
     pub(super) operations: u64,
+}
+
+impl std::fmt::Debug for TimeFormula {
+    // The derivatives follow from the value.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("TimeFormula").field(&self.value).finish()
+    }
 }
 
 /// Three numbers that may change with time.

@@ -9,13 +9,20 @@ use super::parser::Formula;
 use super::resolve::Resolved;
 use super::scope::Scope;
 
-/// A formula that has been compiled, to be evaluated many times.
-#[derive(Clone, Debug)]
+/// A formula that has been compiled, to be evaluated many times. Its text for debugging is that of the formula, and not of the
+/// code, which has addresses.
+#[derive(Clone)]
 pub struct Program {
     pub(super) code: Box<[Instruction]>,
     /// How much of the stack it uses.
     pub(super) depth: usize,
     resolved: Box<Resolved>,
+}
+
+impl std::fmt::Debug for Program {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.resolved.fmt(f)
+    }
 }
 
 /// The most that a program can use of the stack.
@@ -138,7 +145,7 @@ impl Program {
 }
 
 /// The steps of a program, without what they were compiled from.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(in crate::scene) struct Steps {
     code: Box<[Instruction]>,
     depth: usize,
