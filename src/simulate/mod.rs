@@ -51,6 +51,7 @@ pub use recording::{MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use span::{Bounds, Span};
 pub use survey::{Crossing, Survey, Surveyor, survey};
+pub(crate) use vectors::anchors;
 pub use vectors::{axis, root, shown, surface};
 
 /// That a run left the numbers: what is asked for cannot be computed with this step and method.

@@ -37,7 +37,7 @@ pub fn axis(body: &Body) -> Option<f64> {
 }
 
 /// The fixed points of the springs that are drawn, m.
-pub(super) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
+pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, coil: Some(_) } => Some(links),
         _ => None,
