@@ -14,6 +14,10 @@ use crate::emit::ASSETS;
 use crate::output::{self, MANIFEST};
 use crate::render;
 use crate::scene::Scene;
+use crate::scene::sdl::FileKind;
+
+/// What is said of a file that SDL reads.
+const READ_BY_SDL: &str = "the SDL of the scene reads it";
 
 /// The files that a command must leave as they are.
 #[derive(Debug, Default)]
@@ -23,6 +27,8 @@ pub struct Kept {
     assets: Vec<(String, Option<Identity>)>,
     /// The folders that the command fills with scripts and images. They may not exist yet.
     folders: Vec<PathBuf>,
+    /// The files that the SDL of a trusted scene names, whose relative names start from the folder of the scripts.
+    named: Vec<(FileKind, String)>,
 }
 
 /// A file that is read.
@@ -69,11 +75,19 @@ impl fmt::Display for CannotOverwrite {
 impl std::error::Error for CannotOverwrite {}
 
 impl Kept {
-    /// All that a scene is made from: its file, what it includes, tables, meshes, heightfields, assets and templates.
+    /// All that a scene is made from: its file, what it includes, tables, meshes, heightfields, assets and templates; and what
+    /// its SDL reads, as far as the names of files stand there.
     pub fn of_scene(scene: &Scene) -> Kept {
         let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
-        let kept = Kept { assets: scene.povray.assets.iter().map(asset).collect(), ..Kept::default() };
-        kept.and_files(scene.files(), "the scene is made from it")
+        let kept = Kept {
+            assets: scene.povray.assets.iter().map(asset).collect(),
+            named: scene.povray.reads.clone(),
+            ..Kept::default()
+        };
+        let mut absolute = scene.povray.reads.clone();
+        absolute.retain(|(_, name)| Path::new(name).is_absolute());
+        let kept = kept.and_files(scene.files(), "the scene is made from it");
+        kept.and_files(render::named(Path::new("/"), &absolute), READ_BY_SDL)
     }
 
     /// These files, which the command reads. What it does with them ends a sentence: `the scene is made from it`.
@@ -108,7 +122,9 @@ impl Kept {
             return Err(CannotOverwrite { path: input.path.clone(), why: input.use_of_it.to_owned() });
         }
         self.folders.push(resolved);
-        Ok(self)
+        // What stands there and is read in the course of rendering may be of an earlier run: compiling replaces it.
+        let read = render::named(folder, &self.named);
+        Ok(self.and_files(read, READ_BY_SDL))
     }
 
     /// Whether a file may be written here, and replace what there is.
@@ -225,5 +241,37 @@ mod tests {
         assert!(reading("common.inc").and_folder(&at("no/..")).is_err());
         assert!(reading("heights.png").and_folder(folder.path()).is_ok());
         assert!(reading("frame_0000.png").and_folder(&at("images")).is_ok());
+    }
+
+    #[test]
+    fn what_trusted_sdl_reads_is_kept_with_what_that_includes() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("out")).unwrap();
+        for name in ["sky.png", "deep.png", "out/near.png", "free.png"] {
+            fs::write(at(name), "PNG").unwrap();
+        }
+        let shown = |name: &str| at(name).display().to_string();
+        let include = format!("#declare P = pigment {{ image_map {{ png \"{}\" }} }}", shown("deep"));
+        fs::write(at("parts.inc"), include).unwrap();
+        let sdl = format!(
+            "#include \"{}\" plane {{ y, 0 pigment {{ image_map {{ png \"{}\" }} }} }} // \"free.png\"",
+            shown("parts.inc"),
+            shown("sky.png")
+        );
+        let scene =
+            "[body.a]\nshape.sphere.radius = 1\nmaterial.sdl = 'pigment { image_map { png \"near.png\" } }'";
+        fs::write(at("scene.toml"), format!("povray.sdl = '''{sdl}'''\n{scene}\n")).unwrap();
+        let trusting = crate::scene::Options { trust: true, ..Default::default() };
+        let scene = Scene::from_path_with(at("scene.toml"), &trusting).unwrap();
+        let kept = Kept::of_scene(&scene);
+        for name in ["sky.png", "deep.png", "parts.inc"] {
+            assert!(said(kept.check(&at(name))).ends_with("and the SDL of the scene reads it"), "{name}");
+        }
+        assert_eq!(kept.check(&at("free.png")), Ok(()));
+        // A relative name starts from the folder of the scripts.
+        assert_eq!(kept.check(&at("out/near.png")), Ok(()));
+        let kept = kept.and_folder(&at("out")).unwrap();
+        assert!(said(kept.check(&at("out/near.png"))).ends_with("and the SDL of the scene reads it"));
     }
 }

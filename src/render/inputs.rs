@@ -1,8 +1,8 @@
 //! What a script reads beside itself: the files that it and its include files name, and the assets of its scene.
 
 use std::collections::{HashMap, HashSet};
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
@@ -48,15 +48,7 @@ fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, Render
     let bytes = fs::read(&path).map_err(RenderError::io(&path))?;
     let mut read = Vec::new();
     add_read(folder, &bytes, &mut read);
-    // Files that are included may read others.
-    let mut next = 0;
-    while let Some((kind, path)) = read.get(next).cloned() {
-        next += 1;
-        if kind == FileKind::Include {
-            let bytes = fs::read(&path).map_err(RenderError::io(&path))?;
-            add_read(folder, &bytes, &mut read);
-        }
-    }
+    close(folder, &mut read).map_err(|(path, error)| RenderError::io(path)(error))?;
     let mut paths: Vec<PathBuf> = read.into_iter().map(|(_, path)| path).collect();
     paths.extend(sequence.assets.iter().cloned());
     let mut known = HashSet::new();
@@ -69,19 +61,48 @@ fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, Render
     Ok(paths)
 }
 
+/// Adds what the files that are included read, and so on.
+fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (PathBuf, io::Error)> {
+    let mut next = 0;
+    while let Some((kind, path)) = read.get(next).cloned() {
+        next += 1;
+        if kind == FileKind::Include {
+            let bytes = fs::read(&path).map_err(|error| (path, error))?;
+            add_read(folder, &bytes, read);
+        }
+    }
+    Ok(())
+}
+
+/// The files that scripts in a folder would read where their SDL has these names, and those that these include, as far as
+/// they can be read now.
+pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf> {
+    let mut read = Vec::new();
+    for (kind, name) in names {
+        add_name(folder, *kind, name, &mut read);
+    }
+    // What cannot be read is no file that something would be lost of.
+    let _ = close(folder, &mut read);
+    read.into_iter().map(|(_, path)| path).collect()
+}
+
 /// Adds the files that a text names and that are there: beside the scripts, among the assets, or at an absolute path.
 fn add_read(folder: &Path, text: &[u8], read: &mut Vec<(FileKind, PathBuf)>) {
     for file in files(&String::from_utf8_lossy(text)) {
         // The name of a trail's file says what is in it, and stands in the script.
         let Some(name) = file.literal.filter(|name| !is_trail_file(name)) else { continue };
-        let found = candidates(name, file.kind).into_iter().find_map(|name| {
-            [folder.join(&name), folder.join(ASSETS).join(&name)].into_iter().find(|path| path.is_file())
-        });
-        if let Some(path) = found {
-            let file = (file.kind, path);
-            if !read.contains(&file) {
-                read.push(file);
-            }
+        add_name(folder, file.kind, name, read);
+    }
+}
+
+fn add_name(folder: &Path, kind: FileKind, name: &str, read: &mut Vec<(FileKind, PathBuf)>) {
+    let found = candidates(name, kind).into_iter().find_map(|name| {
+        [folder.join(&name), folder.join(ASSETS).join(&name)].into_iter().find(|path| path.is_file())
+    });
+    if let Some(path) = found {
+        let file = (kind, path);
+        if !read.contains(&file) {
+            read.push(file);
         }
     }
 }

@@ -43,6 +43,7 @@ pub use files::{ASSETS, of_scripts};
 pub use film::{Ffmpeg, Film, FilmError, Format, Pace};
 pub use images::Images;
 pub(crate) use images::is_folder_of_images;
+pub(crate) use inputs::named;
 pub use job::{Event, Job, Outcome};
 pub use options::{Quality, options};
 pub use povray::PovRay;

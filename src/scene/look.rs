@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::sdl::FileKind;
 use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
 
@@ -315,6 +316,8 @@ pub struct PovRay {
     pub include: Vec<Include>,
     /// Files that POV-Ray's own words read.
     pub assets: Vec<Asset>,
+    /// What else POV-Ray's own words name as a file, where they are trusted to: the name between its quotes, and how it is read.
+    pub reads: Vec<(FileKind, String)>,
     /// POV-Ray's own words, before the bodies.
     pub sdl: Option<String>,
     /// The length of one unit of POV-Ray's, m; none: it follows from the size of the scene.

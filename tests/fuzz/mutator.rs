@@ -28,7 +28,7 @@ impl Random {
 }
 
 /// What breaks programs: numbers at the edge, letters of several bytes, signs of the languages that are read.
-const TOKENS: [&str; 68] = [
+const TOKENS: [&str; 69] = [
     "0",
     "-1",
     "1e308",
@@ -79,8 +79,9 @@ const TOKENS: [&str; 68] = [
     "i",
     "uniform(0,1)",
     "\nrepeat = 3\n",
-    "\nrepeat = 500000\n",
-    "\nrepeat.grid = { count = [700, 700], spacing = 1 }\n",
+    "repeat = 500000",
+    "\nrepeat = 20000\n",
+    "\nrepeat.grid = { count = [70, 70], spacing = 1 }\n",
     "\nduration = 9999\n",
     "\nghosts.every = 1e-3\n",
     "\n[force.f.gravitation]\n",

@@ -36,6 +36,7 @@ pub(super) use self::simulation::MAX_FRAMES;
 pub(super) use self::view::View;
 use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
+use super::sdl::FileKind;
 use super::source::{self, Table};
 use super::{Include, Options, Places, PovRay, Scene};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
@@ -73,6 +74,8 @@ struct Context<'a> {
     meshes: mesh::Meshes,
     /// The files that SDL may name.
     assets: sdl::Assets,
+    /// The files that trusted SDL names.
+    reads: Vec<(FileKind, String)>,
     diagnostics: Vec<Diagnostic>,
     /// The texts that the scene is read from.
     sources: Sources,
@@ -108,6 +111,7 @@ impl Context<'_> {
             comparisons: 0,
             meshes: mesh::Meshes::default(),
             assets: sdl::Assets::default(),
+            reads: Vec::new(),
             diagnostics: Vec::new(),
             sources: Sources::default(),
             recordings: trajectory::Recordings::new(),

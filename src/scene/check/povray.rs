@@ -19,6 +19,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
     let assets = asset::read(&view, context);
     PovRay {
         assets,
+        reads: std::mem::take(&mut context.reads),
         include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
         sdl: view.text("sdl").map(str::to_owned),
         unit: view.number("unit"),

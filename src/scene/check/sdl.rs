@@ -54,7 +54,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     };
     if context.trust {
         context.diagnostics.extend(braces::unbalanced(text, node.span));
-        context.diagnostics.extend(computed_name(text, node.span));
+        trusted(text, node.span, context);
         return;
     }
     let (refused, includes) = refusals(text, place, |name| context.assets.path(name).is_some());
@@ -74,7 +74,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
 /// Reports what is wrong with the text of an include file, which `span` of the scene names.
 pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     if context.trust {
-        context.diagnostics.extend(computed_name(text, span));
+        trusted(text, span, context);
         return;
     }
     let (refused, includes) = refusals(text, Where::Top, |name| context.assets.path(name).is_some());
@@ -119,12 +119,21 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// The warning of a text that reads a file whose name only POV-Ray will know, if it does.
-fn computed_name(text: &str, span: Span) -> Option<Diagnostic> {
-    let is_computed = files(text).any(|file| file.literal.is_none() && file.kind != FileKind::Font);
-    let message = "the name of a file that the SDL reads is computed";
-    let warning = Diagnostic::warning(Code::ComputedInclude, message).at(span, "");
-    is_computed.then(|| warning.help("when that file changes, nothing tells that images are out of date"))
+/// Notes the files that a trusted text names, and warns of a name that only POV-Ray will know.
+fn trusted(text: &str, span: Span, context: &mut Context<'_>) {
+    let mut is_computed = false;
+    for file in files(text) {
+        match file.literal {
+            Some(name) => context.reads.push((file.kind, name.to_owned())),
+            None => is_computed |= file.kind != FileKind::Font,
+        }
+    }
+    if is_computed {
+        let message = "the name of a file that the SDL reads is computed";
+        let warning = Diagnostic::warning(Code::ComputedInclude, message).at(span, "");
+        let help = "when that file changes, nothing tells that images are out of date";
+        context.diagnostics.push(warning.help(help));
+    }
 }
 
 const TRUST: &str = "if you know this scene and trust it, say `--trust`";
