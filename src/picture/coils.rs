@@ -38,6 +38,8 @@ pub(super) struct Coils {
     coils: Vec<Planned>,
     /// The drawn shapes of bodies, by their numbers.
     shapes: Vec<Shape>,
+    /// How many times larger bodies are drawn than they are, by their numbers.
+    scales: Vec<f64>,
     /// The numbers of bodies with the numbers of the coils that are fastened to them, in order.
     of_bodies: Vec<(usize, usize)>,
 }
@@ -59,18 +61,15 @@ impl Coils {
             let ForceKind::Spring { links, coil: Some(coil) } = &force.kind else { continue };
             coils.extend(links.iter().map(|link| plan(scene, &force.name, link, coil)));
         }
-        let shapes =
-            if coils.is_empty() { Vec::new() } else { scene.bodies.iter().map(Body::drawn).collect() };
-        let body = |end: Anchor| match end {
-            Anchor::Body(body) => Some(body.index()),
-            Anchor::Point(_) => None,
-        };
+        let bodies = if coils.is_empty() { &[] } else { scene.bodies.as_slice() };
+        let shapes = bodies.iter().map(Body::drawn).collect();
+        let scales = bodies.iter().map(|body| body.look.scale).collect();
         let ends = coils.iter().enumerate().flat_map(|(number, coil): (usize, &Planned)| {
-            coil.between.into_iter().filter_map(body).map(move |body| (body, number))
+            coil.between.into_iter().filter_map(Anchor::body).map(move |body| (body.index(), number))
         });
         let mut of_bodies: Vec<(usize, usize)> = ends.collect();
         of_bodies.sort_unstable();
-        Coils { coils, shapes, of_bodies }
+        Coils { coils, shapes, scales, of_bodies }
     }
 
     /// The coils that are fastened to a body, as they are in a frame.
@@ -80,29 +79,39 @@ impl Coils {
         its.map(|(_, number)| self.coil(&self.coils[*number], frame))
     }
 
+    /// An end as it is drawn: a point of a body that is drawn larger is farther from its centre.
+    fn drawn(&self, end: Anchor) -> Anchor {
+        match end {
+            Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },
+            Anchor::Point(_) => end,
+        }
+    }
+
     /// The coils as they are in a frame.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Coil<'_>> {
         self.coils.iter().map(|coil| self.coil(coil, frame)).collect()
     }
 
     fn coil<'a>(&'a self, coil: &'a Planned, frame: &Frame) -> Coil<'a> {
-        let centre = |end: Anchor| match end {
-            Anchor::Body(body) => frame.bodies[body.index()].location,
-            Anchor::Point(point) => point,
+        let place = |end: Anchor| {
+            self.drawn(end).place(|id| {
+                let body = &frame.bodies[id.index()];
+                (body.location, body.orientation)
+            })
         };
-        let [from, to] = coil.between.map(centre);
+        let [from, to] = coil.between.map(place);
         let along = (to - from).normalize_or_zero();
         let reach = |end: Anchor, direction: DVec3| match end {
-            Anchor::Body(body) => {
-                // A little below the surface, so that no gap is seen where that is not flat.
-                0.95 * surface(&self.shapes[body.index()], frame.bodies[body.index()].orientation, direction)
+            // A little below the surface, so that no gap is seen where that is not flat.
+            Anchor::Body { id, .. } if end.is_centre() => {
+                0.95 * surface(&self.shapes[id.index()], frame.bodies[id.index()].orientation, direction)
             }
-            Anchor::Point(_) => 0.0,
+            _ => 0.0,
         };
         let (begin, end) =
             (from + along * reach(coil.between[0], along), to - along * reach(coil.between[1], -along));
         let fixed = |end: Anchor| match end {
-            Anchor::Body(_) => None,
+            Anchor::Body { .. } => None,
             Anchor::Point(point) => Some(point),
         };
         let wire = WIRE * coil.radius;
@@ -124,30 +133,28 @@ impl Coils {
 /// How a spring looks: about as wide as half the smaller of the bodies at its ends, and with as many turns as keep
 /// their wires apart.
 fn plan(scene: &Scene, name: &str, link: &Spring, coil: &scene::Coil) -> Planned {
-    let place = |end: Anchor| match end {
-        Anchor::Body(body) => scene.bodies[body.index()].start.location,
-        Anchor::Point(point) => point,
+    let place = |end: Anchor| {
+        end.place(|id| {
+            let start = &scene.bodies[id.index()].start;
+            (start.location, start.orientation)
+        })
     };
     let along = place(link.between[1]) - place(link.between[0]);
     let length = link.rest_length.max(along.length());
     let towards = along.normalize_or(DVec3::Y);
-    let reach = |end: Anchor, direction: DVec3| match end {
-        Anchor::Body(body) => {
-            let body = &scene.bodies[body.index()];
-            body.drawn().support(body.start.orientation, direction)
-        }
-        Anchor::Point(_) => None,
+    let reach = |end: Anchor, direction: DVec3| {
+        let body = &scene.bodies[end.body()?.index()];
+        body.drawn().support(body.start.orientation, direction)
     };
     let widest =
         |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
     let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
     let depth = |end: Anchor| match end {
-        Anchor::Body(body) => surface(
-            &scene.bodies[body.index()].drawn(),
-            scene.bodies[body.index()].start.orientation,
-            towards,
-        ),
-        Anchor::Point(_) => 0.0,
+        Anchor::Body { id, .. } if end.is_centre() => {
+            let body = &scene.bodies[id.index()];
+            surface(&body.drawn(), body.start.orientation, towards)
+        }
+        _ => 0.0,
     };
     let free = length - link.between.map(depth).iter().sum::<f64>();
     let free = if free > 0.0 { free } else { length };

@@ -242,3 +242,23 @@ fn a_camera_nearby_sees_small_tiles_though_the_motion_is_long() {
     assert!((0.1..=0.5).contains(&plan.stage().tile), "{}", plan.stage().tile);
     assert_eq!(plan.placed().location(), DVec3::new(0.0, 1.0, 5.0));
 }
+
+/// A body that is drawn twice as large has its points twice as far from its centre.
+#[test]
+fn a_coil_stands_between_the_points_that_its_spring_pulls() {
+    let (scene, plan) = plan(
+        "simulation = { duration = 1 }
+        [body.plank]\nshape.box.size = [2, 0.1, 0.4]\nlocation = [0, 1, 0]\nangular_velocity = [0.3, 0, 1]
+        [body.moon]\nshape.sphere.radius = 0.1\nlook.scale = 2\nlocation = [3, 3, 0]\nvelocity = [0, 0, 1]
+        [force.a.spring]\nstiffness = 1
+        between = [{ body = 'plank', at = [1, 0.05, 0.1] }, { body = 'moon', at = [0, -0.1, 0] }]",
+    );
+    for frame in frames(&scene).step_by(5) {
+        let [coil] = &plan.coils(&frame)[..] else { panic!("one is drawn") };
+        let [plank, moon] = &frame.bodies[..] else { panic!("there are two") };
+        let [begin, end] = coil.span.unwrap();
+        assert_eq!(begin, plank.location + plank.orientation * DVec3::new(1.0, 0.05, 0.1));
+        assert_eq!(end, moon.location + moon.orientation * DVec3::new(0.0, -0.2, 0.0));
+        assert_eq!(coil.fixed, [None, None]);
+    }
+}

@@ -44,7 +44,7 @@ pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     });
     links.flatten().flat_map(|link| link.between).filter_map(|end| match end {
         Anchor::Point(point) => Some(point),
-        Anchor::Body(_) => None,
+        Anchor::Body { .. } => None,
     })
 }
 

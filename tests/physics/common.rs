@@ -65,7 +65,7 @@ pub(crate) fn worlds(body: RigidBody) -> impl Iterator<Item = (&'static Method, 
 
 /// A spring of rest length 0 from the origin to a body.
 pub(crate) fn tether(body: BodyId, stiffness: f64, damping: f64) -> Spring {
-    let between = [Anchor::Point(DVec3::ZERO), Anchor::Body(body)];
+    let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(body)];
     Spring { between, stiffness, damping, rest_length: 0.0 }
 }
 

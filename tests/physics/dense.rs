@@ -20,7 +20,7 @@ fn build(method: &'static Method, step: f64) -> World {
             .with_angular_velocity(DVec3::new(0.3, 0.2, 2.0))
             .with_torque(DVec3::new(0.2, 0.0, 0.1)),
     );
-    let between = [Anchor::Body(ball), Anchor::Point(DVec3::ZERO)];
+    let between = [Anchor::centre(ball), Anchor::Point(DVec3::ZERO)];
     world.add_force(Spring { between, stiffness: 4.0, damping: 0.0, rest_length: 1.0 });
     world.add_force(UniformGravity { acceleration: DVec3::new(0.0, 0.0, -1.0) });
     world

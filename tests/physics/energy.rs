@@ -1,7 +1,7 @@
 //! Energy: how methods keep it, and whether its books are right.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Drag, METHODS, Method, RigidBody, Shape, World};
+use jabuka::dynamics::{Anchor, Drag, METHODS, Method, RigidBody, Shape, Spring, World};
 
 use crate::common::{air, ball, method, tether};
 
@@ -112,6 +112,27 @@ fn the_work_of_a_torque_is_booked() {
             .with_angular_velocity(DVec3::new(1.0, 1.5, -1.0))
             .with_torque(DVec3::new(1.0, -2.0, 3.0));
         world.add(body);
+        world
+    });
+}
+
+#[test]
+fn the_work_of_a_damper_between_points_of_bodies_is_booked() {
+    assert_drift_is_of_the_methods_order(|| {
+        let mut world = World::new();
+        let body = RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0)
+            .with_inertia(DVec3::new(1.0, 2.0, 3.0))
+            .with_orientation(DQuat::from_rotation_x(1.0))
+            .with_angular_velocity(DVec3::new(1.0, 1.5, -1.0));
+        let ids = [0.0, 2.0].map(|x| world.add(body.with_location(x * DVec3::X)));
+        let between = ids.map(|id| Anchor::Body { id, at: DVec3::new(0.5, 0.8, -0.3) });
+        world.add_force(Spring { between, stiffness: 3.0, damping: 2.0, rest_length: 1.0 });
+        world.add_force(Spring {
+            between: [Anchor::Point(DVec3::new(0.0, 3.0, 1.0)), between[1]],
+            stiffness: 3.0,
+            damping: 2.0,
+            rest_length: 1.0,
+        });
         world
     });
 }

@@ -29,7 +29,7 @@ fn driven(method: &'static Method, steps: u32) -> World {
     let hand = world.add(ball());
     let free = world.add(ball());
     world.drive(hand, Shaken);
-    let between = [Anchor::Body(hand), Anchor::Body(free)];
+    let between = [Anchor::centre(hand), Anchor::centre(free)];
     world.add_force(Spring { between, stiffness: 4.0, damping: 0.0, rest_length: 0.0 });
     world.advance_to(1.0);
     world

@@ -14,3 +14,4 @@ mod guided;
 mod order;
 mod rotation;
 mod same_bits;
+mod springs;

@@ -1,7 +1,9 @@
 //! The order of each method, measured: the slope of the logarithm of the error over that of the step.
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, METHODS, Method, RigidBody, Shape, State, UniformGravity, World};
+use jabuka::dynamics::{
+    Anchor, BodyId, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
+};
 
 use crate::common::{SwingingField, air, ball, method, tether};
 
@@ -123,4 +125,26 @@ fn order_in_a_field_that_swings() {
     exact.velocity[0] = DVec3::new(sin / 2.0, 1.0, (1.0 - cos) / 2.0);
     exact.location[0] = DVec3::new((1.0 - cos) / 4.0, 0.5, 0.5 - sin / 4.0);
     assert_orders(magnet, &exact);
+}
+
+fn hung(method: &'static Method, steps: u32) -> State {
+    let body = RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0)
+        .with_inertia(DVec3::new(1.0, 2.0, 3.0))
+        .with_velocity(DVec3::new(0.2, 0.5, -0.3))
+        .with_angular_velocity(DVec3::new(0.5, -0.7, 1.0));
+    let mut world = world(method, steps, body);
+    let ball = world.add(ball().with_location(DVec3::new(2.0, 1.0, -1.0)));
+    let hook = Anchor::Body { id: BodyId::new(0), at: DVec3::new(0.6, 0.4, -0.5) };
+    let fixed = Anchor::Point(DVec3::new(0.0, 3.0, 1.0));
+    for between in [[fixed, hook], [hook, Anchor::centre(ball)]] {
+        world.add_force(Spring { between, stiffness: 3.0, damping: 0.5, rest_length: 1.0 });
+    }
+    world.advance_to(1.0);
+    world.state().clone()
+}
+
+/// A body that turns as it is pulled at a point, by springs and dampers. The reference is RK4 as above.
+#[test]
+fn order_of_a_body_hung_by_a_point() {
+    assert_orders(hung, &hung(method("rk4"), 4096));
 }

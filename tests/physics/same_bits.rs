@@ -20,7 +20,7 @@ fn build(method: &'static Method) -> World {
             .with_velocity(DVec3::new(0.0, 0.1 * x, 1.0))
             .with_angular_velocity(DVec3::new(0.3, x, -0.1));
         let id = world.add(body);
-        let between = [Anchor::Body(last), Anchor::Body(id)];
+        let between = [Anchor::centre(last), Anchor::centre(id)];
         world.add_force(Spring { between, stiffness: 20.0, damping: 0.3, rest_length: 0.8 });
         last = id;
     }

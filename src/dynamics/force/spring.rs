@@ -1,24 +1,98 @@
 //! A spring with a damper beside it.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
-use super::super::{BodyId, State};
+use super::super::BodyId;
 use super::{Force, Loads, Moment};
 
 /// What an end of a [`Spring`] is fastened to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
-    /// The centre of mass of a body.
-    Body(BodyId),
+    /// A point of a body.
+    Body {
+        /// The body.
+        id: BodyId,
+        /// The point in the frame of the body, from its centre of mass, m.
+        at: DVec3,
+    },
     /// A point of the world, m.
     Point(DVec3),
+}
+
+impl Anchor {
+    /// The centre of mass of a body.
+    #[must_use]
+    pub const fn centre(id: BodyId) -> Anchor {
+        Anchor::Body { id, at: DVec3::ZERO }
+    }
+
+    /// The body, if it is one.
+    #[must_use]
+    pub fn body(self) -> Option<BodyId> {
+        match self {
+            Anchor::Body { id, .. } => Some(id),
+            Anchor::Point(_) => None,
+        }
+    }
+
+    /// Whether it is the centre of mass of a body.
+    #[must_use]
+    pub fn is_centre(self) -> bool {
+        matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
+    }
+
+    /// Where it is, m. The closure gives the location of a body and its orientation (`world_from_body`).
+    #[must_use]
+    pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
+        match self {
+            Anchor::Body { id, at } => {
+                let (location, orientation) = pose(id);
+                if at == DVec3::ZERO { location } else { location + orientation * at }
+            }
+            Anchor::Point(point) => point,
+        }
+    }
+}
+
+/// An anchor at one moment, in world axes.
+struct End {
+    /// Where it is, m.
+    location: DVec3,
+    /// The way to it from the centre of mass of its body, m.
+    arm: DVec3,
+}
+
+impl End {
+    fn of(anchor: Anchor, moment: &Moment) -> End {
+        match anchor {
+            Anchor::Body { id, at } => {
+                let (i, Moment { state, model, .. }) = (id.index(), moment);
+                // The state has the orientation of the principal axes.
+                let from_body = || state.orientation[i] * (model.principal_axes()[i].conjugate() * at);
+                let arm = if at == DVec3::ZERO { at } else { from_body() };
+                End { location: state.location[i] + arm, arm }
+            }
+            Anchor::Point(point) => End { location: point, arm: DVec3::ZERO },
+        }
+    }
+
+    /// Its velocity, m/s.
+    fn velocity(&self, anchor: Anchor, moment: &Moment) -> DVec3 {
+        let Some(i) = anchor.body().map(BodyId::index) else { return DVec3::ZERO };
+        let velocity = moment.state.velocity[i];
+        if self.arm == DVec3::ZERO {
+            return velocity;
+        }
+        velocity + moment.model.angular_velocity(i, moment.state).cross(self.arm)
+    }
 }
 
 /// A linear spring and a linear damper, side by side between two anchors (a Kelvin–Voigt element).
 ///
 /// With d the vector from one end to the other, ℓ its length and u = d/ℓ, they pull the ends together with
-/// k (ℓ − ℓ₀) + c ℓ' along u. The spring has the potential ½ k (ℓ − ℓ₀)²; the damper has none, and its power −c ℓ'²
-/// is counted.
+/// k (ℓ − ℓ₀) + c ℓ' along u. Where an anchor is off the centre of mass, the force F there turns its body: with the
+/// arm r from the centre, it has the torque r × F, and the anchor moves with v + ω × r. The spring has the potential
+/// ½ k (ℓ − ℓ₀)²; the damper has none, and its power −c ℓ'² is counted.
 ///
 /// Where ℓ = 0 there is no u. A spring of rest length 0 needs none, as its force −k d is linear; any other pushes
 /// nowhere then. The damper takes the direction of the relative velocity, which is where u is about to point: so an
@@ -36,22 +110,13 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// Vector from the first end to the second.
-    fn span(&self, state: &State) -> DVec3 {
-        let [from, to] = self.between.map(|anchor| match anchor {
-            Anchor::Body(id) => state.location[id.index()],
-            Anchor::Point(point) => point,
-        });
-        to - from
+    fn ends(&self, moment: &Moment) -> [End; 2] {
+        self.between.map(|anchor| End::of(anchor, moment))
     }
 
     /// Velocity of the second end relative to the first.
-    fn relative_velocity(&self, state: &State) -> DVec3 {
-        let [from, to] = self.between.map(|anchor| match anchor {
-            Anchor::Body(id) => state.velocity[id.index()],
-            Anchor::Point(_) => DVec3::ZERO,
-        });
-        to - from
+    fn relative_velocity(&self, [from, to]: &[End; 2], moment: &Moment) -> DVec3 {
+        to.velocity(self.between[1], moment) - from.velocity(self.between[0], moment)
     }
 
     /// The elastic force on the second end.
@@ -67,38 +132,75 @@ impl Spring {
 
 impl Force for Spring {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        let span = self.span(moment.state);
+        let ends = self.ends(moment);
+        let span = ends[1].location - ends[0].location;
         let mut pull = self.elastic(span);
         if self.damping != 0.0 {
-            let velocity = self.relative_velocity(moment.state);
+            let velocity = self.relative_velocity(&ends, moment);
             let line = span.try_normalize().unwrap_or_else(|| velocity.normalize_or_zero());
             let rate = velocity.dot(line);
             pull -= self.damping * rate * line;
             loads.power -= self.damping * rate * rate;
         }
-        for (anchor, force) in self.between.iter().zip([-pull, pull]) {
-            if let Anchor::Body(id) = anchor {
+        for ((anchor, end), force) in self.between.iter().zip(ends).zip([-pull, pull]) {
+            if let Anchor::Body { id, .. } = anchor {
                 loads.force[id.index()] += force;
+                if end.arm != DVec3::ZERO {
+                    loads.torque[id.index()] += end.arm.cross(force);
+                }
             }
         }
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        let stretch = self.span(moment.state).length() - self.rest_length;
+        let [from, to] = self.ends(moment);
+        let stretch = (to.location - from.location).length() - self.rest_length;
         0.5 * self.stiffness * stretch * stretch
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::{Compound, Model, Part, RigidBody, Shape, State};
     use super::super::testing::{assert_minus_gradient, bodies, loads};
     use super::*;
 
-    const BETWEEN: [Anchor; 2] = [Anchor::Body(BodyId::new(0)), Anchor::Body(BodyId::new(1))];
+    const BETWEEN: [Anchor; 2] = [Anchor::centre(BodyId::new(0)), Anchor::centre(BodyId::new(1))];
 
-    fn pair() -> (super::super::Model, State) {
+    fn pair() -> (Model, State) {
         let velocities = (DVec3::new(1.0, -1.0, 0.5), DVec3::new(-2.0, 0.25, 3.0));
         bodies(&[(DVec3::new(0.5, 1.0, -1.0), velocities.0), (DVec3::new(2.0, -1.0, 0.25), velocities.1)])
+    }
+
+    /// Two bodies that move and turn, and a spring between points of theirs. The first is a compound whose principal axes
+    /// are not its own axes.
+    fn hinged(stiffness: f64, damping: f64) -> (Model, State, Spring) {
+        let ball = |radius: f64, x: f64, y: f64| Part {
+            shape: Shape::Sphere { radius },
+            location: DVec3::new(x, y, 0.1 * x),
+            orientation: DQuat::IDENTITY,
+        };
+        let crooked = Shape::Compound(Compound::new(vec![
+            ball(0.3, 0.0, 0.0),
+            ball(0.2, 1.0, 0.7),
+            ball(0.1, -0.4, 1.0),
+        ]));
+        let crooked = RigidBody::new(&crooked, 2.0)
+            .with_orientation(DQuat::from_scaled_axis(DVec3::new(0.4, -1.1, 0.7)))
+            .with_velocity(DVec3::new(1.0, -1.0, 0.5))
+            .with_angular_velocity(DVec3::new(-0.3, 2.0, 1.2));
+        assert!(crooked.principal_axes.angle_between(DQuat::IDENTITY) > 0.1);
+        let block = RigidBody::new(&Shape::Box { size: DVec3::new(0.3, 0.5, 0.9) }, 1.0)
+            .with_location(DVec3::new(2.0, 0.3, -1.0))
+            .with_orientation(DQuat::from_scaled_axis(DVec3::new(0.8, 0.2, -0.5)))
+            .with_velocity(DVec3::new(-0.2, 0.4, 0.9))
+            .with_angular_velocity(DVec3::new(0.5, 1.0, -2.0));
+        let (mut model, mut state) = (Model::default(), State::default());
+        model.push(&crooked, &mut state);
+        model.push(&block, &mut state);
+        let end = |i, at| Anchor::Body { id: BodyId::new(i), at };
+        let between = [end(0, DVec3::new(0.4, -0.2, 0.6)), end(1, DVec3::new(-0.1, 0.3, 0.5))];
+        (model, state, Spring { between, stiffness, damping, rest_length: 0.8 })
     }
 
     #[test]
@@ -110,6 +212,48 @@ mod tests {
             let held = Spring { between: [Anchor::Point(DVec3::splat(0.3)), BETWEEN[0]], ..spring };
             assert_minus_gradient(&held, &model, &state);
         }
+    }
+
+    /// τ = −∂U/∂φ for turns φ about each of the world's axes; tolerances as for the forces. A point that is taken in the
+    /// frame of the principal axes is elsewhere, and has another potential: so its place is held against the body's frame.
+    #[test]
+    fn the_torque_is_minus_the_gradient_of_the_potential_over_turns() {
+        const H: f64 = 1e-5;
+        let (model, state, spring) = hinged(30.0, 0.0);
+        assert_minus_gradient(&spring, &model, &state);
+        let given = loads(&spring, &model, &state);
+        for i in 0..2 {
+            for (axis, given) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(given.torque[i].to_array()) {
+                let potential = |angle: f64| {
+                    let mut state = state.clone();
+                    state.orientation[i] = DQuat::from_scaled_axis(angle * axis) * state.orientation[i];
+                    spring.potential(&Moment { time: 0.0, state: &state, model: &model })
+                };
+                let minus_gradient = (potential(-H) - potential(H)) / (2.0 * H);
+                assert!((given - minus_gradient).abs() < 2e-8, "{i} {axis}: {given} {minus_gradient}");
+            }
+        }
+        let turn = state.orientation[0] * model.principal_axes()[0].conjugate();
+        let moment = Moment { time: 0.0, state: &state, model: &model };
+        let [from, _] = spring.ends(&moment);
+        assert!(from.location.abs_diff_eq(turn * DVec3::new(0.4, -0.2, 0.6), 1e-15), "{}", from.location);
+        let placed = spring.between[0].place(|_| (state.location[0], turn));
+        assert!(placed.abs_diff_eq(from.location, 1e-15), "{placed}");
+    }
+
+    /// About the origin, the two bodies get as much momentum and angular momentum as the other loses.
+    #[test]
+    fn off_the_centre_action_is_reaction_and_the_power_is_that_of_the_damper() {
+        let (model, state, spring) = hinged(0.0, 0.7);
+        let loads = loads(&spring, &model, &state);
+        assert_eq!(loads.force[0], -loads.force[1]);
+        let angular: DVec3 = (0..2).map(|i| loads.torque[i] + state.location[i].cross(loads.force[i])).sum();
+        assert!(angular.length() < 1e-14, "{angular}");
+        let of = |i: usize| {
+            loads.force[i].dot(state.velocity[i]) + loads.torque[i].dot(model.angular_velocity(i, &state))
+        };
+        let power = of(0) + of(1);
+        assert!(power < -0.1 && (loads.power - power).abs() < 1e-14, "{power} {}", loads.power);
     }
 
     #[test]
@@ -128,7 +272,7 @@ mod tests {
     fn at_zero_length_the_damper_brakes_and_nothing_is_undefined() {
         let (model, state) = bodies(&[(DVec3::ZERO, DVec3::new(3.0, 4.0, 0.0))]);
         for rest_length in [0.0, 1.0] {
-            let between = [Anchor::Point(DVec3::ZERO), Anchor::Body(BodyId::new(0))];
+            let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(BodyId::new(0))];
             let spring = Spring { between, stiffness: 30.0, damping: 0.5, rest_length };
             let loads = loads(&spring, &model, &state);
             assert!(loads.force[0].abs_diff_eq(DVec3::new(-1.5, -2.0, 0.0), 1e-15));

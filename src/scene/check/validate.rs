@@ -187,7 +187,11 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Choice(words) => choice(node, kind, &words(), entry, context),
         Kind::Reference(collection) => reference(node, kind, *collection, entry, context),
         Kind::List { of, .. } => match read::list(node, kind) {
-            Ok(items) => items.iter().for_each(|item| value(item, of, None, path, context)),
+            Ok(items) => {
+                // What stands in one place is the same for all copies of a body.
+                let groups = items.chunk_by(|one, next| one.span == next.span);
+                groups.for_each(|group| value(&group[0], of, None, path, context));
+            }
             Err(error) => context.diagnostics.push(error),
         },
         Kind::Table(spec) => match node.as_table() {

@@ -52,7 +52,7 @@ impl Groups {
 
     /// Whether a name means several bodies.
     fn means_several(&self, item: &Node) -> bool {
-        item.as_str().is_some_and(|name| self.several(name).is_some())
+        body_of(item).is_some_and(|name| self.several(name).is_some())
     }
 
     /// The copies that a name means, if it means more than one body.
@@ -89,15 +89,14 @@ impl Expander<'_> {
         }
         let mut all = Vec::new();
         for item in items {
-            let names = item.as_str().and_then(|name| self.groups.several(name));
+            let names = body_of(item).and_then(|name| self.groups.several(name));
             let Some(mut names) = names else {
                 all.push(item.clone());
                 continue;
             };
             let room = MAX_NAMES.saturating_sub(self.names);
-            let node = |name: &Arc<str>| Node { span: item.span, value: Value::String(name.clone()) };
             let before = all.len();
-            all.extend(names.by_ref().take(room).map(node));
+            all.extend(names.by_ref().take(room).map(|name| of_body(item, name)));
             self.names += all.len() - before;
             if names.next().is_some() {
                 let message = format!("the lists of this scene name copies more than {MAX_NAMES} times");
@@ -110,6 +109,29 @@ impl Expander<'_> {
         }
         list.value = Value::Array(all.into());
     }
+}
+
+/// The body that an item of a list names: by itself, or as the `body` of a table.
+fn body_of(item: &Node) -> Option<&str> {
+    match item.as_table() {
+        Some(table) => table.get("body")?.node.as_str(),
+        None => item.as_str(),
+    }
+}
+
+/// The same item of another body.
+fn of_body(item: &Node, name: &Arc<str>) -> Node {
+    let text = Value::String(name.clone());
+    let mut item = item.clone();
+    match &mut item.value {
+        Value::Table(table) => {
+            if let Some(entry) = table.get_mut("body") {
+                entry.node.value = text;
+            }
+        }
+        value => *value = text,
+    }
+    item
 }
 
 /// `brick[3,0]` → `brick`, `3,0`.

@@ -109,8 +109,9 @@ static SPRING: TableSpec = TableSpec {
     keys: &[
         Key::new(
             "between",
-            List { of: &Either(&[Reference(Collection::Body), VECTOR]), min: 2, max: usize::MAX },
-            "Its ends: each the name of a body, or a point; of more than two, a chain from each to the next",
+            List { of: &Either(&[Reference(Collection::Body), VECTOR, Table(&END)]), min: 2, max: usize::MAX },
+            "Its ends: each the name of a body (its centre), a point of a body, or a point of the world; of more than \
+             two, a chain from each to the next",
         )
         .unit("m")
         .required()
@@ -128,6 +129,19 @@ static SPRING: TableSpec = TableSpec {
             .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
         super::showing::COIL,
+    ],
+};
+
+/// An end of a spring at a point of a body.
+pub(in crate::scene) static END: TableSpec = TableSpec {
+    noun: "a point of a body",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("body", Reference(Collection::Body), "The body that it is fastened to").required(),
+        Key::new("at", VECTOR, "The point of the body, in the body's own axes, from its centre of mass")
+            .unit("m")
+            .default("[0, 0, 0]")
+            .also(&["point", "location", "position", "offset", "anchor"]),
     ],
 };
 

@@ -17,6 +17,7 @@ mod schema;
 mod shapes;
 mod showing;
 
+pub(in crate::scene) use forces::END;
 pub use keys::SCENE;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};

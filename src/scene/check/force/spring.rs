@@ -1,12 +1,14 @@
 //! `[force.NAME.spring]`.
 
+use glam::DVec3;
+
 use super::super::read;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Anchor, BodyId, Spring};
 use crate::scene::ForceKind;
-use crate::scene::grammar::Bound;
+use crate::scene::grammar::{Bound, END};
 use crate::scene::source::{Node, Value};
 
 impl Reader<'_, '_> {
@@ -35,7 +37,11 @@ impl Reader<'_, '_> {
         let mut groups: Vec<&[Node]> = nodes.chunk_by(|a, b| a.span == b.span).collect();
         groups.retain(|group| group.len() > 1);
         let [first, .., last] = groups.as_slice() else { return };
-        let end = |node: Option<&Node>| node.and_then(Node::as_str).unwrap_or_default().to_owned();
+        let body = |node: &Node| match node.as_table() {
+            Some(end) => end.get("body").and_then(|entry| entry.node.as_str()).map(str::to_owned),
+            None => node.as_str().map(str::to_owned),
+        };
+        let end = |node: Option<&Node>| node.and_then(body).unwrap_or_default();
         let (from, to) = (end(first.first()), end(last.last()));
         let message = "all copies make one chain, and not pairs";
         let warning = Diagnostic::warning(Code::OneChain, message);
@@ -50,11 +56,17 @@ impl Reader<'_, '_> {
 
     /// Two neighbouring ends must be different, and one of them able to move.
     fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
-        let moves = |end: Anchor| matches!(end, Anchor::Body(body) if !self.bodies[body.index()].start.fixed);
+        let moves = |end: Anchor| end.body().is_some_and(|id| !self.bodies[id.index()].start.fixed);
         if between[0] == between[1] {
             let message = "both ends of the spring are at the same place";
             let error = || {
                 Diagnostic::error(Code::SpringEnds, message).at(second.span, "the same as the end before it")
+            };
+            self.say(Code::SpringEnds, second.span, error);
+        } else if between[0].body().is_some() && between[0].body() == between[1].body() {
+            let message = "both ends of the spring are on the same body";
+            let error = || {
+                Diagnostic::error(Code::SpringEnds, message).at(second.span, "a rigid body does not stretch")
             };
             self.say(Code::SpringEnds, second.span, error);
         } else if !between.into_iter().any(moves) {
@@ -70,15 +82,20 @@ impl Reader<'_, '_> {
     fn end(&self, node: &Node) -> Option<Anchor> {
         match node.value {
             Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
-            _ => self.body(node).map(|body| Anchor::Body(BodyId::new(body))),
+            Value::Table(ref table) => {
+                let view = View::new(&END, Some(table));
+                let id = BodyId::new(self.body(view.raw("body")?)?);
+                Some(Anchor::Body { id, at: view.vector("at").unwrap_or(DVec3::ZERO) })
+            }
+            _ => self.body(node).map(|body| Anchor::centre(BodyId::new(body))),
         }
     }
 
     /// Where an end is at the start.
-    fn place(&self, end: Anchor) -> glam::DVec3 {
-        match end {
-            Anchor::Body(body) => self.bodies[body.index()].start.location,
-            Anchor::Point(point) => point,
-        }
+    fn place(&self, end: Anchor) -> DVec3 {
+        end.place(|id| {
+            let start = &self.bodies[id.index()].start;
+            (start.location, start.orientation)
+        })
     }
 }

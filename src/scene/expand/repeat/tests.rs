@@ -204,7 +204,8 @@ fn forces_name_one_copy_or_many() {
          [body.brick]\nshape.sphere.radius = 0.1\nlocation = [0, 5, 0]\nrepeat.grid = { count = [2, 3], spacing = 1 }\n\
          [force.all.drag]\nlinear = 1\non = ['ball']\n\
          [force.some.drag]\nlinear = 1\non = ['ball[2]', 'brick[*,1]', 'brick[1,2]']\n\
-         [force.chain.spring]\nbetween = [[-1, 0, 0], 'ball']\nstiffness = 1\n",
+         [force.chain.spring]\nbetween = [[-1, 0, 0], 'ball']\nstiffness = 1\n\
+         [force.points.spring]\nbetween = [[-1, 0, 0], { body = 'ball', at = [0, 0.1, 0] }, 'ball[1]']\nstiffness = 1\n",
     );
     let on = |force: usize| match &scene.forces[force].kind {
         ForceKind::Drag(drag) => {
@@ -216,8 +217,11 @@ fn forces_name_one_copy_or_many() {
     assert_eq!(on(1), ["ball[2]", "brick[0,1]", "brick[1,1]", "brick[1,2]"]);
     let ForceKind::Spring { links, .. } = &scene.forces[2].kind else { panic!("not a spring") };
     assert_eq!(links.len(), 4);
-    assert_eq!(links[0].between, [Anchor::Point(-DVec3::X), Anchor::Body(BodyId::new(0))]);
-    assert_eq!(links[3].between, [2, 3].map(|i| Anchor::Body(BodyId::new(i))));
+    assert_eq!(links[0].between, [Anchor::Point(-DVec3::X), Anchor::centre(BodyId::new(0))]);
+    assert_eq!(links[3].between, [2, 3].map(|i| Anchor::centre(BodyId::new(i))));
+    let ForceKind::Spring { links, .. } = &scene.forces[3].kind else { panic!("not a spring") };
+    assert_eq!(links.len(), 5);
+    assert_eq!(links[3].between, [2, 3].map(|i| Anchor::Body { id: BodyId::new(i), at: 0.1 * DVec3::Y }));
 }
 
 #[test]
