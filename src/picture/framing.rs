@@ -71,7 +71,9 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, 
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
-    rounded(aim, back, distance)
+    // A given aim may lie so far behind everything that all is seen even from there: the camera stands before it all the same.
+    let size = (bounds.max - bounds.min).length();
+    rounded(aim, back, if distance > 1e-3 * size { distance } else { size })
 }
 
 /// Places a camera without perspective that is seen in the direction `towards`, and says the width (m) that it has to
@@ -251,5 +253,13 @@ mod tests {
         for (number, step) in [(1.0, 1.0), (9.99, 1.0), (10.0, 10.0), (0.001, 0.001), (85.0, 10.0)] {
             assert!((decimal_step(number) / step - 1.0).abs() < 1e-12, "{number}");
         }
+    }
+
+    #[test]
+    fn an_aim_behind_everything_has_a_camera_before_it() {
+        let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
+        let aim = DVec3::new(-5000.0, 0.0, -9000.0);
+        let framing = perspective(bounds, Field::new(60.0, WIDE), Some(aim), DVec3::new(1.0, 1.0, 4.0));
+        assert!(framing.location.distance(framing.look_at) > 1.0, "{framing:?}");
     }
 }

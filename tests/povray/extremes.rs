@@ -5,7 +5,7 @@ use std::fs;
 use jabuka::emit::EmitError;
 use jabuka::{Run, RunError, Scene};
 
-use crate::povray;
+use crate::povray::{self, Said};
 
 /// The script of the first frame; none where jabuka refuses the scene as too small or too far for POV-Ray.
 fn script(text: &str) -> Option<String> {
@@ -19,8 +19,13 @@ fn script(text: &str) -> Option<String> {
     Some(run.script(&frame).unwrap())
 }
 
-/// Has POV-Ray parse scripts in one process, for a picture of the given size, of which it draws one pixel.
+/// Has POV-Ray parse scripts in one process, for a picture of the given size, of which it draws one pixel: it must not say a
+/// word.
 fn parse(scripts: &[String], width: u32, height: u32) {
+    said(scripts, width, height).nothing("extreme scenes");
+}
+
+fn said(scripts: &[String], width: u32, height: u32) -> Said {
     let folder = tempfile::tempdir().unwrap();
     for (number, script) in scripts.iter().enumerate() {
         fs::write(folder.path().join(format!("scene_{number}.pov")), script).unwrap();
@@ -31,7 +36,7 @@ fn parse(scripts: &[String], width: u32, height: u32) {
     let (width, height) = (format!("+W{width}"), format!("+H{height}"));
     let pixel = ["+SR1", "+ER1", "+SC1", "+EC1"];
     let arguments = [&["+Iall.pov", "-F", "-A", "+KFI0", &last, &width, &height], &pixel[..]].concat();
-    povray::run(folder.path(), &arguments).nothing("extreme scenes");
+    povray::run(folder.path(), &arguments)
 }
 
 /// Numbers that follow from each other, the same in every run.
@@ -43,14 +48,27 @@ impl Numbers {
         (self.0 >> 33) % below
     }
 
+    fn choose<'a>(&mut self, all: &[&'a str]) -> &'a str {
+        all[usize::try_from(self.next(all.len() as u64)).unwrap()]
+    }
+
     /// An ordinary length, or one in four times an extreme one, m.
     fn length(&mut self) -> String {
         const EXTREME: [&str; 10] =
             ["1e-90", "1e-30", "1e-12", "1e-6", "1e-4", "1e4", "1e7", "1e10", "1e16", "1e60"];
-        match self.next(4) {
-            0 => EXTREME[usize::try_from(self.next(10)).unwrap()].to_owned(),
+        match self.next(8) {
+            0 => self.choose(&EXTREME).to_owned(),
+            1 => {
+                let (sign, digit, power) = (self.choose(&["", "-"]), 1 + self.next(9), self.next(29));
+                format!("{sign}{digit}e{}", i64::try_from(power).unwrap() - 12)
+            }
             _ => format!("{}.5", self.next(5)),
         }
+    }
+
+    /// A length that is not negative.
+    fn size(&mut self) -> String {
+        self.length().trim_start_matches('-').to_owned()
     }
 
     fn scene(&mut self) -> String {
@@ -64,34 +82,67 @@ impl Numbers {
             "axes.length = R",
         ];
         for body in ["a", "b"] {
-            let shape = shapes[usize::try_from(self.next(6)).unwrap()].replace('R', &self.length());
+            let shape = self.choose(&shapes).replace('R', &self.size());
             let shape = if shape.contains("1e60 }") { "sphere.radius = 1" } else { &shape };
             let location = [self.length(), self.length(), self.length()].join(", ");
-            let trail =
-                ["", "trail = true\n", "arrows.velocity = true\n"][usize::try_from(self.next(3)).unwrap()];
+            let more = self.choose(&["", "trail = true\n", "arrows.velocity = true\n", "axes = true\n"]);
             text += &format!(
-                "[body.{body}]\nshape.{shape}\nlocation = [{location}]\nvelocity = [1, 2, 0]\n{trail}"
+                "\n[body.{body}]\nshape.{shape}\nlocation = [{location}]\nvelocity = [1, 2, 0]\n{more}"
             );
         }
-        match self.next(4) {
-            0 => text += "camera.projection = 'orthographic'\n",
-            1 => text += &format!("camera.location = [{}, 1, 9]\n", self.length()),
-            2 => text += &format!("camera.look_at = [{}, 1, 0]\n", self.length()),
-            _ => {}
-        }
-        text.replace("[body.", "\n[body.").replace("camera.", "\n[camera]\n")
-            + ["", "[grid]\n", "[scale_bar]\n", "[label.now]\ntext = '${a.speed}'\n"]
-                [usize::try_from(self.next(4)).unwrap()]
+        let camera = match self.next(7) {
+            0 => "projection = 'orthographic'".to_owned(),
+            1 => format!("location = [{}, 1, 9]", self.length()),
+            2 => format!("look_at = [{}, 1, 0]", self.length()),
+            3 => format!("projection = 'orthographic'\nwidth = {}", self.size()),
+            4 => format!("angle = {}", self.choose(&["1", "20", "120", "170"])),
+            5 => format!(
+                "projection = 'orthographic'\nlocation = [{}, 1, 9]\nlook_at = [0, {}, 0]",
+                self.length(),
+                self.length()
+            ),
+            _ => String::new(),
+        };
+        let light = match self.next(6) {
+            0 => format!("\n[light.l]\npoint.location = [{}, 5, 0]\n", self.length()),
+            _ => String::new(),
+        };
+        let shown = ["", "[grid]\n", "[scale_bar]\n", "[label.now]\ntext = '${a.speed}'\n"];
+        text + "\n[camera]\n" + &camera + "\n" + &light + self.choose(&shown)
     }
 }
 
+/// `JABUKA_EXTREMES=400 JABUKA_EXTREMES_SEED=1000 cargo test --test povray extremes -- --nocapture` tries 400 scenes, from
+/// other numbers.
 #[test]
 fn povray_takes_whatever_is_not_refused() {
-    let mut numbers = Numbers(1);
-    let scenes: Vec<String> = (0..60).map(|_| numbers.scene()).collect();
-    let scripts: Vec<String> = scenes.iter().filter_map(|scene| script(scene)).collect();
-    assert!((10..50).contains(&scripts.len()), "{} of 60 are not refused", scripts.len());
-    parse(&scripts, 64, 36);
+    const SIZES: [[u32; 2]; 5] = [[64, 36], [36, 64], [65_535, 2], [1, 1], [2, 4000]];
+    let number = |variable: &str| std::env::var(variable).ok().and_then(|text| text.parse::<u64>().ok());
+    let (count, first) =
+        (number("JABUKA_EXTREMES").unwrap_or(60), number("JABUKA_EXTREMES_SEED").unwrap_or(1));
+    let mut taken = 0;
+    // Pictures of one size are parsed by one process.
+    for (group, begin) in (first..first + count).step_by(30).enumerate() {
+        let [width, height] = SIZES[group % SIZES.len()];
+        let scene = |seed: u64| {
+            let mut numbers = Numbers(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            numbers.scene().replace("[64, 36]", &format!("[{width}, {height}]"))
+        };
+        let scenes: Vec<String> = (begin..(begin + 30).min(first + count)).map(scene).collect();
+        let (scenes, scripts): (Vec<&String>, Vec<String>) =
+            scenes.iter().filter_map(|scene| Some((scene, script(scene)?))).unzip();
+        taken += scripts.len();
+        if said(&scripts, width, height).is_nothing() {
+            continue;
+        }
+        for (scene, script) in scenes.iter().zip(&scripts) {
+            println!("{scene}");
+            parse(std::slice::from_ref(script), width, height);
+        }
+        panic!("the scenes {begin} to {} are taken one by one, and not together", begin + 29);
+    }
+    println!("{taken} of {count} scenes of extreme numbers are not refused");
+    assert!((count / 5..count * 4 / 5).contains(&(taken as u64)), "{taken} of {count} are not refused");
 }
 
 #[test]
@@ -108,6 +159,14 @@ fn wide_pictures_and_wide_parallel_rays_are_drawn_without_a_warning() {
         ))
     };
     parse(&["3", "3e3", "1e5"].map(parallel), 64, 36);
+}
+
+#[test]
+fn large_letters_in_a_large_picture_are_drawn_without_a_warning() {
+    // They are not made bolder, so that they are one object.
+    let label = "output.size = [1920, 1080]\n[body.a]\nshape.sphere.radius = 1\n[label.now]\ntext = 'now'\n";
+    let sizes = ["", "size = 0.08", "size = 0.3"];
+    parse(&sizes.map(|size| script(&format!("{label}{size}")).unwrap()), 1920, 1080);
 }
 
 #[test]

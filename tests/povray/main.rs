@@ -1,7 +1,13 @@
 //! The scripts before POV-Ray itself: it parses all of them without a word, and its pixels show what the scene says.
 //!
 //! A process of POV-Ray's sleeps most of its 0.6 s, so tests that render several scripts start all of them at once.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "these are tests"
+)]
 
 mod assets;
 mod every_script;

@@ -17,14 +17,14 @@ pub(crate) struct Said {
 }
 
 impl Said {
+    /// Whether POV-Ray ended well and without a word.
+    pub(crate) fn is_nothing(&self) -> bool {
+        self.success && self.warnings.is_empty() && self.errors.is_empty()
+    }
+
     /// Panics unless POV-Ray ended well and without a word.
     pub(crate) fn nothing(&self, of: &str) {
-        assert!(
-            self.success && self.warnings.is_empty() && self.errors.is_empty(),
-            "POV-Ray on {of}:\n{}{}",
-            self.warnings,
-            self.errors
-        );
+        assert!(self.is_nothing(), "POV-Ray on {of}:\n{}{}", self.warnings, self.errors);
     }
 }
 
