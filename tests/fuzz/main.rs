@@ -6,6 +6,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "this is a test program")]
 
 mod mutator;
+#[allow(
+    unreachable_pub,
+    dead_code,
+    reason = "a test program has no outside, and cargo-fuzz tries them one by one"
+)]
 mod targets;
 
 use std::fs;

@@ -12,7 +12,7 @@ use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
 /// Where strings of other languages stand in a scene, and one that is right there.
-pub(crate) const PLACES: [(&str, &str); 8] = [
+pub const PLACES: [(&str, &str); 8] = [
     ("location = [TEXT, 0, 0]", "2*sin(3*t)^2 + min(1, abs(t - 3)) % (1 + exp(-t))"),
     ("[variables]\na = TEXT\nb = \"a + 1\"", "sqrt(2) * pi / (1 - 0.5)"),
     ("[label.l]\ntext = TEXT", "t = ${t:.3} s, v = ${ball.speed} · ${2*ball.x}"),
@@ -27,7 +27,7 @@ pub(crate) const PLACES: [(&str, &str); 8] = [
 ];
 
 /// The endings of files that a scene names, and the scene that does.
-pub(crate) const FILES: [(&str, &str); 4] = [
+pub const FILES: [(&str, &str); 4] = [
     ("obj", "shape.mesh.file = 'FILE'"),
     ("stl", "shape.mesh.file = 'FILE'"),
     ("png", "fixed = true\nshape.heightfield = { file = 'FILE', size = [4, 1, 4] }"),
@@ -35,18 +35,33 @@ pub(crate) const FILES: [(&str, &str); 4] = [
 ];
 
 /// The text of a scene.
-pub(crate) fn scene(text: &str) {
+pub fn scene(text: &str) {
     say(&Scene::parse(text));
 }
 
 /// A string at one of [`PLACES`].
-pub(crate) fn string(place: &str, text: &str) {
+pub fn string(place: &str, text: &str) {
     let quoted = serde_json::to_string(text).unwrap().replace('\u{7f}', "");
     scene(&format!("[body.ball]\nshape.sphere.radius = 1\n{}", place.replace("TEXT", &quoted)));
 }
 
+/// A formula, wherever one may stand.
+pub fn formula(text: &str) {
+    [0, 1, 5, 6].into_iter().for_each(|place: usize| string(PLACES[place].0, text));
+}
+
+/// The text of a label.
+pub fn label(text: &str) {
+    string(PLACES[2].0, text);
+}
+
+/// POV-Ray's own words, which the filter looks through.
+pub fn sdl(text: &str) {
+    [3, 4].into_iter().for_each(|place: usize| string(PLACES[place].0, text));
+}
+
 /// A text of the command line: an override, frames, a color, a name that is shown.
-pub(crate) fn argument(text: &str) {
+pub fn argument(text: &str) {
     let options = Options { overrides: vec![Override::new(text)], ..Options::default() };
     say(&Scene::parse_with("[body.ball]\nshape.sphere.radius = 1", &options));
     let _ = (text.parse::<Selection>(), Color::parse(text));
@@ -54,7 +69,7 @@ pub(crate) fn argument(text: &str) {
 }
 
 /// A file of one of [`FILES`], in a folder that is there for it. Says whether it is one.
-pub(crate) fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool {
+pub fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool {
     let name = format!("input.{ending}");
     fs::write(folder.join(&name), bytes).unwrap();
     let path = folder.join("scene.toml");
@@ -65,7 +80,7 @@ pub(crate) fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -
 }
 
 /// A manifest, in a folder that is there for it. Says whether it is one.
-pub(crate) fn manifest(folder: &Path, bytes: &[u8]) -> bool {
+pub fn manifest(folder: &Path, bytes: &[u8]) -> bool {
     fs::write(folder.join(MANIFEST), bytes).unwrap();
     let manifest = Manifest::read(folder);
     if let Some(manifest) = &manifest {
@@ -75,7 +90,7 @@ pub(crate) fn manifest(folder: &Path, bytes: &[u8]) -> bool {
 }
 
 /// The record of an image, in a folder that is there for it. Says whether it is one.
-pub(crate) fn record(folder: &Path, bytes: &[u8]) -> bool {
+pub fn record(folder: &Path, bytes: &[u8]) -> bool {
     let path = Record::path(folder, "frame_0001");
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(&path, bytes).unwrap();
@@ -83,7 +98,7 @@ pub(crate) fn record(folder: &Path, bytes: &[u8]) -> bool {
 }
 
 /// A manifest as jabuka writes it.
-pub(crate) fn a_manifest(folder: &Path) -> Vec<u8> {
+pub fn a_manifest(folder: &Path) -> Vec<u8> {
     let scene = Scene::parse("simulation.duration = 0.04\n[body.ball]\nshape.sphere.radius = 1").unwrap();
     let run = Run::new(&scene).unwrap();
     let opened = jabuka::output::Folder::open(folder).unwrap();
@@ -92,7 +107,7 @@ pub(crate) fn a_manifest(folder: &Path) -> Vec<u8> {
 }
 
 /// A record as jabuka writes it.
-pub(crate) fn a_record() -> Vec<u8> {
+pub fn a_record() -> Vec<u8> {
     let digest = "0123456789abcdef".repeat(4);
     let lines = format!(
         "script {digest}\nfiles {digest}\noptions +W16 +H9\nframe 3\npovray 3.7\nbytes 900\nimage {digest}\n"

@@ -1,0 +1,7 @@
+//! Texts of the command line.
+#![no_main]
+
+use jabuka_fuzz::targets::argument;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| argument(text));

@@ -1,0 +1,7 @@
+//! The text of a label.
+#![no_main]
+
+use jabuka_fuzz::targets::label;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| label(text));

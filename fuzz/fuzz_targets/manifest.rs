@@ -1,0 +1,10 @@
+//! The manifest of a folder of scripts.
+#![no_main]
+
+use jabuka_fuzz::folder;
+use jabuka_fuzz::targets::manifest;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    manifest(folder(), bytes);
+});

@@ -1,0 +1,10 @@
+//! The record of an image.
+#![no_main]
+
+use jabuka_fuzz::folder;
+use jabuka_fuzz::targets::record;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    record(folder(), bytes);
+});

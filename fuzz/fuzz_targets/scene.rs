@@ -1,0 +1,7 @@
+//! The text of a scene.
+#![no_main]
+
+use jabuka_fuzz::targets::scene;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| scene(text));
