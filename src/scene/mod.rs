@@ -21,11 +21,13 @@ pub mod motion;
 mod palette;
 mod places;
 mod preset;
+mod read;
 pub mod sdl;
 mod showing;
 pub mod source;
 pub mod timed;
 mod units;
+mod view;
 
 use std::path::{Path, PathBuf};
 

@@ -1,37 +1,29 @@
-//! What the placing of copies must know of a body before there is one: how large it is, and how it is turned.
+//! The geometry of bodies for the placing of copies, by the same reading that checks bodies.
 
 use std::path::Path;
 
-use glam::DQuat;
-
 use super::view::View;
 use super::{Context, body, shape};
+use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// How large a body is, and how it is turned.
-pub(in crate::scene) struct Geometry {
-    /// The radius of a ball around its centre that holds it, m; none where it is endless.
-    pub(in crate::scene) radius: Option<f64>,
-    /// How it is turned by its own keys.
-    pub(in crate::scene) orientation: DQuat,
-}
-
 /// What reads the geometry of bodies before they are checked; a mesh that several have is read once.
-pub(in crate::scene) struct Geometer<'a> {
+pub(super) struct BodyReader<'a> {
     context: Context<'a>,
     /// The body before, and its radius.
     last: Option<(Table, Option<f64>)>,
 }
 
-impl<'a> Geometer<'a> {
+impl<'a> BodyReader<'a> {
     /// For the bodies of a scene whose files are in a folder.
-    pub(in crate::scene) fn new(folder: Option<&'a Path>, trust: bool) -> Geometer<'a> {
-        Geometer { context: Context { folder, trust, ..Context::silent() }, last: None }
+    pub(super) fn new(folder: Option<&'a Path>, trust: bool) -> BodyReader<'a> {
+        BodyReader { context: Context { folder, trust, ..Context::silent() }, last: None }
     }
+}
 
-    /// The geometry of a body that is described by a table. What is wrong with it, its own reading says.
-    pub(in crate::scene) fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry {
+impl Geometer for BodyReader<'_> {
+    fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry {
         let view = View::new(spec, Some(table));
         let shape = view.table("shape");
         let radius = match &self.last {

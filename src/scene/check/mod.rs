@@ -7,7 +7,7 @@ mod camera;
 mod consequence;
 mod effect;
 mod force;
-pub(super) mod geometry;
+mod geometry;
 mod habits;
 mod label;
 mod look;
@@ -15,7 +15,6 @@ mod material;
 mod mesh;
 mod motion;
 mod povray;
-mod read;
 mod sdl;
 mod shape;
 mod showing;
@@ -24,7 +23,6 @@ mod suggest;
 mod templates;
 mod trajectory;
 mod validate;
-mod view;
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -33,12 +31,13 @@ use std::sync::Arc;
 use sha2::{Digest, Sha256};
 
 pub(super) use self::simulation::MAX_FRAMES;
-pub(super) use self::view::View;
+
 use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::sdl::FileKind;
 use super::source::{self, Table};
-use super::{Include, Options, Places, PovRay, Scene};
+use super::view::View;
+use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::dynamics::Track;
 
@@ -212,8 +211,8 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let unreadable = diagnostics.len();
 
     let mut found = Vec::new();
-    let geometer = geometry::Geometer::new(input.folder, options.trust);
-    let Expansion { groups, of_defaults } = expand::expand(&mut root, geometer, &sources, &mut found);
+    let mut geometer = geometry::BodyReader::new(input.folder, options.trust);
+    let Expansion { groups, of_defaults } = expand::expand(&mut root, &mut geometer, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
         trust: options.trust,

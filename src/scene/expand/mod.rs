@@ -5,6 +5,7 @@
 //! [`Value::Invalid`], after it has been said why.
 
 mod defaults;
+mod geometry;
 mod groups;
 mod habits;
 mod include;
@@ -20,12 +21,12 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
+pub(super) use self::geometry::{Geometer, Geometry};
 pub(super) use self::groups::Groups;
 pub(super) use self::include::include;
 pub(super) use self::place::in_string;
 use self::random::Stream;
 use self::repeat::INDICES;
-use super::check::geometry::Geometer;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Entry, Node, Table, Value};
@@ -36,7 +37,7 @@ use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 /// been laid under everything.
 pub(super) fn expand(
     root: &mut Table,
-    geometer: Geometer<'_>,
+    geometer: &mut dyn Geometer,
     sources: &Sources,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Expansion {
@@ -96,7 +97,7 @@ pub(super) struct Expansion {
 /// What is known while formulas are evaluated.
 struct Expander<'a> {
     /// What tells how large bodies are.
-    geometer: Geometer<'a>,
+    geometer: &'a mut dyn Geometer,
     sources: &'a Sources,
     scope: Scope,
     /// The formulas of the body whose copies are being made, by their places: each is read once.

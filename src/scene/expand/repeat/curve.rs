@@ -5,10 +5,10 @@ use glam::{DQuat, DVec3};
 use super::Place;
 use super::pattern::fraction;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::check::View;
 use crate::scene::expand::Expander;
 use crate::scene::expression::{Formula, Program, Scope};
 use crate::scene::source::{Node, Value};
+use crate::scene::view::View;
 
 /// The places along a curve at which copies stand, at equal distances as measured on the curve.
 pub(super) struct Curve {

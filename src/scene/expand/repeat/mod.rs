@@ -16,10 +16,10 @@ use self::pattern::Pattern;
 use super::Expander;
 use super::groups::Group;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::check::View;
 use crate::scene::grammar::{MAX_COPIES, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
+use crate::scene::view::View;
 
 /// What formulas call the index of a copy in each direction.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];

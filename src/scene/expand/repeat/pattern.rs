@@ -6,10 +6,10 @@ use super::Place;
 use super::curve::Curve;
 use super::scatter::Scatter;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::check::View;
 use crate::scene::expand::Expander;
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
+use crate::scene::view::View;
 
 /// How copies stand.
 pub(super) enum Pattern {

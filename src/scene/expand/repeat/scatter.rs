@@ -6,8 +6,8 @@ use glam::{DQuat, DVec3};
 
 use super::Place;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::check::View;
 use crate::scene::expand::random::Stream;
+use crate::scene::view::View;
 
 /// How copies are scattered.
 pub(super) struct Scatter {

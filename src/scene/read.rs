@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::scene::Color;
 use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
@@ -158,7 +158,7 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
         Value::String(text) => Color::parse(text).ok_or_else(|| {
             let names = crate::scene::color_names::NAMES.iter().map(|(name, _)| *name);
             let message = format!("`{text}` is not a color");
-            let label = match super::suggest::nearest(text, names) {
+            let label = match nearest(text, names) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "expected \"#rrggbb\", \"#rgb\" or a name of CSS".to_owned(),
             };
