@@ -107,7 +107,7 @@ impl FrameConstants {
     ) -> FrameConstants {
         let body = |body: &Body| BodyConstants {
             name: body.name.clone(),
-            shape: if body.look.object.is_some() { "sdl" } else { shape_name(&body.shape) },
+            shape: if body.look.object.is_some() { "sdl" } else { body.shape.name() },
             material: body.material.map(|material| materials[material].identifier.clone()),
         };
         FrameConstants {
@@ -166,21 +166,6 @@ fn has_rounded_box(shape: &Shape) -> bool {
         Shape::RoundedBox { .. } => true,
         Shape::Compound(compound) => compound.parts().iter().any(|part| has_rounded_box(&part.shape)),
         _ => false,
-    }
-}
-
-fn shape_name(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Sphere { .. } => "sphere",
-        Shape::Box { .. } | Shape::RoundedBox { .. } => "box",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Capsule { .. } => "capsule",
-        Shape::Cone { .. } => "cone",
-        Shape::Torus { .. } => "torus",
-        Shape::Plane { .. } => "plane",
-        Shape::Axes { .. } => "axes",
-        Shape::Compound(_) => "compound",
-        Shape::Mesh { .. } => "mesh",
     }
 }
 

@@ -1,40 +1,11 @@
-//! Where convex shapes end, point by point, and whether two of them have a point in common.
+//! Whether two convex shapes have a point in common.
 
 use glam::{DQuat, DVec3};
 
-use super::{Shape, cone_base};
+use super::Shape;
 
 /// So many steps are made to find a point that two shapes have in common. Round shapes that just touch need the most.
 const MAX_STEPS: usize = 64;
-
-impl Shape {
-    /// The point that is farthest in a direction (any length, in the frame of the body), m; `None` for a shape that is
-    /// not convex or has no end.
-    #[must_use]
-    pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
-        let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
-        let corner = |half: DVec3| half * DVec3::new(sign(direction.x), sign(direction.y), sign(direction.z));
-        let rim = DVec3::new(direction.x, 0.0, direction.z).normalize_or_zero();
-        Some(match *self {
-            Shape::Sphere { radius } => radius * direction.normalize_or_zero(),
-            Shape::Box { size } => corner(0.5 * size),
-            Shape::RoundedBox { size, rounding } => {
-                corner(0.5 * size - rounding) + rounding * direction.normalize_or_zero()
-            }
-            Shape::Cylinder { radius, height } => radius * rim + 0.5 * height * sign(direction.y) * DVec3::Y,
-            Shape::Capsule { radius, height } => {
-                (0.5 * height - radius) * sign(direction.y) * DVec3::Y
-                    + radius * direction.normalize_or_zero()
-            }
-            Shape::Cone { radius, top_radius, height } => {
-                let base = cone_base(radius, top_radius, height);
-                let ends = [radius * rim + base * DVec3::Y, top_radius * rim + (base + height) * DVec3::Y];
-                if ends[0].dot(direction) > ends[1].dot(direction) { ends[0] } else { ends[1] }
-            }
-            _ => return None,
-        })
-    }
-}
 
 /// A convex shape at a place.
 #[derive(Clone, Copy, Debug)]

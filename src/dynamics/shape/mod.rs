@@ -95,6 +95,23 @@ pub enum Shape {
 const ARM_RADIUS: f64 = 0.078;
 
 impl Shape {
+    /// The name by which scenes know it.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Shape::Sphere { .. } => "sphere",
+            Shape::Box { .. } | Shape::RoundedBox { .. } => "box",
+            Shape::Cylinder { .. } => "cylinder",
+            Shape::Capsule { .. } => "capsule",
+            Shape::Cone { .. } => "cone",
+            Shape::Torus { .. } => "torus",
+            Shape::Plane { .. } => "plane",
+            Shape::Axes { .. } => "axes",
+            Shape::Compound(_) => "compound",
+            Shape::Mesh { .. } => "mesh",
+        }
+    }
+
     /// The volume in m³; `None` for a plane, which has no finite one, and for a mesh that is not closed.
     #[must_use]
     pub fn volume(&self) -> Option<f64> {
@@ -173,6 +190,33 @@ impl Shape {
             Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
             Shape::Compound(ref compound) => return compound.support(direction),
             Shape::Mesh { ref mesh, scale } => scale * mesh.support(direction),
+        })
+    }
+
+    /// The point that is farthest in a direction (any length, in the frame of the body), m; `None` for a shape that is
+    /// not convex or has no end.
+    #[must_use]
+    pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
+        let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
+        let corner = |half: DVec3| half * DVec3::new(sign(direction.x), sign(direction.y), sign(direction.z));
+        let rim = DVec3::new(direction.x, 0.0, direction.z).normalize_or_zero();
+        Some(match *self {
+            Shape::Sphere { radius } => radius * direction.normalize_or_zero(),
+            Shape::Box { size } => corner(0.5 * size),
+            Shape::RoundedBox { size, rounding } => {
+                corner(0.5 * size - rounding) + rounding * direction.normalize_or_zero()
+            }
+            Shape::Cylinder { radius, height } => radius * rim + 0.5 * height * sign(direction.y) * DVec3::Y,
+            Shape::Capsule { radius, height } => {
+                (0.5 * height - radius) * sign(direction.y) * DVec3::Y
+                    + radius * direction.normalize_or_zero()
+            }
+            Shape::Cone { radius, top_radius, height } => {
+                let base = cone_base(radius, top_radius, height);
+                let ends = [radius * rim + base * DVec3::Y, top_radius * rim + (base + height) * DVec3::Y];
+                if ends[0].dot(direction) > ends[1].dot(direction) { ends[0] } else { ends[1] }
+            }
+            _ => return None,
         })
     }
 
