@@ -48,6 +48,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod explain;
 pub mod export;
+mod not_drawn;
 pub mod output;
 pub mod overwrite;
 pub mod picture;

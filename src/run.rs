@@ -4,6 +4,7 @@ use crate::cache::Cache;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
+use crate::not_drawn;
 use crate::picture::{Largest, Plan, number};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{
@@ -105,6 +106,7 @@ impl<'a> Run<'a> {
             .chain(thin)
             .chain(small)
             .chain(grid)
+            .chain(plan.not_drawn().iter().map(not_drawn::warning))
             .chain(drift(self.survey().drift))
             .collect()
     }
@@ -157,8 +159,15 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [Code; 6] =
-    [Code::Crossing, Code::Overlap, Code::TooThin, Code::TooSmall, Code::TooFine, Code::EnergyDrift];
+pub(crate) const RUN_WARNINGS: [Code; 7] = [
+    Code::Crossing,
+    Code::Overlap,
+    Code::TooThin,
+    Code::TooSmall,
+    Code::TooFine,
+    Code::NotDrawn,
+    Code::EnergyDrift,
+];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
 fn drift(drift: f64) -> Option<Diagnostic> {

@@ -107,6 +107,7 @@ codes! {
     NoScripts = "no-scripts",
     NoTemplates = "no-templates",
     NotAFile = "not-a-file",
+    NotDrawn = "not-drawn",
     NotFinished = "not-finished",
     NotFinite = "not-finite",
     NotUtf8 = "not-utf8",

@@ -4,6 +4,9 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::number;
 
+/// Two places that are nearer are one to POV-Ray's parser, in its units; its own limit is 10⁻¹⁰.
+const NEAREST: f64 = 1e-8;
+
 /// How lengths and numbers are written in one scene's scripts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
@@ -59,6 +62,20 @@ impl Style {
     pub(super) fn can_write(&self, metres: DVec3) -> bool {
         (metres / self.unit).is_finite()
     }
+
+    /// Whether two places can be written, and POV-Ray takes them for two: in units they are finite, and so far apart
+    /// that also what is some hundred times smaller than their distance is not nothing.
+    pub(super) fn can_tell(&self, from: DVec3, to: DVec3) -> bool {
+        let written = |point: DVec3| {
+            let mut out = String::new();
+            self.point(&mut out, point);
+            out
+        };
+        self.can_write(from)
+            && self.can_write(to)
+            && (to - from).length() / self.unit > NEAREST
+            && written(from) != written(to)
+    }
 }
 
 #[cfg(test)]
@@ -72,6 +89,16 @@ mod tests {
         style.matrix(&mut out, DQuat::from_rotation_z(90f64.to_radians()), DVec3::new(1.0, 2.0, 3.0));
         // The first row is the image of x.
         assert_eq!(out, "matrix <0, 1, 0, -1, 0, 0, 0, 0, 1, 1, 2, 3>");
+    }
+
+    #[test]
+    fn places_that_povray_takes_for_one_are_told() {
+        let style = |digits: usize| Style { unit: 0.1, digits };
+        let far = DVec3::new(1000.0, 0.0, 0.0);
+        assert!(style(9).can_tell(far, far + DVec3::X * 1e-3));
+        assert!(!style(4).can_tell(far, far + DVec3::X * 1e-3), "both are 10000");
+        assert!(!style(9).can_tell(far, far + DVec3::X * f64::INFINITY));
+        assert!(!style(9).can_tell(DVec3::ZERO, DVec3::X * 1e-10));
     }
 
     #[test]

@@ -44,7 +44,7 @@ pub struct Axes {
 }
 
 /// The longest arrow without a scale is so long, as part of the width of the picture.
-const LONGEST: f64 = 0.13;
+pub(super) const LONGEST: f64 = 0.13;
 /// The radius of a shaft, in strokes.
 const SHAFT: f64 = 0.6;
 /// The radius of a head, in radii of the shaft.
@@ -100,7 +100,7 @@ pub(super) fn round_scales(longest: [f64; 3], view: f64) -> Scales {
 }
 
 /// The largest number with a single digit, or 1.5, times a power of ten, that is not larger than a positive number.
-fn round_down(number: f64) -> f64 {
+pub(super) fn round_down(number: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(number) + 1e-12));
     let digits = [8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5];
     let digit = digits.into_iter().find(|digit| digit * decade <= number * (1.0 + 1e-9));

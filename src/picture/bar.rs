@@ -56,12 +56,17 @@ impl ScaleBars {
         ScaleBars { bar, middle, height, ink }
     }
 
-    /// The bar on the plane before a camera, and its number; none if the middle of the motion is behind the camera.
-    pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
+    /// The length that the bar shows, m, and how wide it is on the plane before a camera.
+    pub(super) fn extent(&self, screen: &Screen) -> Option<(f64, f64)> {
         let spot = screen.spot(self.middle)?;
         let fifth = 0.5 / spot.metre;
         let length = self.bar.length.unwrap_or_else(|| decimal_step(fifth) * digit(fifth));
-        let width = length * spot.metre;
+        Some((length, length * spot.metre))
+    }
+
+    /// The bar on the plane before a camera, and its number; none if the middle of the motion is behind the camera.
+    pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
+        let (length, width) = self.extent(screen)?;
         let (x, align) = across(self.bar.corner);
         let left = x - align * width;
         let y = match is_top(self.bar.corner) {

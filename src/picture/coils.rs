@@ -72,6 +72,11 @@ impl Coils {
         Coils { coils, shapes, scales, of_bodies }
     }
 
+    /// The radii of all coils, m, in the order of the forces and their links.
+    pub(super) fn radii(&self) -> impl Iterator<Item = f64> {
+        self.coils.iter().map(|coil| coil.radius)
+    }
+
     /// The coils that are fastened to a body, as they are in a frame.
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Coil<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
@@ -116,7 +121,7 @@ impl Coils {
         };
         let wire = WIRE * coil.radius;
         // Bodies that touch leave no room for a spring.
-        let is_room = (end - begin).dot(along) > 4.0 * WIRE * coil.radius;
+        let is_room = (end - begin).dot(along) > room_for(coil.radius);
         Coil {
             name: &coil.name,
             span: is_room.then_some([begin, end]),
@@ -128,6 +133,11 @@ impl Coils {
             color: coil.color,
         }
     }
+}
+
+/// The least length of a coil with a radius, m.
+pub(super) fn room_for(radius: f64) -> f64 {
+    4.0 * WIRE * radius
 }
 
 /// How a spring looks: about as wide as half the smaller of the bodies at its ends, and with as many turns as keep

@@ -13,6 +13,7 @@
 //! | what is seen while a shutter is open | `exposure` |
 //! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap` |
 
+mod asked;
 mod build;
 mod exposure;
 mod frame;
@@ -36,6 +37,7 @@ mod vectors;
 use crate::dynamics::Breakdown;
 use crate::scene::Scene;
 
+pub use asked::{Asked, AskedArrow, AskedSpring, AskedTrail};
 pub use build::world;
 pub use exposure::Exposure;
 pub use frame::{BodyFrame, Frame};

@@ -4,6 +4,7 @@
 
 use glam::DVec3;
 
+use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
 use super::span::Spans;
 use super::{BodyFrame, Bounds, Frame, Frames, SimulateError, Span, world};
@@ -20,6 +21,8 @@ pub struct Survey {
     pub crossings: Vec<Crossing>,
     /// The first two bodies that go into each other.
     pub overlap: Option<Overlap>,
+    /// How large what is to be shown beside the bodies gets.
+    pub asked: Asked,
     /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
     /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
     /// run begins at rest.)
@@ -67,6 +70,7 @@ pub struct Surveyor<'a> {
     /// For each body: whether it has gone through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
+    asked: Asked,
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
@@ -89,6 +93,7 @@ impl<'a> Surveyor<'a> {
             has_begun: false,
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
+            asked: Asked::new(scene),
             error: 0.0,
             largest_kinetic: 0.0,
         }
@@ -110,6 +115,7 @@ impl<'a> Surveyor<'a> {
             plane.watch(scene, frame, &mut self.crossed);
         }
         self.overlaps.see(frame);
+        self.asked.see(scene, frame);
         // A body that has gone through a plane is behind the scenery: the camera need not follow it.
         let counts = |body: &&BodyFrame| !self.crossed[body.id];
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts));
@@ -122,13 +128,14 @@ impl<'a> Surveyor<'a> {
 
     /// What is known after the last frame.
     pub fn finish(self) -> Survey {
-        let Surveyor { scene, spans, planes, overlaps, error, largest_kinetic, .. } = self;
+        let Surveyor { scene, spans, planes, overlaps, asked, error, largest_kinetic, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
         Survey {
             spans: spans.finish(),
             crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
             overlap: overlaps.finish(),
+            asked,
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,

@@ -129,6 +129,18 @@ fn large_labels_and_a_single_line_are_parsed_without_a_word() {
         .nothing("large letters");
 }
 
+/// Two places with the same digits are one to POV-Ray, which takes no line from a place to itself: what is so short is
+/// left out, and the rest is drawn.
+#[test]
+fn lines_from_a_place_to_itself_are_left_out() {
+    let text = "povray.digits = 4\nsimulation.duration = 2\n[body.ball]\nshape.sphere.radius = 0.5\nlocation = [1000, 0, 0]
+        velocity = [0.3, 0, 0]\ntrail = true\narrows.velocity.scale = 0.3\n[camera]\nlocation = [1000, 0, 9]
+        look_at = [1000, 0, 0]\n[force.s.spring]\nbetween = ['ball', [1003, 0, 0]]\nstiffness = 0\ncoil.radius = 1e-13\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.pov"), script_of(text, 20)).unwrap();
+    run(folder.path(), &["+Iscene.pov", "+Oscene.png", "+W16", "+H9", "-A"]).nothing("short lines");
+}
+
 #[test]
 fn a_body_has_its_axes_and_they_turn_with_it() {
     let body = "[body.b]\nshape.box.size = [0.4, 0.4, 0.4]\norientation = [0, 0, 90]\naxes.length = 2\n";

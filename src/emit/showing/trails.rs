@@ -67,7 +67,10 @@ impl Trails {
     /// The trails that can be written.
     fn written(&self, plan: &Plan, frame: &Frame) -> impl Iterator<Item = Trail> {
         let style = self.style;
-        let can_write = move |trail: &Trail| trail.points.iter().all(|point| style.can_write(*point));
+        let can_write = move |trail: &Trail| {
+            trail.points.iter().all(|point| style.can_write(*point))
+                && trail.points.windows(2).any(|pair| style.can_tell(pair[0], pair[1]))
+        };
         plan.trails(frame).into_iter().filter(can_write)
     }
 

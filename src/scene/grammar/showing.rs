@@ -30,7 +30,7 @@ pub(super) const TRAIL: Key =
         .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
 // How a spring is drawn.
 pub(super) const COIL: Key =
-    Key::new("coil", Either(&COIL_KINDS), "Whether it is drawn, as a coil between its ends, and how")
+    Key::new("coil", Either(&COIL_KINDS), "Whether it is drawn, as a coil between its ends, and how; it is left out while they leave no room for it")
         .default("true")
         .also(&["look", "drawn", "draw", "visible"]);
 

@@ -1,8 +1,11 @@
 //! What all frames of a run have in common, and with it what the picture of each shows.
 
+mod in_front;
+mod written;
+
 use std::borrow::Cow;
 
-use glam::{DMat3, DVec3};
+pub use written::Written;
 
 use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
@@ -10,14 +13,13 @@ use super::camera::{Eye, Placed, half_width};
 use super::coils::{Coil, Coils};
 use super::ghosts::Ghosts;
 use super::grid::{Grid, Ruled, Ruler};
-use super::in_front::{Planes, lift_from_coil};
+use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
-use super::room::Room;
+use super::not_drawn::{self, NotDrawn};
 use super::scope::{Scope, largest};
 use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
-use super::text::Text;
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
 use crate::scene::{Body, Camera, GridPlane, Scene};
@@ -48,6 +50,7 @@ pub struct Plan {
     largest: Option<Largest>,
     /// The end of what the camera frames, s, if that is only the start of the run.
     framed_until: Option<f64>,
+    not_drawn: Vec<NotDrawn>,
 }
 
 /// How large things are in a picture.
@@ -58,19 +61,6 @@ struct Sizes {
     /// The width of a line that is well seen, m.
     stroke: f64,
     arrows: ArrowSizes,
-}
-
-/// What is written in a frame.
-#[derive(Clone, Debug)]
-pub struct Written<'a> {
-    /// The plane on which it stands.
-    pub screen: Screen,
-    /// The names and numbers of the grid.
-    pub grid: Vec<Text<'a>>,
-    /// The scale bar, and its number.
-    pub bar: Option<(Bar, Text<'a>)>,
-    /// The labels, in the order of the scene.
-    pub labels: Vec<Text<'a>>,
 }
 
 /// The largest body, and how small it is in the picture.
@@ -134,17 +124,22 @@ impl Plan {
         let distance = placed.location().distance(stage.center);
         let lights = Lights::new(scene, stage.center, stage.size.max(distance));
         let still = ruler.as_ref().filter(|_| !eye.moves());
+        let coils = Coils::new(scene);
+        let narrowest = narrowest_view(scene, &eye, whole);
+        let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
+        let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
         Plan {
             lights_move: lights.moves(),
             lights,
             arrows,
             planes: Planes::new(scene, &stage),
-            coils: Coils::new(scene),
+            not_drawn: not_drawn::find(scene, survey, &coils, narrowest, bar_at_start),
+            coils,
             ghosts: Ghosts::new(scene),
-            trails: Trails::new(scene, stroke(narrowest_view(scene, &eye, whole), scene.output)),
+            trails: Trails::new(scene, stroke(narrowest, scene.output)),
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
-            bar: scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &stage.scenery, ink)),
+            bar,
             labels: Labels::new(scene, ink),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: largest_seen(scene, camera, survey, &eye),
@@ -218,22 +213,6 @@ impl Plan {
         self.arrows.arrows(frame, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
-    /// The same, but those that the ground or a spring would hide are nearer to the camera, which sees them as they
-    /// would be without it.
-    pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
-        let mut arrows = self.arrows(frame);
-        if !arrows.is_empty() {
-            let camera = self.eye.at(frame);
-            for arrow in &mut arrows {
-                self.planes.lift(arrow, &camera);
-                for coil in self.coils.of_body(arrow.body, frame) {
-                    lift_from_coil(arrow, &coil, &camera);
-                }
-            }
-        }
-        arrows
-    }
-
     /// The axes that are drawn on bodies of a frame, in the order of the bodies.
     pub fn axes(&self, frame: &Frame) -> Vec<Axes> {
         self.arrows.axes(frame)
@@ -254,14 +233,6 @@ impl Plan {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
-    /// The same, in front of the ground.
-    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
-        let mut arrows = self.ghost_arrows(frame, ghost);
-        let camera = self.eye.at(frame);
-        arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));
-        arrows
-    }
-
     /// The trails up to a frame.
     pub fn trails(&self, frame: &Frame) -> Vec<Trail> {
         self.trails.up_to(frame, self.stroke(frame))
@@ -275,56 +246,6 @@ impl Plan {
     /// The trails that are asked for, without their points, as wide as at the start.
     pub fn planned_trails(&self) -> Vec<Trail> {
         self.trails.planned(self.sizes.stroke).collect()
-    }
-
-    /// What is written in a frame: the numbers of the grid, that of the scale bar, the labels.
-    pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
-        let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
-        grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
-    }
-
-    /// What is written in a frame, by kind; none if nothing is.
-    ///
-    /// Labels in corners and the scale bar stand where they stand; then the names of the grid's axes, the labels beside
-    /// bodies, and the numbers of the grid, each where there is room.
-    pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
-        let screen = self.screen(frame)?;
-        let mut room = self.labels.room();
-        let bar = self.bar.as_ref().and_then(|bar| bar.on(&screen));
-        if let Some((bar, number)) = &bar {
-            room.take_text(number);
-            room.take(bar.area(room.aspect()));
-        }
-        let mut labels = self.labels.in_corners(frame);
-        labels.iter().for_each(|(_, text)| room.take_text(text));
-        let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room));
-        let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
-        grid.iter().for_each(|title| room.take_text(title));
-        if labels.len() < self.labels.count() {
-            let before = labels.len();
-            self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
-            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
-            let mut beside = Room::new(room.aspect());
-            labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
-            grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
-            labels.sort_by_key(|(place, _)| *place);
-        } else {
-            grid.extend(numbers);
-        }
-        let labels = labels.into_iter().map(|(_, text)| text).collect();
-        Some(Written { screen, grid, bar, labels })
-    }
-
-    /// The lines of a frame on which no text should stand, each with its width, m: arrows and axes.
-    fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
-        let mut arrows = self.arrows(frame);
-        arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body)));
-        let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
-        let axes = self.axes(frame).into_iter().flat_map(|axes| {
-            let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
-            arms.map(|arm| ([axes.location, axes.location + arm * axes.length * 1.1], 0.1 * axes.length))
-        });
-        arrows.chain(axes).collect()
     }
 
     /// The lines of the grid, if they are the same in all frames: if the camera stands still.
@@ -367,6 +288,11 @@ impl Plan {
     /// bodies too small.
     pub fn framed_until(&self) -> Option<f64> {
         self.framed_until
+    }
+
+    /// What the scene asks for and no picture shows.
+    pub fn not_drawn(&self) -> &[NotDrawn] {
+        &self.not_drawn
     }
 
     /// The largest body, if it is too small to be seen, or would be if the camera framed the whole run.

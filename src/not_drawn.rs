@@ -1,0 +1,70 @@
+//! Warnings of what a scene asks for and no picture shows.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::picture::{Asking, NotDrawn, Why, number};
+
+/// That something is asked for and not drawn: what, from when on, why, and what to write.
+pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
+    let NotDrawn { what, name, why, others } = missing;
+    let (what, key) = match what {
+        Asking::Arrow(quantity) => {
+            let quantity = quantity.name();
+            (format!("the arrow for the {quantity} of `{name}`"), format!("arrows.{quantity}.scale"))
+        }
+        Asking::Axes => (format!("the axes of `{name}`"), "axes.length".to_owned()),
+        Asking::Trail => (format!("the trail of `{name}`"), "trail.width".to_owned()),
+        Asking::Coil => (format!("the coil of the spring `{name}`"), "coil.radius".to_owned()),
+        Asking::ScaleBar => ("the scale bar".to_owned(), "scale_bar.length".to_owned()),
+    };
+    let are = if matches!(missing.what, Asking::Axes) { "are" } else { "is" };
+    let others = match others {
+        0 => String::new(),
+        1 => ", nor that of 1 other".to_owned(),
+        others => format!(", nor those of {others} others"),
+    };
+    let (message, fit) = match *why {
+        Why::TooSmall { pixels, fit } => {
+            let size = if matches!(missing.what, Asking::Arrow(_) | Asking::Axes) { "long" } else { "wide" };
+            let pixels = rounded(pixels);
+            (format!("{what} {are} not seen{others}: at most {pixels} pixels {size}"), Some(fit))
+        }
+        Why::Lost { time, fit } => {
+            let time = rounded(time);
+            (format!("{what} is not drawn from t = {time} s on{others}: its tip is at no finite place"), fit)
+        }
+        Why::Wide { way, width } => {
+            let (way, width) = (rounded(way), rounded(width));
+            (
+                format!(
+                    "{what} is not drawn{others}: the body goes {way} m, and its trail is {width} m wide"
+                ),
+                None,
+            )
+        }
+        Why::TooLong { length, fit } => {
+            let length = rounded(length);
+            (
+                format!("{what} leaves the picture: in its middle, {length} m are more than its width"),
+                Some(fit),
+            )
+        }
+        Why::NoRoom { radius, fit } => {
+            let radius = rounded(radius);
+            let why = format!("its ends leave no room for one with a radius of {radius} m");
+            (format!("{what} is not drawn{others}: {why}"), fit)
+        }
+    };
+    let help = match (fit, &missing.what) {
+        (Some(fit), _) => format!("write `{key} = {}`, or leave `{key}` out", rounded(fit)),
+        (None, Asking::Coil) => "move the ends apart, or write `coil = false`".to_owned(),
+        (None, _) => format!("leave `{key}` out"),
+    };
+    Diagnostic::warning(Code::NotDrawn, message).help(help)
+}
+
+/// A number with three digits.
+fn rounded(number: f64) -> String {
+    let mut out = String::new();
+    number::write(&mut out, number, 3);
+    out
+}

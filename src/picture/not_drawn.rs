@@ -1,0 +1,158 @@
+//! What a scene asks for, and no picture of the run shows.
+
+use super::arrows::{LONGEST, round_down};
+use super::coils::{self, Coils};
+use super::decimal_step;
+use super::text::MARGIN;
+use crate::scene::{Quantity, Scene};
+use crate::simulate::Survey;
+
+/// An arrow whose longest is shorter is not seen, pixels.
+const SHORTEST: f64 = 1.0;
+/// A line that is thinner is not seen, pixels.
+const THINNEST: f64 = 0.1;
+
+/// Something that is asked for and that no picture shows, or none from a moment on. Lengths are in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NotDrawn {
+    /// What it is.
+    pub what: Asking,
+    /// The name of the body or the force that asks for it.
+    pub name: String,
+    /// Why.
+    pub why: Why,
+    /// How many others ask for the same and get as little.
+    pub others: usize,
+}
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asking {
+    /// An arrow of a body.
+    Arrow(Quantity),
+    /// The axes of a body.
+    Axes,
+    /// The trail of a body.
+    Trail,
+    /// The coil of a spring.
+    Coil,
+    /// The scale bar.
+    ScaleBar,
+}
+
+/// Why something is not drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Why {
+    /// At its largest, it is so many pixels long or wide; `fit` is a value of its key with which it would be seen.
+    TooSmall {
+        /// Its length or width at most, pixels.
+        pixels: f64,
+        /// What would be seen, in the key's unit.
+        fit: f64,
+    },
+    /// Its tip is at no finite place from a time on, s.
+    Lost {
+        /// The time of the first frame, s.
+        time: f64,
+        /// What would be seen, in the key's unit; none if all of the run is lost.
+        fit: Option<f64>,
+    },
+    /// The body goes less far than half the width of its trail.
+    Wide {
+        /// How far it goes.
+        way: f64,
+        /// The width.
+        width: f64,
+    },
+    /// It is longer than the picture is wide.
+    TooLong {
+        /// Its length.
+        length: f64,
+        /// A length that the picture has room for.
+        fit: f64,
+    },
+    /// The bodies at its ends leave no room for it.
+    NoRoom {
+        /// Its radius.
+        radius: f64,
+        /// A radius for which there is room; none if there is none at all.
+        fit: Option<f64>,
+    },
+}
+
+/// What is not drawn in pictures of which the narrowest shows a width of `view`, m. At the start, a scale bar of a length
+/// (m) is so wide, in pictures whose width is 2.
+pub(super) fn find(
+    scene: &Scene,
+    survey: &Survey,
+    coils: &Coils,
+    view: f64,
+    bar: Option<(f64, f64)>,
+) -> Vec<NotDrawn> {
+    let pixel = view / f64::from(scene.output.width);
+    let mut found = Found::default();
+    for arrow in &survey.asked.arrows {
+        let body = &scene.bodies[arrow.body];
+        let kind = Quantity::ALL.iter().position(|quantity| *quantity == arrow.quantity);
+        let scale = kind.and_then(|kind| body.showing.arrows[kind]?.scale);
+        let fit = (arrow.longest > 0.0).then(|| round_down(LONGEST * view / arrow.longest));
+        let why = match (arrow.lost, scale, fit) {
+            (Some(time), ..) => Why::Lost { time, fit },
+            (None, Some(scale), Some(fit)) if arrow.longest * scale < SHORTEST * pixel => {
+                Why::TooSmall { pixels: arrow.longest * scale / pixel, fit }
+            }
+            _ => continue,
+        };
+        found.add(Asking::Arrow(arrow.quantity), &body.name, why);
+    }
+    for body in &scene.bodies {
+        let Some(length) = body.showing.axes.and_then(|axes| axes.length) else { continue };
+        if length < SHORTEST * pixel {
+            let why = Why::TooSmall { pixels: length / pixel, fit: decimal_step(0.2 * view) };
+            found.add(Asking::Axes, &body.name, why);
+        }
+    }
+    for trail in &survey.asked.trails {
+        let body = &scene.bodies[trail.body];
+        let Some(width) = body.showing.trail.and_then(|trail| trail.width) else { continue };
+        if width < THINNEST * pixel {
+            let why = Why::TooSmall { pixels: width / pixel, fit: decimal_step(6.0 * pixel) };
+            found.add(Asking::Trail, &body.name, why);
+        } else if trail.way > 0.0 && trail.way <= width / 2.0 {
+            found.add(Asking::Trail, &body.name, Why::Wide { way: trail.way, width });
+        }
+    }
+    for (spring, radius) in survey.asked.springs.iter().zip(coils.radii()) {
+        let fits = coils::room_for(radius) < spring.room;
+        if !fits {
+            let fit = (spring.room > 0.0).then(|| decimal_step(0.3 * spring.room));
+            found.add(Asking::Coil, &spring.force, Why::NoRoom { radius, fit });
+        } else if 2.0 * radius < THINNEST * pixel {
+            let why = Why::TooSmall { pixels: 2.0 * radius / pixel, fit: decimal_step(0.1 * spring.room) };
+            found.add(Asking::Coil, &spring.force, why);
+        }
+    }
+    if let Some((length, wide)) = bar.filter(|(_, wide)| *wide > 2.0 - 2.0 * MARGIN) {
+        let why = Why::TooLong { length, fit: decimal_step(0.5 * length / wide) };
+        found.add(Asking::ScaleBar, "", why);
+    }
+    found.0
+}
+
+/// What has been found, one for all of a kind.
+#[derive(Default)]
+struct Found(Vec<NotDrawn>);
+
+impl Found {
+    fn add(&mut self, what: Asking, name: &str, why: Why) {
+        let is_same = |known: &&mut NotDrawn| {
+            known.what == what && std::mem::discriminant(&known.why) == std::mem::discriminant(&why)
+        };
+        match self.0.iter_mut().find(is_same) {
+            // A spring of several links counts once.
+            Some(known) if known.name == name => {}
+            Some(known) => known.others += 1,
+            None => self.0.push(NotDrawn { what, name: name.to_owned(), why, others: 0 }),
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Arrows in front of what would hide them.
+
+use super::Plan;
+use crate::picture::arrows::Arrow;
+use crate::picture::in_front::lift_from_coil;
+use crate::simulate::{BodyFrame, Frame};
+
+impl Plan {
+    /// The arrows of a frame; those that the ground or a spring would hide are nearer to the camera, which sees them as they
+    /// would be without it.
+    pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
+        let mut arrows = self.arrows(frame);
+        if !arrows.is_empty() {
+            let camera = self.eye.at(frame);
+            for arrow in &mut arrows {
+                self.planes.lift(arrow, &camera);
+                for coil in self.coils.of_body(arrow.body, frame) {
+                    lift_from_coil(arrow, &coil, &camera);
+                }
+            }
+        }
+        arrows
+    }
+
+    /// The arrows of a body as it was, in front of the ground.
+    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
+        let mut arrows = self.ghost_arrows(frame, ghost);
+        let camera = self.eye.at(frame);
+        arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));
+        arrows
+    }
+}

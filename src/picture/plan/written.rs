@@ -1,0 +1,75 @@
+//! What is written in a frame, each text where there is room.
+
+use glam::{DMat3, DVec3};
+
+use super::Plan;
+use crate::picture::bar::Bar;
+use crate::picture::room::Room;
+use crate::picture::screen::Screen;
+use crate::picture::text::Text;
+use crate::simulate::Frame;
+
+/// What is written in a frame.
+#[derive(Clone, Debug)]
+pub struct Written<'a> {
+    /// The plane on which it stands.
+    pub screen: Screen,
+    /// The names and numbers of the grid.
+    pub grid: Vec<Text<'a>>,
+    /// The scale bar, and its number.
+    pub bar: Option<(Bar, Text<'a>)>,
+    /// The labels, in the order of the scene.
+    pub labels: Vec<Text<'a>>,
+}
+
+impl Plan {
+    /// What is written in a frame: the numbers of the grid, that of the scale bar, the labels.
+    pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
+        let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
+        grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
+    }
+
+    /// What is written in a frame, by kind; none if nothing is.
+    ///
+    /// Labels in corners and the scale bar stand where they stand; then the names of the grid's axes, the labels beside
+    /// bodies, and the numbers of the grid, each where there is room.
+    pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
+        let screen = self.screen(frame)?;
+        let mut room = self.labels.room();
+        let bar = self.bar.as_ref().and_then(|bar| bar.on(&screen));
+        if let Some((bar, number)) = &bar {
+            room.take_text(number);
+            room.take(bar.area(room.aspect()));
+        }
+        let mut labels = self.labels.in_corners(frame);
+        labels.iter().for_each(|(_, text)| room.take_text(text));
+        let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room));
+        let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
+        grid.iter().for_each(|title| room.take_text(title));
+        if labels.len() < self.labels.count() {
+            let before = labels.len();
+            self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
+            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
+            let mut beside = Room::new(room.aspect());
+            labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
+            grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
+            labels.sort_by_key(|(place, _)| *place);
+        } else {
+            grid.extend(numbers);
+        }
+        let labels = labels.into_iter().map(|(_, text)| text).collect();
+        Some(Written { screen, grid, bar, labels })
+    }
+
+    /// The lines of a frame on which no text should stand, each with its width, m: arrows and axes.
+    fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
+        let mut arrows = self.arrows(frame);
+        arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body)));
+        let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
+        let axes = self.axes(frame).into_iter().flat_map(|axes| {
+            let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
+            arms.map(|arm| ([axes.location, axes.location + arm * axes.length * 1.1], 0.1 * axes.length))
+        });
+        arrows.chain(axes).collect()
+    }
+}

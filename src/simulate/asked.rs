@@ -1,0 +1,177 @@
+//! How large what is shown beside the bodies gets in a run, so that a run that shows nothing of it can say so.
+
+use glam::DVec3;
+
+use super::vectors::{root, shown, surface};
+use super::{BodyFrame, Frame};
+use crate::dynamics::{Anchor, Shape};
+use crate::scene::{Body, ForceKind, Quantity, Scene};
+
+/// How large what is asked for gets in a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Asked {
+    /// The arrows, in the order of their bodies and of [`Quantity::ALL`].
+    pub arrows: Vec<AskedArrow>,
+    /// The trails, in the order of their bodies.
+    pub trails: Vec<AskedTrail>,
+    /// The springs that are drawn, in the order of the forces and their links.
+    pub springs: Vec<AskedSpring>,
+}
+
+/// An arrow of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedArrow {
+    /// The number of the body.
+    pub body: usize,
+    /// What it shows.
+    pub quantity: Quantity,
+    /// Its longest vector, in the unit of its quantity.
+    pub longest: f64,
+    /// The time of the first frame in which its tip is at no finite place, s.
+    pub lost: Option<f64>,
+}
+
+/// The trail of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedTrail {
+    /// The number of the body.
+    pub body: usize,
+    /// Where it begins, m.
+    begin: DVec3,
+    /// How far the body goes from there, m.
+    pub way: f64,
+}
+
+/// A spring that is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedSpring {
+    /// The name of its force.
+    pub force: String,
+    /// Its ends.
+    ends: [End; 2],
+    /// The longest that there is between the surfaces of its ends, m; negative if they always overlap.
+    pub room: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum End {
+    Point(DVec3),
+    /// A point in the frame of a body, as it is drawn; in the middle, it ends at the surface of its shape.
+    Body {
+        number: usize,
+        at: DVec3,
+        shape: Option<Shape>,
+    },
+}
+
+impl Asked {
+    /// What a scene asks for, before its first frame.
+    pub(super) fn new(scene: &Scene) -> Asked {
+        let end = |anchor: Anchor| match anchor {
+            Anchor::Point(point) => End::Point(point),
+            Anchor::Body { id, at } => {
+                let body = &scene.bodies[id.index()];
+                let shape = anchor.is_centre().then(|| body.drawn());
+                End::Body { number: id.index(), at: at * body.look.scale, shape }
+            }
+        };
+        let mut asked = Asked::default();
+        for (number, body) in scene.bodies.iter().enumerate() {
+            for (quantity, arrow) in Quantity::ALL.into_iter().zip(body.showing.arrows) {
+                let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
+                asked.arrows.extend(arrow);
+            }
+            let begin = body.start.location;
+            let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin, way: 0.0 });
+            asked.trails.extend(trail);
+        }
+        for force in &scene.forces {
+            let ForceKind::Spring { links, coil: Some(_) } = &force.kind else { continue };
+            asked.springs.extend(links.iter().map(|link| AskedSpring {
+                force: force.name.clone(),
+                ends: link.between.map(end),
+                room: f64::NEG_INFINITY,
+            }));
+        }
+        asked
+    }
+
+    /// Looks at the next frame of the run.
+    pub(super) fn see(&mut self, scene: &Scene, frame: &Frame) {
+        for arrow in &mut self.arrows {
+            arrow.see(&scene.bodies[arrow.body], &frame.bodies[arrow.body], frame.time);
+        }
+        for trail in &mut self.trails {
+            if frame.index == 0 {
+                trail.begin = frame.bodies[trail.body].location;
+            }
+            trail.way = trail.way.max(trail.begin.distance(frame.bodies[trail.body].location));
+        }
+        for spring in &mut self.springs {
+            let [from, to] = spring.ends.each_ref().map(|end| end.place(frame));
+            let along = (to - from).normalize_or_zero();
+            let inside = spring.ends[0].depth(frame, along) + spring.ends[1].depth(frame, -along);
+            spring.room = spring.room.max(from.distance(to) - inside);
+        }
+    }
+}
+
+impl AskedArrow {
+    fn see(&mut self, body: &Body, frame: &BodyFrame, time: f64) {
+        let vector = shown(self.quantity, body, frame);
+        let scale = body.showing.arrows.iter().zip(Quantity::ALL).find(|(_, kind)| *kind == self.quantity);
+        let scale = scale.and_then(|(arrow, _)| arrow.as_ref()?.scale).unwrap_or(1.0);
+        if (root(body, frame, vector) + vector * scale).is_finite() {
+            self.longest = self.longest.max(vector.length());
+        } else if self.lost.is_none() {
+            self.lost = Some(time);
+        }
+    }
+}
+
+impl End {
+    fn place(&self, frame: &Frame) -> DVec3 {
+        match self {
+            End::Point(point) => *point,
+            End::Body { number, at, .. } => {
+                let body = &frame.bodies[*number];
+                body.location + body.orientation * *at
+            }
+        }
+    }
+
+    /// How far it is from the middle to the surface in a direction, m.
+    fn depth(&self, frame: &Frame, direction: DVec3) -> f64 {
+        match self {
+            End::Body { number, shape: Some(shape), .. } => {
+                surface(shape, frame.bodies[*number].orientation, direction)
+            }
+            End::Body { .. } | End::Point(_) => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::survey;
+
+    #[test]
+    fn the_longest_vectors_ways_and_rooms_of_a_run_are_kept() {
+        let text = "simulation = { duration = 2, gravity = [0, -10, 0] }
+            [body.ball]\nshape.sphere.radius = 0.5\nlocation = [3, 0, 0]\nvelocity = [0, 5, 0]\ntrail = true
+            arrows.velocity = true
+            [body.wall]\nshape.box.size = [1, 9, 9]\nfixed = true
+            [force.s.spring]\nbetween = ['wall', 'ball', [9, 0, 0]]\nstiffness = 0";
+        let asked = survey(&Scene::parse(text).unwrap(), |_| {}).unwrap().asked;
+        let [velocity] = asked.arrows[..] else { panic!("one is asked for") };
+        // 5 m/s upward become 15 m/s downward.
+        assert!((velocity.longest - 15.0).abs() < 1e-9 && velocity.lost.is_none(), "{velocity:?}");
+        // Back through the place where it began, and 10 m below; the method is off by v·dt at most.
+        assert!((asked.trails[0].way - 10.0).abs() < 0.1, "{:?}", asked.trails);
+        // At the end: 10 m below, √(3² + 10²) from the middle of the wall, of which 0.5/3 is inside it, and the ball.
+        let far = libm::hypot(3.0, 10.0);
+        let [wall, _] = &asked.springs[..] else { panic!("a chain of two") };
+        assert!((wall.room - (far * 2.5 / 3.0 - 0.5)).abs() < 0.1, "{wall:?}");
+    }
+}
