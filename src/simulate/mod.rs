@@ -11,7 +11,7 @@
 //! | all of its moments, to be read in any order | `recording`, `record` |
 //! | one frame after another, with what has been before | `frames`, `past`, `lag` |
 //! | what is seen while a shutter is open | `exposure` |
-//! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap` |
+//! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
 
 mod asked;
 mod build;
