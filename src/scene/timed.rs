@@ -1,12 +1,13 @@
 //! Numbers that may change with time.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::expression::{Code, Constants, ExpressionError, Resolved};
+use crate::diagnostic::Span;
 use crate::dynamics::{Motion, Track};
-
-use super::expression::{ExpressionError, Program, Resolved, Steps};
 
 /// A number, or a formula of the time.
 #[derive(Clone, Debug)]
@@ -18,20 +19,159 @@ pub enum Timed {
 }
 
 /// A formula of the time `t`, and its first two derivatives.
+///
+/// Those of the copies of a body differ in numbers alone, and share the rest.
 pub struct TimeFormula {
-    /// What is written.
-    pub text: Arc<str>,
-    value: Program,
-    rate: Steps,
-    curvature: Steps,
-    /// How many operations the three have together.
-    pub(super) operations: u64,
+    programs: Arc<Programs>,
+    written: Arc<Written>,
+    /// The numbers of the formula, the inputs of the programs behind the time.
+    constants: Box<[f64]>,
 }
 
 impl std::fmt::Debug for TimeFormula {
     // The derivatives follow from the value.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("TimeFormula").field(&self.value).finish()
+        let formula = self.programs.formula.at(&self.written.ranges);
+        f.debug_tuple("TimeFormula").field(&formula).field(&self.constants).finish()
+    }
+}
+
+/// What is computed for a formula and its derivatives; the inputs are the time and the formula's numbers.
+struct Programs {
+    value: Code,
+    rate: Code,
+    curvature: Code,
+    /// What the value is computed from, to tell why it has none.
+    formula: Resolved,
+    /// How many operations the three have together.
+    operations: u64,
+}
+
+/// A formula as it is written.
+#[derive(Debug, PartialEq)]
+struct Written {
+    text: Arc<str>,
+    /// Where its parts stand.
+    ranges: Box<[[u32; 2]]>,
+}
+
+/// The formulas of the time that have been read, so that equal ones are kept once.
+#[derive(Default)]
+pub(super) struct Formulas {
+    /// The programs, by all that they are made from.
+    programs: HashMap<Vec<u64>, Arc<Programs>>,
+    /// The last formula that was read from a place: copies have theirs from the same one.
+    last: HashMap<Span, Arc<TimeFormula>>,
+}
+
+impl Formulas {
+    /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
+    ///
+    /// # Errors
+    /// Where it is nested too deeply, or its derivatives are too long.
+    pub(super) fn read(
+        &mut self,
+        text: Arc<str>,
+        span: Span,
+        resolved: &Resolved,
+    ) -> Result<Arc<TimeFormula>, ExpressionError> {
+        /// What a formula of a thousand letters may come to, and no more than is compiled at once.
+        const MOST: u64 = 100_000;
+        let rate = resolved.derivative(0);
+        let curvature = if rate.operations() > MOST { None } else { Some(rate.derivative(0)) };
+        let Some(curvature) = curvature.filter(|curvature| curvature.operations() <= MOST) else {
+            let range = 0..text.len();
+            let message = "the derivatives of this formula are too long, by which velocities follow from it";
+            return Err(super::expression::too_intricate(range, message));
+        };
+        let operations = [resolved, &rate, &curvature].into_iter().map(Resolved::operations).sum();
+        let mut constants = Constants::default();
+        let [value, rate, curvature] =
+            [resolved, &rate, &curvature].map(|formula| formula.lifted(&mut constants));
+        let mut words = Vec::new();
+        [&value, &rate, &curvature].into_iter().for_each(|formula| formula.spell(&mut words));
+        let written = Written { text, ranges: value.ranges() };
+        let programs = match self.programs.get(&words) {
+            Some(programs) => programs.clone(),
+            None => {
+                let curvature = curvature.code()?;
+                let (rate, code) = (rate.code()?, value.code()?);
+                let programs = Programs { value: code, rate, curvature, formula: value, operations };
+                self.programs.entry(words).or_insert(Arc::new(programs)).clone()
+            }
+        };
+        let constants = constants.into_values();
+        let last = self.last.get(&span).filter(|last| *last.written == written);
+        let is_same = |last: &&Arc<TimeFormula>| {
+            Arc::ptr_eq(&last.programs, &programs) && bits(&last.constants).eq(bits(&constants))
+        };
+        if let Some(same) = last.filter(is_same) {
+            return Ok(same.clone());
+        }
+        let written = last.map_or_else(|| Arc::new(written), |last| last.written.clone());
+        let formula = Arc::new(TimeFormula { programs, written, constants });
+        self.last.insert(span, formula.clone());
+        Ok(formula)
+    }
+}
+
+fn bits(numbers: &[f64]) -> impl Iterator<Item = u64> {
+    numbers.iter().map(|number| number.to_bits())
+}
+
+impl TimeFormula {
+    /// What is written.
+    pub fn text(&self) -> &str {
+        &self.written.text
+    }
+
+    /// How many operations it and its derivatives have together.
+    pub(super) fn operations(&self) -> u64 {
+        self.programs.operations
+    }
+
+    /// Why it has no finite value at a time (s); none where it has.
+    pub fn explain_non_finite(&self, t: f64) -> Option<ExpressionError> {
+        if self.value(t).is_finite() {
+            return None;
+        }
+        let inputs: Vec<f64> = [t].into_iter().chain(self.constants.iter().copied()).collect();
+        self.programs.formula.at(&self.written.ranges).explain_non_finite(&inputs)
+    }
+
+    fn value(&self, t: f64) -> f64 {
+        self.programs.value.eval(t, &self.constants)
+    }
+}
+
+impl Timed {
+    /// The value at a time, s; it may not be finite.
+    pub fn at(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(value) => *value,
+            Timed::Formula(formula) => formula.value(t),
+        }
+    }
+
+    /// The derivative at a time, per second.
+    pub fn rate(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(_) => 0.0,
+            Timed::Formula(formula) => formula.programs.rate.eval(t, &formula.constants),
+        }
+    }
+
+    /// The second derivative at a time, per second squared.
+    pub fn curvature(&self, t: f64) -> f64 {
+        match self {
+            Timed::Constant(_) => 0.0,
+            Timed::Formula(formula) => formula.programs.curvature.eval(t, &formula.constants),
+        }
+    }
+
+    /// Whether it changes with time.
+    pub fn changes(&self) -> bool {
+        matches!(self, Timed::Formula(_))
     }
 }
 
@@ -42,68 +182,6 @@ pub enum TimedVector {
     Each([Timed; 3]),
     /// The place on a track.
     Track(Arc<Track>),
-}
-
-impl TimeFormula {
-    /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
-    ///
-    /// # Errors
-    /// Where it is nested too deeply.
-    pub(super) fn new(text: Arc<str>, resolved: Resolved) -> Result<TimeFormula, ExpressionError> {
-        /// What a formula of a thousand letters may come to, and no more than is compiled at once.
-        const MOST: u64 = 100_000;
-        let rate = resolved.derivative(0);
-        if rate.operations() > MOST || rate.derivative(0).operations() > MOST {
-            let range = 0..text.len();
-            let message = "the derivatives of this formula are too long, by which velocities follow from it";
-            return Err(super::expression::too_intricate(range, message));
-        }
-        let curvature = rate.derivative(0);
-        let operations = [&resolved, &rate, &curvature].into_iter().map(Resolved::operations).sum();
-        Ok(TimeFormula {
-            text,
-            operations,
-            value: resolved.compile()?,
-            rate: rate.compile()?.into_steps(),
-            curvature: curvature.compile()?.into_steps(),
-        })
-    }
-
-    /// Why it has no finite value at a time (s); none where it has.
-    pub fn explain_non_finite(&self, t: f64) -> Option<ExpressionError> {
-        self.value.explain_non_finite(&[t])
-    }
-}
-
-impl Timed {
-    /// The value at a time, s; it may not be finite.
-    pub fn at(&self, t: f64) -> f64 {
-        match self {
-            Timed::Constant(value) => *value,
-            Timed::Formula(formula) => formula.value.eval(&[t]),
-        }
-    }
-
-    /// The derivative at a time, per second.
-    pub fn rate(&self, t: f64) -> f64 {
-        match self {
-            Timed::Constant(_) => 0.0,
-            Timed::Formula(formula) => formula.rate.eval(&[t]),
-        }
-    }
-
-    /// The second derivative at a time, per second squared.
-    pub fn curvature(&self, t: f64) -> f64 {
-        match self {
-            Timed::Constant(_) => 0.0,
-            Timed::Formula(formula) => formula.curvature.eval(&[t]),
-        }
-    }
-
-    /// Whether it changes with time.
-    pub fn changes(&self) -> bool {
-        matches!(self, Timed::Formula(_))
-    }
 }
 
 impl TimedVector {

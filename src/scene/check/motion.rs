@@ -98,7 +98,7 @@ pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut
             });
             if let (Some((t, error)), Some(span)) = (wrong, span) {
                 let raw = context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
-                let place = in_string(raw, &formula.text, &error.range, span);
+                let place = in_string(raw, formula.text(), &error.range, span);
                 let message = format!("{}, at t = {t} s", error.message);
                 let diagnostic = Diagnostic::error(error.code, message).at(place, error.label);
                 context.diagnostics.push(match error.help {
@@ -117,9 +117,9 @@ fn some_frames(
     frames: usize,
     context: &mut Context<'_>,
 ) -> impl Iterator<Item = usize> + use<> {
-    let affordable = context.operations / formula.operations.max(1);
+    let affordable = context.operations / formula.operations().max(1);
     let count = usize::try_from(affordable).unwrap_or(frames).max(2).min(frames);
-    context.operations = context.operations.saturating_sub(formula.operations.saturating_mul(count as u64));
+    context.operations = context.operations.saturating_sub(formula.operations().saturating_mul(count as u64));
     let last = frames - 1;
     (0..count)
         .map(move |n| if count < 2 { n } else { (n as u128 * last as u128 / (count as u128 - 1)) as usize })

@@ -140,7 +140,7 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
         return Some(("0".to_owned(), false));
     };
     match &items.get(axis)?.value {
-        Value::Formula(formula) => Some((formula.text.to_string(), true)),
+        Value::Formula(formula) => Some((formula.text().to_owned(), true)),
         _ => Some((units::written(items.get(axis)?.as_number()?), false)),
     }
 }

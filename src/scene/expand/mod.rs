@@ -30,7 +30,7 @@ use self::repeat::INDICES;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Entry, Node, Table, Value};
-use super::timed::TimeFormula;
+use super::timed::{Formulas, TimeFormula};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 
 /// Replaces every formula of a scene by its value, and every body that is repeated by its copies, after the defaults have
@@ -46,6 +46,7 @@ pub(super) fn expand(
         sources,
         scope: Scope::default(),
         formulas: HashMap::new(),
+        timed_formulas: Formulas::default(),
         work: 0,
         broken: HashSet::new(),
         seed: 0,
@@ -102,6 +103,8 @@ struct Expander<'a> {
     scope: Scope,
     /// The formulas of the body whose copies are being made, by their places: each is read once.
     formulas: HashMap<Span, Arc<Formula>>,
+    /// The formulas of the time that have been read.
+    timed_formulas: Formulas,
     /// What formulas have come to so far: see [`repeat::work_of_value`].
     work: u64,
     /// The variables that have no value, which has been said.
@@ -277,10 +280,10 @@ impl Expander<'_> {
         self.scope.remove_slot("t");
         let resolved = self.keep(resolved, formula.text(), span)?;
         let resolved = resolved.with_draws(&self.drawn(&resolved));
-        let made = TimeFormula::new(text, resolved).map_err(|error| vec![error]);
-        let made = self.keep(made, formula.text(), span)?;
-        self.work += repeat::work_of_motion(&made);
-        Some(Arc::new(made))
+        let read = self.timed_formulas.read(text, span, &resolved).map_err(|error| vec![error]);
+        let read = self.keep(read, formula.text(), span)?;
+        self.work += repeat::work_of_motion(&read);
+        Some(read)
     }
 
     /// Like [`Expander::number`], where only a whole number will do.

@@ -3,7 +3,7 @@
 use super::error::{ExpressionError, syntax};
 use super::operation::{Binary, Unary, whole_exponent};
 use super::parser::Id;
-use super::program::{Instruction as I, MAX_STACK, Program};
+use super::program::{Code, Instruction as I, MAX_STACK, Program};
 use super::resolve::{Resolved, Value};
 
 impl Resolved {
@@ -12,9 +12,17 @@ impl Resolved {
     /// # Errors
     /// Where the formula is nested too deeply.
     pub fn compile(self) -> Result<Program, ExpressionError> {
+        Ok(Program::new(self.code()?, self))
+    }
+
+    /// Makes a program that cannot explain what is not finite.
+    ///
+    /// # Errors
+    /// Where the formula is nested too deeply.
+    pub fn code(&self) -> Result<Code, ExpressionError> {
         let mut emitter = Emitter {
-            needs: needs(&self),
-            resolved: &self,
+            needs: needs(self),
+            resolved: self,
             code: Vec::new(),
             // The operations that are still to come, the next one last: a long sum is deep, and nothing recurses.
             tasks: vec![Task::Value { id: self.root, depth: 0, to: 0 }],
@@ -30,7 +38,7 @@ impl Resolved {
             let error = syntax(range, "the formula is nested too deeply");
             return Err(error.help("give parts of it names in `[variables]`"));
         }
-        Ok(Program::new(code, deepest + 1, self))
+        Ok(Code { instructions: code.into(), depth: deepest + 1 })
     }
 }
 

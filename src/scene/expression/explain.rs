@@ -41,8 +41,16 @@ impl Resolved {
         values
     }
 
+    /// Why the value is not finite, with the place in the formula; none where it is.
+    ///
+    /// # Panics
+    /// If there are fewer inputs than [`Resolved::inputs`].
+    pub fn explain_non_finite(&self, inputs: &[f64]) -> Option<ExpressionError> {
+        self.culprit(&self.values(inputs))
+    }
+
     /// Of the parts that the result is made of, the first that is not finite.
-    pub(super) fn culprit(&self, values: &[f64]) -> Option<ExpressionError> {
+    fn culprit(&self, values: &[f64]) -> Option<ExpressionError> {
         let mut is_used = vec![false; self.nodes.len()];
         is_used[self.root] = true;
         let mut first = None;

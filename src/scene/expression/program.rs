@@ -13,15 +13,47 @@ use super::scope::Scope;
 /// code, which has addresses.
 #[derive(Clone)]
 pub struct Program {
-    pub(super) code: Box<[Instruction]>,
+    pub(super) code: Code,
+    resolved: Box<Resolved>,
+}
+
+/// A program alone, without the formula that it was compiled from.
+#[derive(Clone)]
+pub struct Code {
+    pub(super) instructions: Box<[Instruction]>,
     /// How much of the stack it uses.
     pub(super) depth: usize,
-    resolved: Box<Resolved>,
 }
 
 impl std::fmt::Debug for Program {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.resolved.fmt(f)
+    }
+}
+
+/// The numbers that a program is given, by their places.
+trait Inputs: Copy {
+    fn at(self, place: u32) -> f64;
+}
+
+impl Inputs for &[f64] {
+    #[inline]
+    fn at(self, place: u32) -> f64 {
+        self[place as usize]
+    }
+}
+
+/// One number, and behind it those that are the same at every evaluation.
+#[derive(Clone, Copy)]
+struct Before<'a>(f64, &'a [f64]);
+
+impl Inputs for Before<'_> {
+    #[inline]
+    fn at(self, place: u32) -> f64 {
+        match place {
+            0 => self.0,
+            place => self.1[place as usize - 1],
+        }
     }
 }
 
@@ -108,13 +140,8 @@ impl Program {
         Formula::parse(text)?.resolve(scope)?.compile().map_err(|error| vec![error])
     }
 
-    pub(super) fn new(code: Vec<Instruction>, depth: usize, resolved: Resolved) -> Program {
-        Program { code: code.into(), depth, resolved: Box::new(resolved) }
-    }
-
-    /// The steps alone, which take a fifth of the memory, and cannot say why a value is not finite.
-    pub(in crate::scene) fn into_steps(self) -> Steps {
-        Steps { code: self.code, depth: self.depth }
+    pub(super) fn new(code: Code, resolved: Resolved) -> Program {
+        Program { code, resolved: Box::new(resolved) }
     }
 
     /// What it was compiled from.
@@ -129,7 +156,7 @@ impl Program {
     /// If there are fewer inputs than [`Resolved::inputs`].
     #[inline]
     pub fn eval(&self, inputs: &[f64]) -> f64 {
-        eval(&self.code, self.depth, inputs)
+        self.code.run(inputs)
     }
 
     /// Why the value is not finite, with the place in the formula; none where it is.
@@ -137,34 +164,32 @@ impl Program {
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
     pub fn explain_non_finite(&self, inputs: &[f64]) -> Option<ExpressionError> {
-        if self.eval(inputs).is_finite() {
-            return None;
+        if self.eval(inputs).is_finite() { None } else { self.resolved.explain_non_finite(inputs) }
+    }
+}
+
+impl Code {
+    /// The value for the first input and those behind it; see [`Program::eval`].
+    ///
+    /// # Panics
+    /// If there are fewer inputs than it uses.
+    #[inline]
+    pub fn eval(&self, first: f64, rest: &[f64]) -> f64 {
+        self.run(Before(first, rest))
+    }
+
+    #[inline]
+    fn run(&self, inputs: impl Inputs) -> f64 {
+        if self.depth <= SMALL_STACK {
+            run::<SMALL_STACK>(&self.instructions, inputs)
+        } else {
+            run::<MAX_STACK>(&self.instructions, inputs)
         }
-        self.resolved.culprit(&self.resolved.values(inputs))
     }
-}
-
-/// The steps of a program, without what they were compiled from.
-#[derive(Clone)]
-pub(in crate::scene) struct Steps {
-    code: Box<[Instruction]>,
-    depth: usize,
-}
-
-impl Steps {
-    /// Like [`Program::eval`].
-    pub(in crate::scene) fn eval(&self, inputs: &[f64]) -> f64 {
-        eval(&self.code, self.depth, inputs)
-    }
-}
-
-#[inline]
-fn eval(code: &[Instruction], depth: usize, inputs: &[f64]) -> f64 {
-    if depth <= SMALL_STACK { run::<SMALL_STACK>(code, inputs) } else { run::<MAX_STACK>(code, inputs) }
 }
 
 /// Runs a program on a stack of `N` numbers, where `N` is a power of two and at least what the program uses.
-fn run<const N: usize>(code: &[Instruction], inputs: &[f64]) -> f64 {
+fn run<const N: usize>(code: &[Instruction], inputs: impl Inputs) -> f64 {
     use Instruction as I;
     let mut stack = [0.0; N];
     let mut acc = 0.0;
@@ -177,7 +202,7 @@ fn run<const N: usize>(code: &[Instruction], inputs: &[f64]) -> f64 {
     }
     macro_rules! input {
         ($v:expr) => {
-            inputs[$v as usize]
+            inputs.at($v)
         };
     }
     macro_rules! begin {

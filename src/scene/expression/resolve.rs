@@ -28,7 +28,7 @@ pub struct Resolved {
     /// Operands stand before what is made of them; what nothing is made of any more may stand between.
     pub(super) nodes: Vec<Node>,
     pub(super) root: Id,
-    slots: usize,
+    pub(super) slots: usize,
     draws: Vec<Draw>,
 }
 

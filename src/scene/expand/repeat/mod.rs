@@ -38,7 +38,7 @@ pub(super) fn work_of_value(text: &str) -> u64 {
 
 /// What a formula of the time costs: it and its derivatives are kept as programs.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
-    100 + 10 * formula.operations
+    100 + 10 * formula.operations()
 }
 
 /// A copy of a body, before it stands where it belongs.

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use super::super::function::{FUNCTIONS, Function, Work};
 use super::super::operation::{Binary, Unary};
 use super::super::parser::{Formula, Part};
-use super::super::{Program, Scope};
+use super::super::{Constants, Program, Scope};
 use super::scope;
 
 /// A formula as a tree of its own, with a value and a printed form that nothing else has a part in.
@@ -218,6 +218,18 @@ proptest! {
             }
         }
         prop_assert_eq!(program.explain_non_finite(&inputs).is_none(), expected.is_finite());
+    }
+
+    #[test]
+    fn numbers_as_inputs_give_the_bits_of_numbers_in_a_program(tree in trees(), inputs in prop::array::uniform3(-10.0..10.0f64)) {
+        let resolved = Formula::parse(&tree.print()).unwrap().resolve(&scope()).unwrap();
+        let mut constants = Constants::default();
+        let lifted = resolved.lifted(&mut constants);
+        let all: Vec<f64> = inputs.into_iter().chain(constants.into_values()).collect();
+        let (program, lifted) = (resolved.compile().unwrap(), lifted.compile().unwrap());
+        prop_assert_eq!(bits(lifted.eval(&all)), bits(program.eval(&inputs)), "{} {:?}", tree.print(), lifted);
+        prop_assert_eq!(bits(lifted.resolved().code().unwrap().eval(all[0], &all[1..])), bits(program.eval(&inputs)));
+        prop_assert_eq!(lifted.explain_non_finite(&all), program.explain_non_finite(&inputs));
     }
 
     #[test]

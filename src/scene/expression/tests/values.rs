@@ -256,7 +256,7 @@ fn every_instruction_computes_what_the_tree_does() {
         value(text);
         let program = Program::compile(text, &scope()).unwrap();
         let name = |instruction: &_| format!("{instruction:?}").split(' ').next().unwrap().to_owned();
-        used.extend(program.code.iter().map(name));
+        used.extend(program.code.instructions.iter().map(name));
     }
     let source = include_str!("../program.rs");
     let (_, list) = source.split_once("enum Instruction {").unwrap();
@@ -272,6 +272,6 @@ fn every_instruction_computes_what_the_tree_does() {
 #[test]
 fn what_needs_more_of_the_stack_is_computed_first() {
     let right = (0..90).fold("sin(x)".to_owned(), |inner, _| format!("cos(y) - ({inner})"));
-    assert!(Program::compile(&right, &scope()).unwrap().depth <= 3);
-    assert!(Program::compile("-x*y - r*z + (x - y)*(y - z)", &scope()).unwrap().depth <= 3);
+    assert!(Program::compile(&right, &scope()).unwrap().code.depth <= 3);
+    assert!(Program::compile("-x*y - r*z + (x - y)*(y - z)", &scope()).unwrap().code.depth <= 3);
 }
