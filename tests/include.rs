@@ -27,7 +27,7 @@ fn read(files: &[(&str, &str)], sets: &[&str]) -> Result<Scene, Report> {
 }
 
 fn names(scene: &Scene) -> Vec<&str> {
-    scene.bodies.iter().map(|body| body.name.as_str()).collect()
+    scene.bodies.iter().map(|body| &*body.name).collect()
 }
 
 const BALL: (&str, &str) = ("ball.toml", "[body.ball]\nshape.sphere.radius = 2\nmass = 3\n");

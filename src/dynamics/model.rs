@@ -15,14 +15,14 @@ pub struct Model {
     inverse_mass: Vec<f64>,
     inertia: Vec<DVec3>,
     inverse_inertia: Vec<DVec3>,
-    principal_axes: Vec<DQuat>,
+    principal_axes: Sparse<DQuat>,
     movable: Vec<bool>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
     /// The motions that are given, and the bodies that follow them.
     motions: Vec<(usize, Arc<dyn Motion>)>,
-    force: Vec<DVec3>,
-    torque: Vec<DVec3>,
+    force: Sparse<DVec3>,
+    torque: Sparse<DVec3>,
     /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
@@ -72,10 +72,10 @@ impl Model {
         &self.inverse_inertia
     }
 
-    /// The rotation of each body that takes its principal axes of inertia to its frame.
+    /// The rotation of a body that takes its principal axes of inertia to its frame.
     #[must_use]
-    pub fn principal_axes(&self) -> &[DQuat] {
-        &self.principal_axes
+    pub fn principal_axes(&self, body: usize) -> DQuat {
+        self.principal_axes.get(body)
     }
 
     /// Whether each body can be elsewhere at another time: it is not fixed and its mass is positive, or its motion is given.
@@ -84,16 +84,16 @@ impl Model {
         &self.movable
     }
 
-    /// The bodies' own constant forces, N.
+    /// A body's own constant force, N.
     #[must_use]
-    pub fn constant_force(&self) -> &[DVec3] {
-        &self.force
+    pub fn constant_force(&self, body: usize) -> DVec3 {
+        self.force.get(body)
     }
 
-    /// The bodies' own constant torques, N m.
+    /// A body's own constant torque, N m.
     #[must_use]
-    pub fn constant_torque(&self) -> &[DVec3] {
-        &self.torque
+    pub fn constant_torque(&self, body: usize) -> DVec3 {
+        self.torque.get(body)
     }
 
     /// The forces that act, beside the bodies' own constant ones.
@@ -109,6 +109,16 @@ impl Model {
 
     pub(super) fn watch(&mut self, effort: Effort) {
         self.effort = effort;
+    }
+
+    /// Makes room for so many more bodies.
+    pub(super) fn reserve(&mut self, bodies: usize) {
+        self.mass.reserve_exact(bodies);
+        self.charge.reserve_exact(bodies);
+        self.inverse_mass.reserve_exact(bodies);
+        self.inertia.reserve_exact(bodies);
+        self.inverse_inertia.reserve_exact(bodies);
+        self.movable.reserve_exact(bodies);
     }
 
     /// Takes in a body; its entry in `state` is made at the same time, so that the two cannot disagree.
@@ -127,13 +137,12 @@ impl Model {
         self.inverse_mass.push(inverse(body.mass));
         self.inertia.push(body.inertia);
         self.inverse_inertia.push(inverse_inertia);
-        self.principal_axes.push(body.principal_axes);
+        self.principal_axes.set(index, body.principal_axes);
         self.movable.push(movable);
         if !movable {
             self.unmoved.push(index);
         }
-        self.force.push(body.force);
-        self.torque.push(DVec3::ZERO);
+        self.force.set(index, body.force);
         self.set_constant_torque(index, body.torque);
 
         // A body that does not move enters at rest: with zero loads nothing then moves it, and no method of
@@ -181,7 +190,7 @@ impl Model {
 
     /// Puts one body where a pose says.
     pub(super) fn place_body(&self, i: usize, pose: &Pose, state: &mut State) {
-        let orientation = (pose.orientation * self.principal_axes[i]).normalize();
+        let orientation = (pose.orientation * self.principal_axes.get(i)).normalize();
         let in_body = orientation.conjugate() * pose.angular_velocity;
         state.location[i] = pose.location;
         state.velocity[i] = pose.velocity;
@@ -194,11 +203,12 @@ impl Model {
     }
 
     pub(super) fn set_constant_force(&mut self, body: usize, force: DVec3) {
-        self.force[body] = force;
+        self.force.set(body, force);
     }
 
     pub(super) fn set_constant_torque(&mut self, body: usize, torque: DVec3) {
-        let before = std::mem::replace(&mut self.torque[body], torque);
+        let before = self.torque.get(body);
+        self.torque.set(body, torque);
         match (before != DVec3::ZERO, torque != DVec3::ZERO) {
             (false, true) => self.torqued.push(body),
             (true, false) => self.torqued.retain(|&other| other != body),
@@ -210,11 +220,11 @@ impl Model {
     ///
     /// Loads on bodies that do not move are zero: whatever holds the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
-        loads.force.clone_from(&self.force);
-        loads.torque.clone_from(&self.torque);
+        self.force.write(&mut loads.force, self.len());
+        self.torque.write(&mut loads.torque, self.len());
         loads.power = 0.0;
         for &i in &self.torqued {
-            loads.power += self.torque[i].dot(self.angular_velocity(i, state));
+            loads.power += self.torque.get(i).dot(self.angular_velocity(i, state));
         }
         let moment = Moment { time, state, model: self };
         for force in &self.forces {
@@ -236,7 +246,7 @@ impl Model {
     pub fn potential(&self, time: f64, state: &State) -> f64 {
         let mut potential = 0.0;
         for i in (0..self.len()).filter(|&i| self.movable[i]) {
-            potential -= self.force[i].dot(state.location[i]);
+            potential -= self.force.get(i).dot(state.location[i]);
         }
         let moment = Moment { time, state, model: self };
         self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
@@ -259,4 +269,42 @@ impl Model {
 /// Whether all three moments are the same, as those of a sphere or a cube.
 pub(super) fn is_isotropic(moments: DVec3) -> bool {
     moments.x == moments.y && moments.y == moments.z
+}
+
+/// A quantity of the bodies that most scenes do not have: those behind the last body that has it take no memory.
+#[derive(Clone, Default)]
+struct Sparse<T>(Vec<T>);
+
+/// What a body has that has nothing of a quantity.
+trait Nothing: Copy + PartialEq {
+    const NOTHING: Self;
+}
+
+impl Nothing for DVec3 {
+    const NOTHING: DVec3 = DVec3::ZERO;
+}
+
+impl Nothing for DQuat {
+    const NOTHING: DQuat = DQuat::IDENTITY;
+}
+
+impl<T: Nothing> Sparse<T> {
+    fn get(&self, body: usize) -> T {
+        self.0.get(body).copied().unwrap_or(T::NOTHING)
+    }
+
+    fn set(&mut self, body: usize, value: T) {
+        if body >= self.0.len() && value != T::NOTHING {
+            self.0.resize(body + 1, T::NOTHING);
+        }
+        if let Some(place) = self.0.get_mut(body) {
+            *place = value;
+        }
+    }
+
+    /// Writes the values of so many bodies.
+    fn write(&self, out: &mut Vec<T>, bodies: usize) {
+        out.clone_from(&self.0);
+        out.resize(bodies, T::NOTHING);
+    }
 }

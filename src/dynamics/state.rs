@@ -54,6 +54,14 @@ impl Accounts {
 }
 
 impl State {
+    /// Makes room for so many more bodies.
+    pub(super) fn reserve(&mut self, bodies: usize) {
+        self.location.reserve_exact(bodies);
+        self.velocity.reserve_exact(bodies);
+        self.orientation.reserve_exact(bodies);
+        self.angular_momentum.reserve_exact(bodies);
+    }
+
     /// The number of bodies.
     #[must_use]
     pub fn len(&self) -> usize {

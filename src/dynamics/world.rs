@@ -55,6 +55,12 @@ impl World {
         }
     }
 
+    /// Makes room for so many more bodies.
+    pub fn reserve(&mut self, bodies: usize) {
+        self.model.reserve(bodies);
+        self.state.reserve(bodies);
+    }
+
     /// Adds a body, at any time.
     pub fn add(&mut self, body: RigidBody) -> BodyId {
         self.about_to_change();
@@ -65,10 +71,15 @@ impl World {
     /// From now on, a body follows a motion that is given; it still acts on others. Its kinetic energy and its momentum
     /// are not counted, and what guides it does work.
     pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
+        self.follow(body, Arc::new(motion));
+    }
+
+    /// Like [`World::drive`], by a motion that others may share.
+    pub fn follow(&mut self, body: BodyId, motion: Arc<dyn Motion>) {
         self.about_to_change();
         // This body alone: placing all guided bodies here would make adding n of them take n² placements.
         self.model.place_body(body.index(), &motion.at(self.time), &mut self.state);
-        self.model.drive(body.index(), Arc::new(motion));
+        self.model.drive(body.index(), motion);
     }
 
     /// Adds a force, at any time.
@@ -268,13 +279,13 @@ impl World {
             mass: self.model.mass()[i],
             charge: self.model.charge()[i],
             inertia: self.model.inertia()[i],
-            principal_axes: self.model.principal_axes()[i],
+            principal_axes: self.model.principal_axes(i),
             location: self.state.location[i],
             orientation: self.orientation(body),
             velocity: self.state.velocity[i],
             angular_velocity: self.angular_velocity(body),
-            force: self.model.constant_force()[i],
-            torque: self.model.constant_torque()[i],
+            force: self.model.constant_force(i),
+            torque: self.model.constant_torque(i),
             fixed: !self.model.movable()[i],
         }
     }
@@ -328,7 +339,7 @@ fn picture(model: &Model, time: f64, state: &State, balance: Balance, loads: &mu
 
 /// The orientation of a body; within a world it is that of the principal axes.
 fn world_from_body(model: &Model, state: &State, body: usize) -> DQuat {
-    let (orientation, axes) = (state.orientation[body], model.principal_axes()[body]);
+    let (orientation, axes) = (state.orientation[body], model.principal_axes(body));
     if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
 }
 

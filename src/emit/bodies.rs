@@ -22,6 +22,7 @@ use crate::simulate::{BodyFrame, Frame};
 pub(super) struct Block {
     style: Style,
     groups: Vec<Group>,
+    forms: Vec<Form>,
 }
 
 /// Bodies that stand together: those of one plain material, or a single one with a look of its own.
@@ -31,15 +32,25 @@ struct Group {
     after: String,
 }
 
-/// One body: two texts, with its place between them.
+/// One body: the text that many have, and behind it the name.
 struct Item {
     id: usize,
+    /// The number of its form.
+    form: usize,
+    name: Arc<str>,
+}
+
+/// What is written of bodies that differ in place and name alone: two texts, with the place between them.
+#[derive(PartialEq)]
+struct Form {
     before: String,
     place: Place,
+    /// Up to the name.
     after: String,
 }
 
 /// How the place of a body is written.
+#[derive(PartialEq)]
 enum Place {
     /// By its centre.
     Centre,
@@ -66,11 +77,15 @@ impl Block {
                 },
             }
         }
+        let mut forms = Vec::new();
         let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
-            Some(material) => of_one_material(scene, &materials[*material], bodies, meshes, style),
-            None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style),
+            Some(material) => {
+                of_one_material(scene, &materials[*material], bodies, meshes, style, &mut forms)
+            }
+            None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style, &mut forms),
         };
-        Block { style, groups: together.iter().map(plan).collect() }
+        let groups = together.iter().map(plan).collect();
+        Block { style, groups, forms }
     }
 
     /// Appends the bodies of a frame. The first body that cannot be written in these units is an error.
@@ -87,7 +102,8 @@ impl Block {
 
     /// Plans the block of a single body, whatever its number.
     pub(super) fn of(body: &Body, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
-        Block { style, groups: vec![single(body, materials, 0, meshes, style)] }
+        let mut forms = Vec::new();
+        Block { style, groups: vec![single(body, materials, 0, meshes, style, &mut forms)], forms }
     }
 
     /// Appends the single body of a block at a place of its own.
@@ -102,9 +118,12 @@ impl Block {
         if !self.style.can_write(body.location) {
             return Err(item.id);
         }
-        out.push_str(&item.before);
-        self.place(out, &item.place, body);
-        out.push_str(&item.after);
+        let form = &self.forms[item.form];
+        out.push_str(&form.before);
+        self.place(out, &form.place, body);
+        out.push_str(&form.after);
+        out.push_str(&item.name);
+        out.push('\n');
         Ok(())
     }
 
@@ -134,12 +153,13 @@ fn of_one_material(
     bodies: &[usize],
     meshes: &Meshes,
     style: Style,
+    forms: &mut Vec<Form>,
 ) -> Group {
     let item = |&id: &usize| {
         let body = &scene.bodies[id];
         let (before, place, after) = shape(body, true, meshes, style);
-        let name = text::comment(&body.name);
-        Item { id, before: format!("  {before}"), place, after: format!("{after} }} // {name}\n") }
+        let form = Form { before: format!("  {before}"), place, after: format!("{after} }} // ") };
+        Item { id, form: number(form, forms), name: in_comment(body) }
     };
     // POV-Ray warns of a union of one. How many there are is not said: that line would change with every body.
     let open = if bodies.len() > 1 { "union" } else { "object" };
@@ -151,15 +171,24 @@ fn of_one_material(
 }
 
 /// One body with its material.
-fn single(body: &Body, materials: &[MaterialText], id: usize, meshes: &Meshes, style: Style) -> Group {
+fn single(
+    body: &Body,
+    materials: &[MaterialText],
+    id: usize,
+    meshes: &Meshes,
+    style: Style,
+    forms: &mut Vec<Form>,
+) -> Group {
     let material = body.material.map(|material| &materials[material]);
-    let name = text::comment(&body.name);
+    let mut group = |form: Form| {
+        let item = Item { id, form: number(form, forms), name: in_comment(body) };
+        Group { before: String::new(), bodies: vec![item], after: String::new() }
+    };
     let plane_macro = material.and_then(MaterialText::plane_macro);
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {
         let before = format!("{plane}(transform {{ ");
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
-        let item = Item { id, before, place, after: format!(" }}) // {name}\n") };
-        return Group { before: String::new(), bodies: vec![item], after: String::new() };
+        return group(Form { before, place, after: " }) // ".to_owned() });
     }
     // What words of the scene's own make of a body may look different when it turns.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
@@ -177,8 +206,25 @@ fn single(body: &Body, materials: &[MaterialText], id: usize, meshes: &Meshes, s
         }
         Place::Centre | Place::Plane(_) => after.push_str(&usage),
     }
-    let after = format!("{after} }} // {name}\n");
-    Group { before: String::new(), bodies: vec![Item { id, before, place, after }], after: String::new() }
+    after.push_str(" } // ");
+    group(Form { before, place, after })
+}
+
+/// The name of a body as it stands in comments.
+fn in_comment(body: &Body) -> Arc<str> {
+    let name = text::comment(&body.name);
+    if *name == *body.name { body.name.clone() } else { name.into() }
+}
+
+/// The number of a form among those that there are, or of a new one.
+fn number(form: Form, forms: &mut Vec<Form>) -> usize {
+    /// So many of the latest forms are looked through.
+    const LATEST: usize = 16;
+    if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {
+        return known.0;
+    }
+    forms.push(form);
+    forms.len() - 1
 }
 
 /// The text before the place of a body, how its place is written, and the text after it.

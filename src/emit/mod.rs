@@ -19,6 +19,9 @@ mod text;
 mod unit;
 mod values;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use self::bodies::Block;
 use self::meshes::Meshes;
 use self::sdl::Style;
@@ -51,7 +54,9 @@ pub struct Emitter {
     unit: Unit,
     digits: usize,
     /// The names of the bodies.
-    names: Vec<String>,
+    names: Vec<Arc<str>>,
+    /// The bytes of the longest block of bodies so far.
+    longest: AtomicUsize,
 }
 
 impl Emitter {
@@ -85,6 +90,7 @@ impl Emitter {
             unit,
             digits: scene.povray.digits,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+            longest: AtomicUsize::new(0),
             templates,
         })
     }
@@ -102,7 +108,7 @@ impl Emitter {
     /// The name of a body that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
     /// enough.
     pub fn too_thin(&self) -> Option<&str> {
-        self.unit.too_thin.map(|body| self.names[body].as_str())
+        self.unit.too_thin.map(|body| &*self.names[body])
     }
 
     /// The script of a frame.
@@ -119,11 +125,13 @@ impl Emitter {
         {
             return Err(EmitError::Blind { time: frame.time });
         }
-        let mut solids_sdl = String::new();
+        // The blocks of frames are about as long as each other, and room that grows step by step is twice as much.
+        let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
         let written = self.block.write(&mut solids_sdl, frame);
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
         let mut showing_sdl = String::new();
         self.showing.write(&mut showing_sdl, &self.plan, frame, &self.names);
+        self.longest.fetch_max(solids_sdl.len(), Ordering::Relaxed);
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
     }
 

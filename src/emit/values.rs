@@ -106,7 +106,7 @@ impl FrameConstants {
         mentions: impl Fn(&str) -> bool,
     ) -> FrameConstants {
         let body = |body: &Body| BodyConstants {
-            name: body.name.clone(),
+            name: body.name.to_string(),
             shape: if body.look.object.is_some() { "sdl" } else { body.shape.name() },
             material: body.material.map(|material| materials[material].identifier.clone()),
         };

@@ -40,7 +40,7 @@ pub fn write_csv(run: &Recorded<'_>, selection: &Selection, out: impl Write) -> 
         let frame = exposure?.frame;
         for body in &frame.bodies {
             csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
-            csv.write_field(&scene.bodies[body.id].name).map_err(io::Error::from)?;
+            csv.write_field(&*scene.bodies[body.id].name).map_err(io::Error::from)?;
             let vectors =
                 [body.location.to_array(), body.velocity.to_array(), body.angular_velocity.to_array()];
             let [location, velocity, angular] = vectors;

@@ -45,18 +45,18 @@ impl Simulation {
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its name, unique among bodies.
-    pub name: String,
+    pub name: Arc<str>,
     /// Its form.
     pub shape: Shape,
     /// What it is at the start.
     pub start: RigidBody,
     /// The motion that it follows, whatever acts on it.
-    pub motion: Option<BodyMotion>,
+    pub motion: Option<Arc<BodyMotion>>,
     /// The number of its material among the scene's; none for axes, which have colors of their own, and for
     /// an object in SDL that is given none.
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
-    pub look: BodyLook,
+    pub look: Arc<BodyLook>,
     /// What is shown of it beside itself. Copies of a body share it.
     pub showing: Arc<Showing>,
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::timed::{Timed, TimedVector};
-use crate::dynamics::{Motion, Track};
+use crate::dynamics::{Motion, Pose, Track};
 
 /// A motion that is given.
 #[derive(Clone, Debug)]
@@ -29,6 +29,24 @@ impl BodyMotion {
             BodyMotion::Track(track) => {
                 let pose = track.at(t);
                 (pose.location, pose.orientation)
+            }
+        }
+    }
+}
+
+impl Motion for BodyMotion {
+    fn at(&self, t: f64) -> Pose {
+        match self {
+            BodyMotion::Track(track) => track.at(t),
+            BodyMotion::Formula { location, orientation } => {
+                let (orientation, angular_velocity) = orientation.at(t);
+                Pose {
+                    location: location.at(t),
+                    velocity: location.rate(t),
+                    acceleration: location.curvature(t),
+                    orientation,
+                    angular_velocity,
+                }
             }
         }
     }

@@ -1,12 +1,8 @@
 //! Scene → world.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
-use crate::dynamics::{Motion, Pose, Track, UniformGravity, World};
-use crate::scene::motion::{BodyMotion, TimedOrientation};
-use crate::scene::timed::TimedVector;
+use crate::dynamics::{UniformGravity, World};
 use crate::scene::{Body, Scene};
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
@@ -17,6 +13,7 @@ pub fn world(scene: &Scene) -> World {
     // What is given at every time needs no steps to get there.
     let is_given = scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some());
     world.set_step(if is_given { f64::INFINITY } else { scene.simulation.step });
+    world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
@@ -27,40 +24,8 @@ pub fn world(scene: &Scene) -> World {
 
 fn add(world: &mut World, body: &Body) {
     let id = world.add(body.start);
-    match &body.motion {
-        Some(BodyMotion::Track(track)) => world.drive(id, Shared(track.clone())),
-        Some(BodyMotion::Formula { location, orientation }) => {
-            world.drive(id, ByFormula { location: location.clone(), orientation: orientation.clone() });
-        }
-        None => {}
-    }
-}
-
-/// A motion that several worlds follow.
-struct Shared(Arc<Track>);
-
-impl Motion for Shared {
-    fn at(&self, t: f64) -> Pose {
-        self.0.at(t)
-    }
-}
-
-/// A motion by formulas of the time.
-struct ByFormula {
-    location: TimedVector,
-    orientation: TimedOrientation,
-}
-
-impl Motion for ByFormula {
-    fn at(&self, t: f64) -> Pose {
-        let (orientation, angular_velocity) = self.orientation.at(t);
-        Pose {
-            location: self.location.at(t),
-            velocity: self.location.rate(t),
-            acceleration: self.location.curvature(t),
-            orientation,
-            angular_velocity,
-        }
+    if let Some(motion) = &body.motion {
+        world.follow(id, motion.clone());
     }
 }
 

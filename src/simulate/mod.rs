@@ -78,7 +78,7 @@ impl Diverged {
     /// Why the dynamics of a scene cannot go on.
     fn of(scene: &Scene, error: Breakdown) -> Diverged {
         let Breakdown::Diverged { body, time } = error;
-        Diverged { body: scene.bodies[body.index()].name.clone(), time }
+        Diverged { body: scene.bodies[body.index()].name.to_string(), time }
     }
 }
 

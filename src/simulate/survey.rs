@@ -168,7 +168,7 @@ fn planes(scene: &Scene) -> Vec<Watched> {
     };
     let plane = |body: &Body| match body.shape {
         Shape::Plane { normal } => {
-            Some(watched(Some(body.name.clone()), body.start.location, body.start.orientation * normal))
+            Some(watched(Some(body.name.to_string()), body.start.location, body.start.orientation * normal))
         }
         _ => None,
     };
@@ -201,7 +201,7 @@ impl Watched {
             match &mut self.crossing {
                 Some(crossing) => crossing.others += 1,
                 None => {
-                    let (plane, body) = (self.name.clone(), scene.bodies[id].name.clone());
+                    let (plane, body) = (self.name.clone(), scene.bodies[id].name.to_string());
                     self.crossing = Some(Crossing { plane, body, time: frame.time, others: 0 });
                 }
             }

@@ -1,12 +1,14 @@
 //! Arrows for velocity, acceleration and force, and the axes of bodies.
 
+use std::sync::Arc;
+
 use super::super::{sdl::Style, text};
 use super::color;
 use crate::picture::{Arrow, Axes, Plan};
 use crate::simulate::{BodyFrame, Frame};
 
 /// Appends the arrows and axes of all bodies, whose names are given; those of a body stand together.
-pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[String], style: Style) {
+pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>], style: Style) {
     let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
         while let Some(before) = arrows.next_if(|arrow| arrow.body <= its.body) {
@@ -23,13 +25,13 @@ pub(super) fn write_ghost(
     plan: &Plan,
     frame: &Frame,
     ghost: &BodyFrame,
-    names: &[String],
+    names: &[Arc<str>],
     style: Style,
 ) {
     plan.ghost_arrows_in_front(frame, ghost).iter().for_each(|its| arrow(out, its, names, style));
 }
 
-fn axes(out: &mut String, axes: &Axes, names: &[String], style: Style) {
+fn axes(out: &mut String, axes: &Axes, names: &[Arc<str>], style: Style) {
     out.push_str("object { Axes scale ");
     style.length(out, axes.length);
     out.push(' ');
@@ -37,7 +39,7 @@ fn axes(out: &mut String, axes: &Axes, names: &[String], style: Style) {
     out.push_str(&format!(" no_shadow }} // {}, axes\n", text::comment(&names[axes.body])));
 }
 
-fn arrow(out: &mut String, arrow: &Arrow, names: &[String], style: Style) {
+fn arrow(out: &mut String, arrow: &Arrow, names: &[Arc<str>], style: Style) {
     // That one is never seen is said once for the run.
     if !style.can_tell(arrow.from, arrow.to) {
         return;

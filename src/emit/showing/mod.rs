@@ -9,6 +9,8 @@ mod grid;
 mod texts;
 mod trails;
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use self::ghosts::Ghosts;
@@ -84,7 +86,7 @@ impl Showing {
     }
 
     /// Appends what is to be shown of a frame, whose bodies have the given names.
-    pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[String]) {
+    pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
         coils::write(out, plan, frame, style);
         self.ghosts.write(out, plan, frame);

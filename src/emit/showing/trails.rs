@@ -6,6 +6,7 @@
 //! includes it says what is in it, and no file ever changes.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
@@ -39,7 +40,7 @@ impl Trails {
     }
 
     /// Appends the trails up to a frame of bodies whose names are given.
-    pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[String]) {
+    pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         for trail in self.written(plan, frame) {
             self.trail(out, &trail, &names[trail.body]);
         }

@@ -60,7 +60,7 @@ impl Model<'_> {
 
     /// Adds the node of a body, with its pieces below it; a single piece that is where the body is, is the node itself.
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
-        let number = self.node(Node { name: body.name.clone(), ..at(way.start) });
+        let number = self.node(Node { name: body.name.to_string(), ..at(way.start) });
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
         // A pattern is made for a ball of radius 1, and on a body as large as on a ball of its volume.

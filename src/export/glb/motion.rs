@@ -58,7 +58,7 @@ impl Motion {
                 .bodies
                 .iter()
                 .map(|body| Pose { location: body.location, orientation: body.orientation.normalize() });
-            let name = |body: usize| scene.bodies[body].name.clone();
+            let name = |body: usize| scene.bodies[body].name.to_string();
             bodies.add(poses, frame.time, name, &mut room)?;
         }
         Ok(Motion { times, slower, ways: bodies.ways, room })

@@ -323,7 +323,7 @@ fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> O
     let towards = framing::towards_camera(whole.moving, reads_ground(scene));
     let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
     Some(Largest {
-        name: body.name.clone(),
+        name: body.name.to_string(),
         pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
         pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
     })

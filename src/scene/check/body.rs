@@ -10,7 +10,7 @@ use super::{Context, look, mesh, motion, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
-use crate::scene::{Body, LibraryMaterial, Look, Material, Showing, Simulation};
+use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Simulation};
 
 /// The keys that say how a body moves.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -22,6 +22,7 @@ struct Last<'a> {
     /// The table of its shape.
     table: View<'a>,
     shape: Shape,
+    look: Arc<BodyLook>,
     showing: Arc<Showing>,
 }
 
@@ -37,7 +38,7 @@ pub(super) fn read(
     let mut bodies = Vec::with_capacity(tables.len());
     for (name, span, view) in tables {
         if let Some(like) = bodies.last().filter(|_| context.is_hopeless(name)) {
-            bodies.push(Body { name: name.to_owned(), ..Body::clone(like) });
+            bodies.push(Body { name: name.into(), ..Body::clone(like) });
             continue;
         }
         let before = context.diagnostics.len();
@@ -55,11 +56,14 @@ pub(super) fn read(
         }
         let look = look::of_body(name, &view, &shape, context);
         let showing = showing::of_body(name, &view, &shape, start.fixed, simulation, context);
+        let same = last.as_ref().filter(|last| *last.look == look);
+        let look = same.map_or_else(|| Arc::new(look), |last| last.look.clone());
         let same = last.as_ref().filter(|last| *last.showing == showing);
         let showing = same.map_or_else(|| Arc::new(showing), |last| last.showing.clone());
         context.once(before, name, span);
-        last = Some(Last { table, shape: shape.clone(), showing: showing.clone() });
-        bodies.push(Body { name: name.to_owned(), shape, start, motion, material, look, showing });
+        last = Some(Last { table, shape: shape.clone(), look: look.clone(), showing: showing.clone() });
+        let motion = motion.map(Arc::new);
+        bodies.push(Body { name: name.into(), shape, start, motion, material, look, showing });
     }
     bodies
 }

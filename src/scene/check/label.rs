@@ -188,7 +188,7 @@ impl Reader<'_, '_, '_> {
                 continue;
             }
             let Some(number) = self.context.names.bodies.get(body).copied() else {
-                let names = self.bodies.iter().map(|body| body.name.as_str());
+                let names = self.bodies.iter().map(|body| &*body.name);
                 let label = crate::diagnostic::nearest(body, names.take(1000));
                 let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
                 let label = match self.context.groups.ends(body) {

@@ -50,7 +50,7 @@ fn strings_that_are_no_numbers_stay_as_they_are() {
         "title = '2*3'\n[material.pi]\ncolor = 'tan'\n[body.'1 + 1']\nshape.sphere.radius = 1\nmaterial = 'pi'\n",
     );
     let scene = scene.unwrap();
-    assert_eq!((scene.title.as_deref(), scene.bodies[0].name.as_str()), (Some("2*3"), "1 + 1"));
+    assert_eq!((scene.title.as_deref(), &*scene.bodies[0].name), (Some("2*3"), "1 + 1"));
 }
 
 #[test]

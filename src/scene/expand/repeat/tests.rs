@@ -12,11 +12,11 @@ fn scene(text: &str) -> Scene {
 }
 
 fn names(scene: &Scene) -> Vec<&str> {
-    scene.bodies.iter().map(|body| body.name.as_str()).collect()
+    scene.bodies.iter().map(|body| &*body.name).collect()
 }
 
 fn body<'a>(scene: &'a Scene, name: &str) -> &'a Body {
-    scene.bodies.iter().find(|body| body.name == name).unwrap_or_else(|| panic!("no {name}"))
+    scene.bodies.iter().find(|body| *body.name == *name).unwrap_or_else(|| panic!("no {name}"))
 }
 
 fn locations(scene: &Scene) -> Vec<DVec3> {
@@ -209,7 +209,7 @@ fn forces_name_one_copy_or_many() {
     );
     let on = |force: usize| match &scene.forces[force].kind {
         ForceKind::Drag(drag) => {
-            drag.bodies.iter().map(|body| scene.bodies[body.index()].name.as_str()).collect::<Vec<_>>()
+            drag.bodies.iter().map(|body| &*scene.bodies[body.index()].name).collect::<Vec<_>>()
         }
         _ => panic!("not a drag"),
     };
