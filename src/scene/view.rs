@@ -8,7 +8,7 @@ use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::grammar::{Key, Kind, TableSpec};
-use crate::scene::source::{Node, Table, Value};
+use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
 /// A table as its description knows it, to read values from. A value that is absent, or wrong (which the
@@ -17,6 +17,30 @@ use crate::scene::timed::{Timed, TimedVector};
 pub(in crate::scene) struct View<'a> {
     spec: &'static TableSpec,
     table: Option<&'a Table>,
+}
+
+/// A table with a name, which may be the copy of another: it is made when it is looked at.
+#[derive(Clone, Copy)]
+pub(super) struct NamedTable<'a> {
+    spec: &'static TableSpec,
+    entry: &'a Entry,
+}
+
+impl<'a> NamedTable<'a> {
+    pub(super) fn name(self) -> &'a Arc<str> {
+        &self.entry.name.text
+    }
+
+    /// Where the name stands.
+    pub(super) fn span(self) -> Span {
+        self.entry.name.span
+    }
+
+    /// Does some work with the values of the table.
+    pub(super) fn look<T>(self, work: impl FnOnce(&View<'_>) -> T) -> T {
+        let table = self.entry.node.table();
+        work(&View { spec: self.spec, table: table.as_deref() })
+    }
 }
 
 impl<'a> View<'a> {
@@ -128,14 +152,14 @@ impl<'a> View<'a> {
         }
     }
 
-    /// What tells the table from all others of the scene.
-    pub(super) fn address(&self) -> Option<usize> {
-        self.table.map(|table| table.entries.as_ptr().addr())
+    /// The table itself, which shares its memory.
+    pub(super) fn to_table(&self) -> Option<Table> {
+        self.table.cloned()
     }
 
-    /// Whether two views are of one table, whose values so are the same.
-    pub(super) fn is_same(&self, other: &View<'_>) -> bool {
-        match (self.table, other.table) {
+    /// Whether it is a view of that table, so that the values are the same.
+    pub(super) fn is_same(&self, other: Option<&Table>) -> bool {
+        match (self.table, other) {
             (Some(one), Some(two)) => one.entries.is_same(&two.entries),
             (one, two) => one.is_none() && two.is_none(),
         }
@@ -202,7 +226,17 @@ impl<'a> View<'a> {
         entries.iter().filter_map(|entry| Some((&*entry.name.text, entry.node.as_number()?)))
     }
 
-    /// The tables with names under a key: name, where the name stands, table.
+    /// The bodies of a scene, copies included.
+    pub(super) fn bodies(&self) -> impl ExactSizeIterator<Item = NamedTable<'a>> + use<'a> {
+        let spec = match self.kind_of("body", |kind| matches!(kind, Kind::Named(_))) {
+            Some(Kind::Named(spec)) => *spec,
+            _ => self.spec,
+        };
+        let entries = self.node("body").and_then(Node::as_table).map_or(&[][..], |table| &table.entries);
+        entries.iter().map(move |entry| NamedTable { spec, entry })
+    }
+
+    /// The tables with names under a key, which is not that of bodies: name, where the name stands, table.
     pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
             return Vec::new();

@@ -68,7 +68,7 @@ impl End {
             Anchor::Body { id, at } => {
                 let (i, Moment { state, model, .. }) = (id.index(), moment);
                 // The state has the orientation of the principal axes.
-                let from_body = || state.orientation[i] * (model.principal_axes()[i].conjugate() * at);
+                let from_body = || state.orientation[i] * (model.principal_axes(i).conjugate() * at);
                 let arm = if at == DVec3::ZERO { at } else { from_body() };
                 End { location: state.location[i] + arm, arm }
             }
@@ -233,7 +233,7 @@ mod tests {
                 assert!((given - minus_gradient).abs() < 2e-8, "{i} {axis}: {given} {minus_gradient}");
             }
         }
-        let turn = state.orientation[0] * model.principal_axes()[0].conjugate();
+        let turn = state.orientation[0] * model.principal_axes(0).conjugate();
         let moment = Moment { time: 0.0, state: &state, model: &model };
         let [from, _] = spring.ends(&moment);
         assert!(from.location.abs_diff_eq(turn * DVec3::new(0.4, -0.2, 0.6), 1e-15), "{}", from.location);

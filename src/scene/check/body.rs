@@ -10,6 +10,7 @@ use super::{Context, look, mesh, motion, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
+use crate::scene::source::Table;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Simulation};
 
 /// The keys that say how a body moves.
@@ -18,9 +19,9 @@ const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
 /// What was made of the body before.
-struct Last<'a> {
+struct Last {
     /// The table of its shape.
-    table: View<'a>,
+    table: Option<Table>,
     shape: Shape,
     look: Arc<BodyLook>,
     showing: Arc<Showing>,
@@ -32,38 +33,46 @@ pub(super) fn read(
     materials: &mut Vec<Material>,
     context: &mut Context<'_>,
 ) -> Vec<Body> {
-    let tables = root.named("body");
     let mut palette = Palette::default();
-    let mut last: Option<Last<'_>> = None;
-    let mut bodies = Vec::with_capacity(tables.len());
-    for (name, span, view) in tables {
+    let mut last: Option<Last> = None;
+    let mut bodies = Vec::with_capacity(root.bodies().len());
+    for table in root.bodies() {
+        let (name, span) = (table.name(), table.span());
         if let Some(like) = bodies.last().filter(|_| context.is_hopeless(name)) {
-            bodies.push(Body { name: name.into(), ..Body::clone(like) });
+            bodies.push(Body { name: name.clone(), ..Body::clone(like) });
             continue;
         }
         let before = context.diagnostics.len();
-        let table = view.table("shape");
-        // Copies that share a table share what is made of it.
-        let same = last.as_ref().filter(|last| last.table.is_same(&table));
-        let shape = same.map(|last| last.shape.clone());
-        let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
-        let material = material(name, root, &view, &shape, materials, &mut palette, context);
-        let mut start = start(name, span, &view, &shape, context);
-        let motion = motion::read(name, &view, (start.location, start.orientation), simulation, context);
-        if let Some((location, orientation)) = motion.as_ref().map(|motion| motion.place(0.0)) {
-            // What follows from where bodies begin, rest lengths of springs say, follows from where they really are.
-            start = RigidBody { location, orientation, ..start };
-        }
-        let look = look::of_body(name, &view, &shape, context);
-        let showing = showing::of_body(name, &view, &shape, start.fixed, simulation, context);
-        let same = last.as_ref().filter(|last| *last.look == look);
-        let look = same.map_or_else(|| Arc::new(look), |last| last.look.clone());
-        let same = last.as_ref().filter(|last| *last.showing == showing);
-        let showing = same.map_or_else(|| Arc::new(showing), |last| last.showing.clone());
+        let body = table.look(|view| {
+            let table = view.table("shape");
+            // Copies that share a table share what is made of it.
+            let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
+            let shape = same.map(|last| last.shape.clone());
+            let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
+            let material = material(name, root, view, &shape, materials, &mut palette, context);
+            let mut start = start(name, span, view, &shape, context);
+            let motion = motion::read(name, view, (start.location, start.orientation), simulation, context);
+            if let Some((location, orientation)) = motion.as_ref().map(|motion| motion.place(0.0)) {
+                // What follows from where bodies begin, rest lengths of springs say, follows from where they really are.
+                start = RigidBody { location, orientation, ..start };
+            }
+            let look = look::of_body(name, view, &shape, context);
+            let same = last.as_ref().filter(|last| *last.look == look);
+            let look = same.map_or_else(|| Arc::new(look), |last| last.look.clone());
+            let showing = showing::of_body(name, view, &shape, start.fixed, simulation, context);
+            let same = last.as_ref().filter(|last| *last.showing == showing);
+            let showing = same.map_or_else(|| Arc::new(showing), |last| last.showing.clone());
+            last = Some(Last {
+                table: table.to_table(),
+                shape: shape.clone(),
+                look: look.clone(),
+                showing: showing.clone(),
+            });
+            let motion = motion.map(Arc::new);
+            Body { name: name.clone(), shape, start, motion, material, look, showing }
+        });
         context.once(before, name, span);
-        last = Some(Last { table, shape: shape.clone(), look: look.clone(), showing: showing.clone() });
-        let motion = motion.map(Arc::new);
-        bodies.push(Body { name: name.into(), shape, start, motion, material, look, showing });
+        bodies.push(body);
     }
     bodies
 }

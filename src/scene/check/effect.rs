@@ -23,11 +23,12 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             _ => {}
         }
     }
-    for (i, ((name, span, view), body)) in root.named("body").into_iter().zip(bodies).enumerate() {
-        let before = context.diagnostics.len();
+    for (i, (table, body)) in root.bodies().zip(bodies).enumerate() {
+        let (name, before) = (table.name(), context.diagnostics.len());
         let mut warn = |key: &str, why: &str| {
             let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
-            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+            let span = table.look(|view| view.key_span(key));
+            context.diagnostics.extend(span.map(|span| warning.at(span, why)));
         };
         if body.start.fixed && !attracts[i] {
             let why = if body.shape.is_unbounded() { "a plane is always fixed" } else { "it is fixed" };
@@ -36,6 +37,6 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
         if body.start.charge != 0.0 && !electric[i] {
             warn("charge", "no force acts on this charge");
         }
-        context.once(before, name, span);
+        context.once(before, name, table.span());
     }
 }

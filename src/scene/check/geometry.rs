@@ -11,8 +11,8 @@ use crate::scene::source::Table;
 /// What reads the geometry of bodies before they are checked; a mesh that several have is read once.
 pub(super) struct BodyReader<'a> {
     context: Context<'a>,
-    /// The body before, and its radius.
-    last: Option<(Table, Option<f64>)>,
+    /// The table of the shape of the body before, and its radius.
+    last: Option<(Option<Table>, Option<f64>)>,
 }
 
 impl<'a> BodyReader<'a> {
@@ -27,10 +27,10 @@ impl Geometer for BodyReader<'_> {
         let view = View::new(spec, Some(table));
         let shape = view.table("shape");
         let radius = match &self.last {
-            Some((last, radius)) if View::new(spec, Some(last)).table("shape").is_same(&shape) => *radius,
+            Some((last, radius)) if shape.is_same(last.as_ref()) => *radius,
             _ => shape::read("", &shape, &mut self.context).bounding_radius(),
         };
-        self.last = Some((table.clone(), radius));
+        self.last = Some((shape.to_table(), radius));
         let orientation = body::orientation("", &view, &mut self.context);
         self.context.diagnostics.clear();
         Geometry { radius, orientation }

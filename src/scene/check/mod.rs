@@ -36,7 +36,7 @@ use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
 use super::sdl::FileKind;
 use super::source::{self, Table};
-use super::view::View;
+use super::view::{NamedTable, View};
 use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::dynamics::Track;
@@ -82,8 +82,8 @@ struct Context<'a> {
     recordings: trajectory::Recordings,
     /// The tracks of files, which bodies share.
     tracks: HashMap<motion::Rows, Arc<Track>>,
-    /// The address of the table that the last file with motions was named in, and what was read.
-    last_recording: Option<(Option<usize>, Option<Arc<trajectory::Recording>>)>,
+    /// The table that the last file with motions was named in, and what was read.
+    last_recording: Option<(Option<Table>, Option<Arc<trajectory::Recording>>)>,
     /// The addresses of the rows of files that bodies have taken.
     rows: HashSet<usize>,
     /// How many places the tracks of bodies have together.
@@ -284,7 +284,7 @@ fn build(
         materials,
         povray,
         places: Places {
-            bodies: root.named("body").into_iter().map(|(_, span, _)| span).collect(),
+            bodies: root.bodies().map(NamedTable::span).collect(),
             camera: root.key_span("camera"),
             unit: root.table("povray").span("unit"),
         },
@@ -295,11 +295,12 @@ fn build(
 
 /// Whether a body is moved by forces, so that the world has to be advanced step by step.
 fn needs_steps(root: &View<'_>) -> bool {
-    root.named("body").iter().any(|(_, _, body)| {
+    let is_free = |body: &View<'_>| {
         let shape = body.table("shape");
         let is_scenery = shape.has("plane") || shape.has("heightfield");
         !is_scenery && !body.has("motion") && body.boolean("fixed") != Some(true)
-    })
+    };
+    root.bodies().any(|body| body.look(is_free))
 }
 
 /// A digest of all texts and other files that the scene was read from.

@@ -232,12 +232,11 @@ fn by_trajectory(
     context: &mut Context<'_>,
 ) -> Option<BodyMotion> {
     let span = view.span("file")?;
-    let address = view.address();
     let recording = match &context.last_recording {
-        Some((last, recording)) if *last == address => recording.clone(),
+        Some((last, recording)) if view.is_same(last.as_ref()) => recording.clone(),
         _ => recording(view, span, context),
     };
-    context.last_recording = Some((address, recording.clone()));
+    context.last_recording = Some((view.to_table(), recording.clone()));
     let recording = recording?;
     let wanted = view.text("body").unwrap_or(name);
     let Some(keys) = recording.rows.get(&Some(wanted.to_owned())).or_else(|| recording.rows.get(&None))

@@ -261,7 +261,7 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
         let shown = context.groups.original(&entry.name.text).unwrap_or(&entry.name.text);
         let path = format!("[{word}.{}]", as_key(shown));
         let before = context.diagnostics.len();
-        match entry.node.as_table() {
+        match entry.node.table().as_deref() {
             Some(inner) if context.is_hopeless(&entry.name.text) || is_known(inner, context) => {}
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);

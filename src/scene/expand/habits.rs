@@ -83,8 +83,8 @@ impl Expander<'_> {
             let mut mended = text.clone();
             let (mut all_known, mut moves) = (true, false);
             for (range, name, member) in members(&text).collect::<Vec<_>>().into_iter().rev() {
-                let body = bodies.and_then(|bodies| bodies.get(name)).and_then(|entry| entry.node.as_table());
-                let place = body.and_then(|body| coordinate(body, member));
+                let body = bodies.and_then(|bodies| bodies.get(name)).and_then(|entry| entry.node.table());
+                let place = body.and_then(|body| coordinate(&body, member));
                 match place.filter(|(_, is_formula)| is_timed || !is_formula) {
                     Some((place, is_formula)) => {
                         moves |= !is_formula;

@@ -1,6 +1,7 @@
 //! The scene as written: texts become a tree of values that know where they stand.
 
 mod brackets;
+mod copied;
 pub(super) mod file;
 pub(in crate::scene) mod habits;
 mod load;
@@ -11,6 +12,7 @@ mod toml;
 mod tree;
 mod yaml;
 
+pub use copied::CopiedTable;
 pub use load::{MAX_BYTES, load};
 pub use overrides::Override;
 pub use shared::Shared;

@@ -1,8 +1,9 @@
 //! The tree of a scene as written.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::Shared;
+use super::{CopiedTable, Shared};
 use crate::diagnostic::Span;
 use crate::scene::timed::TimeFormula;
 
@@ -34,6 +35,8 @@ pub enum Value {
     Array(Shared<Node>),
     /// A table.
     Table(Table),
+    /// A table that is the copy of another: see [`Node::table`].
+    Copied(CopiedTable),
     /// What could not be read; that has been said already.
     Invalid,
 }
@@ -77,10 +80,19 @@ impl Table {
 }
 
 impl Node {
-    /// The table that the value is, if it is one.
+    /// The table that the value is, if it is one, and not the copy of another.
     pub fn as_table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The table that the value is, also where it is the copy of another, if it is one.
+    pub fn table(&self) -> Option<Cow<'_, Table>> {
+        match &self.value {
+            Value::Table(table) => Some(Cow::Borrowed(table)),
+            Value::Copied(copied) => Some(Cow::Owned(copied.table())),
             _ => None,
         }
     }
@@ -115,7 +127,7 @@ impl Node {
             Value::Boolean(_) => "a boolean",
             Value::Datetime => "a date or time",
             Value::Array(_) => "a list",
-            Value::Table(_) => "a table",
+            Value::Table(_) | Value::Copied(_) => "a table",
             Value::Invalid => "something unreadable",
         }
     }

@@ -13,11 +13,12 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use self::pattern::Pattern;
+use self::scatter::Scatter;
 use super::Expander;
 use super::groups::Group;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{MAX_COPIES, TableSpec};
-use crate::scene::source::{Entry, Name, Node, Table, Value};
+use crate::scene::source::{CopiedTable, Entry, Name, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 use crate::scene::view::View;
 
@@ -39,13 +40,6 @@ pub(super) fn work_of_value(text: &str) -> u64 {
 /// What a formula of the time costs: it and its derivatives are kept as programs.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
     100 + 10 * formula.operations()
-}
-
-/// A copy of a body, before it stands where it belongs.
-struct Copy {
-    name: Arc<str>,
-    index: [usize; 3],
-    table: Table,
 }
 
 /// Where a pattern puts a copy, from the location of its body.
@@ -93,11 +87,15 @@ impl Expander<'_> {
         self.collisions(&counts, name, &repeat);
 
         let number = counts.iter().product();
-        let mut copies: Vec<Copy> = Vec::with_capacity(number);
+        let first = all.len();
+        all.reserve(number);
+        let node = |value| Node { span, value };
+        let mut sizes = Vec::new();
+        let mut keeper = Keeper::default();
         let scope = self.scope.clone();
         let before = self.work;
         for index in indices(&counts) {
-            if copies.len() == 1 && !self.is_workable(number, before, name, &repeat) {
+            if all.len() == first + 1 && !self.is_workable(number, before, name, &repeat) {
                 (counts, is_known) = (vec![1], false);
                 break;
             }
@@ -110,21 +108,22 @@ impl Expander<'_> {
             self.copy = Some(name.clone());
             self.below(&name, |this| this.table(&mut table, spec));
             self.copy = None;
-            copies.push(Copy { name, index, table });
+            match &pattern {
+                Some(Pattern::Count(_)) | None => {}
+                Some(Pattern::Scatter(_)) => sizes.push(self.geometer.of(&table, spec).radius),
+                Some(pattern) if is_known => self.place(&mut table, &pattern.place(index), &repeat, spec),
+                Some(_) => {}
+            }
+            all.push(Entry { name: Name { span: named, text: name }, node: node(keeper.keep(table)) });
         }
         self.scope = scope;
         self.formulas.clear();
-        let names = copies.iter().map(|copy| copy.name.clone()).collect();
+        let copies = &mut all[first..];
+        let names = copies.iter().map(|copy| copy.name.text.clone()).collect();
         self.groups.add(name, Group { counts, is_known, names });
-        if let (Some(pattern), true) = (pattern, is_known) {
-            self.place(&pattern, &mut copies, name, &repeat, spec);
+        if let (Some(Pattern::Scatter(scatter)), true) = (&pattern, is_known) {
+            self.scatter(scatter, &sizes, copies, name, &repeat, spec);
         }
-        let node = |value| Node { span, value };
-        let first = all.len();
-        all.extend(copies.into_iter().map(|copy| Entry {
-            name: Name { span: named, text: copy.name },
-            node: node(Value::Table(copy.table)),
-        }));
         // The validation still has to see it, once.
         if let Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) = all.get_mut(first) {
             table.entries.push(repeat);
@@ -190,48 +189,76 @@ impl Expander<'_> {
         }
     }
 
-    /// Moves and turns the copies to where the pattern has them.
-    fn place(
+    /// Scatters copies of these sizes.
+    fn scatter(
         &mut self,
-        pattern: &Pattern,
-        copies: &mut [Copy],
+        scatter: &Scatter,
+        sizes: &[Option<f64>],
+        copies: &mut [Entry],
         name: &str,
         repeat: &Entry,
         spec: &'static TableSpec,
     ) {
-        let places = match pattern {
-            Pattern::Count(_) => return,
-            Pattern::Scatter(scatter) => {
-                let sizes: Vec<_> =
-                    copies.iter().map(|copy| self.geometer.of(&copy.table, spec).radius).collect();
-                let stream = |n: usize| self.stream(&format!(".{:?}.repeat", copies[n].name));
-                match scatter.places(&sizes, stream) {
-                    Ok(places) => places,
-                    Err(full) => {
-                        self.diagnostics.push(full.diagnostic(name, copies.len(), repeat.node.span));
-                        return;
-                    }
-                }
+        let stream = |n: usize| self.stream(&format!(".{:?}.repeat", copies[n].name.text));
+        let places = match scatter.places(sizes, stream) {
+            Ok(places) => places,
+            Err(full) => {
+                self.diagnostics.push(full.diagnostic(name, copies.len(), repeat.node.span));
+                return;
             }
-            pattern => copies.iter().map(|copy| pattern.place(copy.index)).collect(),
         };
-        for (copy, Place { offset, turn }) in copies.iter_mut().zip(places) {
-            let has_turned = turn != DQuat::IDENTITY;
-            if has_turned && is_whole(&copy.table, "orientation") {
-                let turn = turn * self.geometer.of(&copy.table, spec).orientation;
-                let quaternion = numbers(&turn.normalize().to_array(), repeat.node.span);
-                let name = Name { span: repeat.name.span, text: "quaternion".into() };
-                let table = Table { entries: vec![Entry { name, node: quaternion }].into() };
-                put(&mut copy.table, "orientation", Value::Table(table), repeat);
-            }
-            if is_whole(&copy.table, "location") {
-                let own = View::new(spec, Some(&copy.table)).vector("location");
-                let location = numbers(&(own.unwrap_or(DVec3::ZERO) + offset).to_array(), repeat.node.span);
-                if own.is_some() || copy.table.get("location").is_none() {
-                    put(&mut copy.table, "location", location.value, repeat);
-                }
+        let mut keeper = Keeper::default();
+        for (copy, place) in copies.iter_mut().zip(places) {
+            if let Some(table) = copy.node.table() {
+                let mut table = table.into_owned();
+                self.place(&mut table, &place, repeat, spec);
+                copy.node.value = keeper.keep(table);
             }
         }
+    }
+
+    /// Moves and turns a copy to where the pattern has it.
+    fn place(&mut self, copy: &mut Table, place: &Place, repeat: &Entry, spec: &'static TableSpec) {
+        let Place { offset, turn } = *place;
+        let has_turned = turn != DQuat::IDENTITY;
+        if has_turned && is_whole(copy, "orientation") {
+            let turn = turn * self.geometer.of(copy, spec).orientation;
+            let quaternion = numbers(&turn.normalize().to_array(), repeat.node.span);
+            let name = Name { span: repeat.name.span, text: "quaternion".into() };
+            let table = Table { entries: vec![Entry { name, node: quaternion }].into() };
+            put(copy, "orientation", Value::Table(table), repeat);
+        }
+        if is_whole(copy, "location") {
+            let own = View::new(spec, Some(copy)).vector("location");
+            let location = numbers(&(own.unwrap_or(DVec3::ZERO) + offset).to_array(), repeat.node.span);
+            if own.is_some() || copy.get("location").is_none() {
+                put(copy, "location", location.value, repeat);
+            }
+        }
+    }
+}
+
+/// Keeps the tables of copies in little memory.
+#[derive(Default)]
+struct Keeper {
+    templates: Vec<Arc<Table>>,
+}
+
+impl Keeper {
+    /// The value for the table of a copy. That of the first is the table itself.
+    fn keep(&mut self, table: Table) -> Value {
+        /// Copies may take turns with so many sets of keys.
+        const MOST: usize = 4;
+        if self.templates.iter().any(|template| template.entries.is_same(&table.entries)) {
+            return Value::Table(table);
+        }
+        if let Some(copied) = self.templates.iter().find_map(|template| CopiedTable::new(&table, template)) {
+            return Value::Copied(copied);
+        }
+        if self.templates.len() < MOST {
+            self.templates.push(Arc::new(table.clone()));
+        }
+        Value::Table(table)
     }
 }
 
