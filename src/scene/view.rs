@@ -153,7 +153,7 @@ impl<'a> View<'a> {
     }
 
     /// The table itself, which shares its memory.
-    pub(super) fn to_table(&self) -> Option<Table> {
+    pub(super) fn to_table(self) -> Option<Table> {
         self.table.cloned()
     }
 
