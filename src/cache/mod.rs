@@ -73,7 +73,7 @@ impl Cache {
     }
 
     /// The user's: in `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`; at most `JABUKA_CACHE_SIZE` MB,
-    /// or 2 GB.
+    /// or 2 GB. With `JABUKA_CACHE_ALL=1`, runs are kept however fast they were simulated.
     ///
     /// # Errors
     /// Where `JABUKA_CACHE_SIZE` is not a number; the message says so.
@@ -90,6 +90,9 @@ impl Cache {
         let caches = of_xdg.or_else(|| variable("HOME").map(|home| home.join(".cache")));
         let folder = variable("JABUKA_CACHE_DIR").or_else(|| caches.map(|caches| caches.join("jabuka")));
         Ok(match folder {
+            Some(folder) if limit > 0 && variable("JABUKA_CACHE_ALL").is_some() => {
+                Cache::new(folder, limit).keeping_all()
+            }
             Some(folder) if limit > 0 => Cache::new(folder, limit),
             _ => Cache::none(),
         })

@@ -9,7 +9,7 @@ use super::{Failure, say};
 /// Say which runs are kept between commands, or remove them
 ///
 /// A scene whose bodies move as in an earlier command is not simulated again: its run is kept in JABUKA_CACHE_DIR, or else in
-/// the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept. Beyond JABUKA_CACHE_SIZE
+/// the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept, unless JABUKA_CACHE_ALL is 1. Beyond JABUKA_CACHE_SIZE
 /// megabytes (2000 unless it says otherwise; 0 keeps nothing), the runs that were not used for longest go first.
 #[derive(clap::Args)]
 pub(super) struct Arguments {

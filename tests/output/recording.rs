@@ -105,7 +105,7 @@ struct Kept {
 }
 
 const CLOUD: &str = "
-    simulation = { duration = 0.4, step = 0.0001 }
+    simulation = { duration = 0.4, step = 0.0005 }
     [body.star]
     repeat = 150
     shape.sphere.radius = 0.01
@@ -128,7 +128,12 @@ impl Kept {
     fn command(&self, out: &str) -> Command {
         let mut command = support::jabuka();
         command.current_dir(self.folder.path()).env("JABUKA_CACHE_DIR", self.cache());
-        command.env_remove("JABUKA_CACHE_SIZE").args(["compile", "scene.toml", "-o", out]);
+        command.env("JABUKA_CACHE_ALL", "1").env_remove("JABUKA_CACHE_SIZE").args([
+            "compile",
+            "scene.toml",
+            "-o",
+            out,
+        ]);
         command
     }
 
@@ -161,7 +166,7 @@ fn a_change_of_the_camera_takes_the_run_that_is_kept_and_gives_the_bytes_of_a_ne
     assert_eq!(kept.files("run").len(), 1, "the run is the same");
     let anew = kept.compile("third", &[&camera[..], &["--no-cache"]].concat());
     assert!(by_cache == anew);
-    kept.compile("fourth", &["--set", "simulation.step=0.00012"]);
+    kept.compile("fourth", &["--set", "simulation.step=0.0006"]);
     assert_eq!(kept.files("run").len(), 2, "another step is another run");
 }
 
@@ -225,8 +230,8 @@ fn a_killed_run_leaves_nothing_that_matters_and_two_at_once_do_not_disturb_each_
 #[test]
 fn those_that_were_not_used_for_longest_go_first_and_all_can_be_cleared() {
     let kept = Kept::new();
-    let scenes: Vec<Scene> = [0.0001, 0.00012, 0.00014]
-        .map(|step| Scene::parse(&CLOUD.replace("step = 0.0001", &format!("step = {step}"))).unwrap())
+    let scenes: Vec<Scene> = [0.0005, 0.0006, 0.0007]
+        .map(|step| Scene::parse(&CLOUD.replace("step = 0.0005", &format!("step = {step}"))).unwrap())
         .into();
     let run = |cache: &Cache, scene: &Scene| {
         cache.run(scene, Moments::of(scene), &Effort::default(), |_| {}).unwrap();
