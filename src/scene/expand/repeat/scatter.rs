@@ -173,9 +173,9 @@ fn any_turn(stream: &mut Stream) -> DQuat {
 }
 
 /// So many comparisons are made for a number of copies. Where balls fill a third of the volume, one copy takes some
-/// hundred.
+/// hundred; forty million take some seconds.
 fn most_looks(copies: usize) -> u64 {
-    5_000_000 + 1_000 * copies as u64
+    5_000_000 + (1_000 * copies as u64).min(40_000_000)
 }
 
 /// The balls that have their place, those of a size together: one large ball must not make many small ones be compared
