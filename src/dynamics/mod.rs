@@ -10,6 +10,7 @@
 //! | all that does not: masses, inertia, forces | [`Model`] |
 //! | what acts at one moment | [`Force`], [`Loads`] |
 //! | motion that is given | [`Motion`], its [`Pose`] |
+//! | when a body is there | [`Presence`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
 //! | what happens within a step | [`DenseOutput`] |
 //! | energy, momentum, drift | [`Balance`] |
@@ -73,6 +74,7 @@ mod integrator;
 mod loads;
 mod model;
 mod motion;
+mod presence;
 mod shape;
 mod snapshot;
 mod state;
@@ -87,6 +89,7 @@ pub use integrator::{DenseOutput, Integrator, METHODS, Method, Step};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Motion, Pose};
+pub use presence::Presence;
 pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};

@@ -1,9 +1,12 @@
 //! All that stays as it is while time goes on: what the bodies weigh, and which forces act on them.
 
+mod away;
+
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use self::away::Away;
 use super::{Effort, Force, Loads, Moment, Motion, Pose, RigidBody, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
@@ -19,6 +22,8 @@ pub struct Model {
     movable: Vec<bool>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
+    /// What the bodies are that are not there. Those behind the last of them take no memory.
+    away: Vec<Option<Box<Away>>>,
     /// The motions that are given, and the bodies that follow them.
     motions: Vec<(usize, Arc<dyn Motion>)>,
     force: Sparse<DVec3>,
@@ -82,6 +87,12 @@ impl Model {
     #[must_use]
     pub fn movable(&self) -> &[bool] {
         &self.movable
+    }
+
+    /// Whether no body is moved by forces, be it there or not.
+    pub(super) fn is_given(&self) -> bool {
+        self.inverse_mass.iter().all(|&inverse| inverse == 0.0)
+            && self.away.iter().flatten().all(|away| away.is_given())
     }
 
     /// A body's own constant force, N.
@@ -176,16 +187,22 @@ impl Model {
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }
 
+    /// The bodies that are there and whose motion is given, each with that.
+    fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
+        let present = self.motions.iter().filter(|(i, _)| self.is_present(*i));
+        present.map(|(i, motion)| (*i, &**motion))
+    }
+
     /// Sets the forces on the bodies whose motion is given to what that takes, m a.
     pub(super) fn guide(&self, t: f64, loads: &mut Loads) {
-        for (i, motion) in &self.motions {
-            loads.force[*i] = self.mass[*i] * motion.at(t).acceleration;
+        for (i, motion) in self.guided() {
+            loads.force[i] = self.mass[i] * motion.at(t).acceleration;
         }
     }
 
-    /// Puts the bodies whose motion is given where they are at time `t`.
+    /// Puts the bodies whose motion is given where they are at time `t`, as far as they are there.
     pub fn place(&self, t: f64, state: &mut State) {
-        self.motions.iter().for_each(|(i, motion)| self.place_body(*i, &motion.at(t), state));
+        self.guided().for_each(|(i, motion)| self.place_body(i, &motion.at(t), state));
     }
 
     /// Puts one body where a pose says.
@@ -230,10 +247,10 @@ impl Model {
         for force in &self.forces {
             force.apply(&moment, loads);
         }
-        for (i, _) in &self.motions {
+        for (i, _) in self.guided() {
             // What guides the body bears the loads on it, and so does their work, with the opposite sign.
-            let turning = loads.torque[*i].dot(self.angular_velocity(*i, state));
-            loads.power -= loads.force[*i].dot(state.velocity[*i]) + turning;
+            let turning = loads.torque[i].dot(self.angular_velocity(i, state));
+            loads.power -= loads.force[i].dot(state.velocity[i]) + turning;
         }
         for &i in &self.unmoved {
             loads.force[i] = DVec3::ZERO;

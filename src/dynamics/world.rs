@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use super::presence::Calendar;
 use super::{
     Balance, BodyId, BodySnapshot, Breakdown, Dynamics, Effort, EnergyLedger, Force, Integrator, Loads,
-    METHODS, Method, Model, Motion, RigidBody, Snapshot, State, Step,
+    METHODS, Method, Model, Motion, Presence, RigidBody, Snapshot, State, Step,
 };
 
 /// The longest timestep where none is set, s.
@@ -29,6 +30,7 @@ pub struct World {
     method: &'static Method,
     integrator: Box<dyn Integrator>,
     ledger: EnergyLedger,
+    calendar: Calendar,
     steps: u64,
     /// Room for the loads at one moment.
     loads: Loads,
@@ -49,6 +51,7 @@ impl World {
             method,
             integrator: (method.create)(),
             ledger: EnergyLedger::new(),
+            calendar: Calendar::default(),
             steps: 0,
             loads: Loads::default(),
             before: State::default(),
@@ -77,9 +80,29 @@ impl World {
     /// Like [`World::drive`], by a motion that others may share.
     pub fn follow(&mut self, body: BodyId, motion: Arc<dyn Motion>) {
         self.about_to_change();
+        let (i, is_present) = (body.index(), self.model.is_present(body.index()));
+        self.model.bring(i, &mut self.state);
         // This body alone: placing all guided bodies here would make adding n of them take n² placements.
-        self.model.place_body(body.index(), &motion.at(self.time), &mut self.state);
-        self.model.drive(body.index(), motion);
+        self.model.place_body(i, &motion.at(self.time), &mut self.state);
+        self.model.drive(i, motion);
+        if !is_present {
+            self.model.take_away(i, &mut self.state);
+        }
+    }
+
+    /// From now on, a body is there only when `presence` says so. One that comes is as it was when it went: one that has not
+    /// been there yet is as it was [added](World::add). Its energy comes and goes with it, and is no drift.
+    ///
+    /// A step ends at each birth and death, but where the motion of all bodies is given: there the bodies change at the end
+    /// of the step.
+    pub fn limit(&mut self, body: BodyId, presence: &Presence) {
+        self.about_to_change();
+        let i = body.index();
+        if !self.calendar.note(i, presence, self.time) {
+            self.model.take_away(i, &mut self.state);
+        } else if !self.model.is_present(i) {
+            self.model.let_come_and_go(&[(i, true)], self.time, &mut self.state);
+        }
     }
 
     /// Adds a force, at any time.
@@ -138,10 +161,12 @@ impl World {
         (steps as u32).max(1)
     }
 
-    /// Makes one step of `dt` seconds, however long.
+    /// Makes one step of `dt` seconds, however long. Bodies that come or go meanwhile do so at its end.
     pub fn step(&mut self, dt: f64) {
+        self.depart();
         self.step_from(self.time, dt);
         self.time += dt;
+        self.arrive();
     }
 
     fn step_from(&mut self, t: f64, dt: f64) {
@@ -158,10 +183,76 @@ impl World {
     }
 
     fn advance_seeing(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
-        let interval = t - self.time;
-        if !(interval > 0.0 && interval.is_finite()) {
+        if !(t > self.time && t.is_finite()) {
             return;
         }
+        if self.calendar.next().is_none_or(|next| next > t) {
+            self.advance_evenly(t, moments, see);
+        } else if self.model.is_given() {
+            // Steps mean nothing here, and one for each birth would make n bodies cost n². A copy goes ahead to the moments.
+            let mut copy = None;
+            for &moment in moments {
+                let ahead = copy.get_or_insert_with(|| self.clone());
+                ahead.advance_through(moment);
+                see(ahead.peek());
+            }
+            self.advance_through(t);
+        } else {
+            self.advance_by_events(t, moments, see);
+        }
+    }
+
+    /// Advances in steps that end at each birth and death.
+    fn advance_by_events(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let mut left = moments;
+        while self.time < t {
+            self.depart();
+            let stop = self.calendar.next().map_or(t, |next| next.min(t));
+            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
+            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
+            left = later;
+            self.advance_evenly(stop, before, see);
+            self.arrive();
+            here.iter().for_each(|_| see(self.peek()));
+        }
+    }
+
+    /// Advances to time `t`, and lets come and go at its end who does meanwhile.
+    fn advance_through(&mut self, t: f64) {
+        self.depart();
+        self.advance_evenly(t, &[], &mut |_| {});
+        self.arrive();
+    }
+
+    /// Time goes on: lets go who was there until now.
+    fn depart(&mut self) {
+        let due = self.calendar.depart(self.time);
+        self.change(&due);
+    }
+
+    /// A time is reached: lets come who is born now.
+    fn arrive(&mut self) {
+        let due = self.calendar.arrive(self.time);
+        self.change(&due);
+        // At once, so that the books do not depend on who looks at this moment.
+        self.ledger.close(&self.model, self.time, &self.state);
+    }
+
+    fn change(&mut self, due: &[(usize, bool)]) {
+        if !due.is_empty() {
+            self.about_to_change();
+            self.model.let_come_and_go(due, self.time, &mut self.state);
+        }
+    }
+
+    /// The present moment, which leaves no trace in the books.
+    fn peek(&mut self) -> Snapshot {
+        let balance = self.ledger.peek(&self.model, self.time, &self.state);
+        picture(&self.model, self.time, &self.state, balance, &mut self.loads)
+    }
+
+    fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let interval = t - self.time;
         let start = self.time;
         let steps = self.steps_within(interval);
         let dt = interval / f64::from(steps);
@@ -334,7 +425,8 @@ fn picture(model: &Model, time: f64, state: &State, balance: Balance, loads: &mu
         angular_velocity: model.angular_velocity(id, state),
         force: loads.force[id],
     };
-    Snapshot { time, bodies: (0..state.len()).map(body).collect(), balance }
+    let present = (0..state.len()).filter(|&id| model.is_present(id));
+    Snapshot { time, bodies: present.map(body).collect(), balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

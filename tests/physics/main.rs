@@ -5,6 +5,7 @@
 
 mod charges;
 mod closed_forms;
+mod coming_and_going;
 mod common;
 mod conservation;
 mod dense;

@@ -17,8 +17,9 @@ const LANES: usize = 4;
 /// c > 0 repels what has equal signs, c < 0 attracts it. The softening ε (Plummer's) makes of a point a small cloud, so
 /// that close encounters stay harmless. Source: S. J. Aarseth, *Gravitational N-Body Simulations* (2003), 1.2.
 ///
-/// Every pair is looked at once, and what one body gets the other loses. The sums run over tiles of bodies that are
-/// copied coordinate by coordinate; their order depends on nothing but the number of bodies.
+/// Every pair is looked at once, and what one body gets the other loses. Bodies that are not there are
+/// left out: two of them may be at one place. The sums run over tiles of bodies that are copied coordinate by coordinate;
+/// their order depends on nothing but the number of bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Pairs<'a> {
     /// The bodies that act on each other.
@@ -77,8 +78,10 @@ impl Pairs<'_> {
     /// The flag says that it is shown for the last time.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
         let effort = moment.model.effort();
+        let bodies = moment.model.present(self.bodies);
         if let Some(against) = self.against {
-            for head in self.bodies.chunks(TILE) {
+            let against = moment.model.present(against);
+            for head in bodies.chunks(TILE) {
                 let mut first = self.tile(head, moment);
                 let mut others = against.chunks(TILE).peekable();
                 while let Some(other) = others.next() {
@@ -89,7 +92,7 @@ impl Pairs<'_> {
             }
             return;
         }
-        let mut rest = self.bodies;
+        let mut rest = &*bodies;
         while !rest.is_empty() {
             let (head, behind) = rest.split_at(TILE.min(rest.len()));
             let mut first = self.tile(head, moment);

@@ -110,6 +110,11 @@ pub struct Spring {
 }
 
 impl Spring {
+    /// Whether both ends are there. A spring whose end is not pulls at nothing, and holds no energy.
+    fn is_whole(&self, moment: &Moment) -> bool {
+        self.between.iter().filter_map(|end| end.body()).all(|id| moment.model.is_present(id.index()))
+    }
+
     fn ends(&self, moment: &Moment) -> [End; 2] {
         self.between.map(|anchor| End::of(anchor, moment))
     }
@@ -132,6 +137,9 @@ impl Spring {
 
 impl Force for Spring {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        if !self.is_whole(moment) {
+            return;
+        }
         let ends = self.ends(moment);
         let span = ends[1].location - ends[0].location;
         let mut pull = self.elastic(span);
@@ -153,6 +161,9 @@ impl Force for Spring {
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
+        if !self.is_whole(moment) {
+            return 0.0;
+        }
         let [from, to] = self.ends(moment);
         let stretch = (to.location - from.location).length() - self.rest_length;
         0.5 * self.stiffness * stretch * stretch

@@ -1,0 +1,105 @@
+//! Bodies that are not there: they have been, or will be.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::super::{BodyId, State};
+use super::Model;
+
+/// What a body is that is not there. Meanwhile it has no mass, no charge and no inertia, and rests: so
+/// most forces pass it by and need not know.
+#[derive(Clone, Copy)]
+pub(super) struct Away {
+    mass: f64,
+    charge: f64,
+    inverse_mass: f64,
+    inertia: DVec3,
+    inverse_inertia: DVec3,
+    movable: bool,
+    velocity: DVec3,
+    angular_momentum: DVec3,
+}
+
+impl Away {
+    /// Whether forces do not move it when it is there.
+    pub(super) fn is_given(&self) -> bool {
+        self.inverse_mass == 0.0
+    }
+}
+
+impl Model {
+    /// Whether a body is there.
+    #[must_use]
+    pub fn is_present(&self, body: usize) -> bool {
+        self.away.get(body).is_none_or(Option::is_none)
+    }
+
+    /// Those of some bodies that are there.
+    #[must_use]
+    pub fn present<'a>(&self, bodies: &'a [BodyId]) -> Cow<'a, [BodyId]> {
+        if self.away.is_empty() {
+            return Cow::Borrowed(bodies);
+        }
+        bodies.iter().copied().filter(|body| self.is_present(body.index())).collect()
+    }
+
+    /// Lets bodies come (true) or go (false) at time `t`, s; one that comes is as it was when it went, but where its motion is
+    /// given.
+    pub(in super::super) fn let_come_and_go(&mut self, changes: &[(usize, bool)], t: f64, state: &mut State) {
+        for &(body, comes) in changes {
+            if comes { self.bring(body, state) } else { self.take_away(body, state) }
+        }
+        let inverse = &self.inverse_mass;
+        self.unmoved.clear();
+        self.unmoved.extend((0..inverse.len()).filter(|&i| inverse[i] == 0.0));
+        self.place(t, state);
+    }
+
+    /// A body goes, if it is there.
+    pub(in super::super) fn take_away(&mut self, i: usize, state: &mut State) {
+        if !self.is_present(i) {
+            return;
+        }
+        if self.away.len() <= i {
+            self.away.resize(i + 1, None);
+        }
+        if self.inverse_mass[i] != 0.0 {
+            self.unmoved.push(i);
+        }
+        // Written so that no field of what it is can be forgotten.
+        self.away[i] = Some(Box::new(Away {
+            mass: std::mem::take(&mut self.mass[i]),
+            charge: std::mem::take(&mut self.charge[i]),
+            inverse_mass: std::mem::take(&mut self.inverse_mass[i]),
+            inertia: std::mem::take(&mut self.inertia[i]),
+            inverse_inertia: std::mem::take(&mut self.inverse_inertia[i]),
+            movable: std::mem::take(&mut self.movable[i]),
+            velocity: std::mem::take(&mut state.velocity[i]),
+            angular_momentum: std::mem::take(&mut state.angular_momentum[i]),
+        }));
+    }
+
+    /// A body comes, if it is not there. Whoever calls this must see to it that forces move it from now on.
+    pub(in super::super) fn bring(&mut self, i: usize, state: &mut State) {
+        let Some(away) = self.away.get_mut(i).and_then(Option::take) else { return };
+        let Away {
+            mass,
+            charge,
+            inverse_mass,
+            inertia,
+            inverse_inertia,
+            movable,
+            velocity,
+            angular_momentum,
+        } = *away;
+        self.mass[i] = mass;
+        self.charge[i] = charge;
+        self.inverse_mass[i] = inverse_mass;
+        self.inertia[i] = inertia;
+        self.inverse_inertia[i] = inverse_inertia;
+        self.movable[i] = movable;
+        state.velocity[i] = velocity;
+        state.angular_momentum[i] = angular_momentum;
+    }
+}

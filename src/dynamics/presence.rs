@@ -1,0 +1,197 @@
+//! When bodies are there: their births and deaths.
+
+use std::sync::Arc;
+
+/// The times at which a body is there: always, or during some intervals. Both ends belong to an interval.
+///
+/// A body that is not there does not move, has no energy and no momentum, and no force acts on it or comes from it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Presence(Option<Arc<[[f64; 2]]>>);
+
+impl Presence {
+    /// A body that is always there.
+    pub const ALWAYS: Presence = Presence(None);
+
+    /// A body that is there during these intervals (s), which follow each other and do not touch.
+    #[must_use]
+    pub fn during(intervals: &[[f64; 2]]) -> Presence {
+        if let [[start, end]] = *intervals
+            && start == f64::NEG_INFINITY
+            && end == f64::INFINITY
+        {
+            return Presence::ALWAYS;
+        }
+        Presence(Some(intervals.into()))
+    }
+
+    /// Whether the body is always there.
+    #[must_use]
+    pub fn is_always(&self) -> bool {
+        self.0.is_none()
+    }
+
+    /// The intervals in which the body is there, s.
+    #[must_use]
+    pub fn intervals(&self) -> &[[f64; 2]] {
+        self.0.as_deref().unwrap_or(&[[f64::NEG_INFINITY, f64::INFINITY]])
+    }
+
+    /// Whether the body is there at time `t`, s.
+    #[must_use]
+    pub fn at(&self, t: f64) -> bool {
+        let Some(intervals) = &self.0 else { return true };
+        let begun = intervals.partition_point(|[start, _]| *start <= t);
+        begun > 0 && t <= intervals[begun - 1][1]
+    }
+
+    /// Whether the body is there at some time from `start` to `end`, s.
+    #[must_use]
+    pub fn meets(&self, start: f64, end: f64) -> bool {
+        self.intervals().iter().any(|[from, to]| *from <= end && start <= *to)
+    }
+
+    /// The first time at which the body is there that is not before `t`, s.
+    #[must_use]
+    pub fn first_from(&self, t: f64) -> Option<f64> {
+        let mut ahead = self.intervals().iter().filter(|[_, end]| *end >= t);
+        ahead.next().map(|[start, _]| start.max(t))
+    }
+
+    /// The body is there when both say so.
+    #[must_use]
+    pub fn and(&self, other: &Presence) -> Presence {
+        match (&self.0, &other.0) {
+            (None, _) => other.clone(),
+            (_, None) => self.clone(),
+            (Some(_), Some(_)) => {
+                let mut both = Vec::new();
+                for [start, end] in self.intervals() {
+                    let within = other.intervals().iter().filter(|[from, to]| from <= end && start <= to);
+                    both.extend(within.map(|[from, to]| [start.max(*from), end.min(*to)]));
+                }
+                Presence::during(&both)
+            }
+        }
+    }
+}
+
+/// What happens to a body. At one time, bodies are born before others die: one whose interval is a single moment is there
+/// at that moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Change {
+    Birth,
+    Death,
+}
+
+/// A birth or a death.
+#[derive(Clone, Copy, Debug)]
+struct Event {
+    time: f64,
+    change: Change,
+    body: usize,
+}
+
+/// The births and deaths that are to come in a run.
+#[derive(Clone, Default)]
+pub(super) struct Calendar {
+    /// In the order of their times, once it is sorted.
+    events: Vec<Event>,
+    /// How many of them are over.
+    over: usize,
+    is_sorted: bool,
+}
+
+impl Calendar {
+    /// Notes the births and deaths of a body after time `t`; whether the body is there now.
+    pub(super) fn note(&mut self, body: usize, presence: &Presence, t: f64) -> bool {
+        self.events.drain(..std::mem::take(&mut self.over));
+        self.is_sorted = false;
+        for &[start, end] in presence.intervals() {
+            for (time, change) in [(start, Change::Birth), (end, Change::Death)] {
+                // A death at this very moment is still to come: the body is there now.
+                if time > t && time < f64::INFINITY || time == t && change == Change::Death {
+                    self.events.push(Event { time, change, body });
+                }
+            }
+        }
+        presence.at(t)
+    }
+
+    /// The time of the next birth or death, s.
+    pub(super) fn next(&mut self) -> Option<f64> {
+        self.sort();
+        self.events.get(self.over).map(|event| event.time)
+    }
+
+    /// What has changed when time `t` is reached: who is born then is there, and who dies then still is. Each body is given
+    /// with whether it is there.
+    pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
+        self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
+    }
+
+    /// What changes when time goes on from `t`: who dies then is there no more.
+    pub(super) fn depart(&mut self, t: f64) -> Vec<(usize, bool)> {
+        self.pass(|event| event.time <= t)
+    }
+
+    fn pass(&mut self, is_over: impl Fn(&Event) -> bool) -> Vec<(usize, bool)> {
+        self.sort();
+        let begin = self.over;
+        self.over += self.events[begin..].iter().take_while(|event| is_over(event)).count();
+        self.events[begin..self.over]
+            .iter()
+            .map(|event| (event.body, event.change == Change::Birth))
+            .collect()
+    }
+
+    fn sort(&mut self) {
+        if !std::mem::replace(&mut self.is_sorted, true) {
+            let order = |event: &Event| (event.change, event.body);
+            self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then(order(a).cmp(&order(b))));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_belong_to_an_interval() {
+        let presence = Presence::during(&[[0.5, 1.0], [2.0, 2.0], [3.0, f64::INFINITY]]);
+        for (t, there) in
+            [(0.4, false), (0.5, true), (1.0, true), (1.1, false), (2.0, true), (2.5, false), (9.0, true)]
+        {
+            assert_eq!(presence.at(t), there, "{t}");
+        }
+        assert_eq!(presence.first_from(0.0), Some(0.5));
+        assert_eq!(presence.first_from(0.7), Some(0.7));
+        assert_eq!(presence.first_from(1.5), Some(2.0));
+        assert!(presence.meets(0.0, 0.5) && !presence.meets(1.2, 1.8) && presence.meets(1.2, 2.1));
+        assert!(Presence::ALWAYS.at(-1e9) && Presence::ALWAYS.meets(0.0, 0.0));
+        assert_eq!(Presence::during(&[]).first_from(0.0), None);
+    }
+
+    #[test]
+    fn two_presences_together_are_what_they_share() {
+        let file = Presence::during(&[[0.0, 1.0], [2.0, 3.0]]);
+        let keys = Presence::during(&[[0.5, 2.5]]);
+        assert_eq!(file.and(&keys), Presence::during(&[[0.5, 1.0], [2.0, 2.5]]));
+        assert_eq!(keys.and(&file), file.and(&keys));
+        assert_eq!(Presence::ALWAYS.and(&keys), keys);
+        assert_eq!(keys.and(&Presence::ALWAYS), keys);
+    }
+
+    #[test]
+    fn at_one_time_births_come_on_arrival_and_deaths_on_departure() {
+        let mut calendar = Calendar::default();
+        assert!(calendar.note(0, &Presence::during(&[[-1.0, 1.0]]), 0.0));
+        assert!(!calendar.note(1, &Presence::during(&[[1.0, 1.0], [2.0, 3.0]]), 0.0));
+        assert_eq!(calendar.next(), Some(1.0));
+        assert_eq!(calendar.arrive(1.0), [(1, true)]);
+        assert_eq!(calendar.depart(1.0), [(0, false), (1, false)]);
+        // What lies between comes together.
+        assert_eq!(calendar.arrive(9.0), [(1, true), (1, false)]);
+        assert_eq!(calendar.next(), None);
+    }
+}
