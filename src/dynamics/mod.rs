@@ -11,6 +11,8 @@
 //! | what acts at one moment | [`Force`], [`Loads`] |
 //! | motion that is given | [`Motion`], its [`Pose`] |
 //! | when a body is there | [`Presence`] |
+//! | what holds bodies together | [`Constraint`], one type for each kind of joint |
+//! | forces and constraints together, as a method of integration sees them | [`System`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
 //! | what happens within a step | [`DenseOutput`] |
 //! | energy, momentum, drift | [`Balance`] |
@@ -66,7 +68,9 @@
 //! assert_eq!(again.state(), world.state());
 //! ```
 
+mod anchor;
 mod body;
+mod constraint;
 mod effort;
 mod energy;
 mod force;
@@ -78,10 +82,15 @@ mod presence;
 mod shape;
 mod snapshot;
 mod state;
+mod system;
 mod track;
 mod world;
 
+pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
+pub use constraint::{
+    Ball, Constraint, Direction, Equations, Fixed, Hinge, Member, Members, Rod, Row, Slider,
+};
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
@@ -94,6 +103,7 @@ pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
 pub use state::{Accounts, State};
+pub use system::System;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use self::away::Away;
-use super::{Effort, Force, Loads, Moment, Motion, Pose, RigidBody, State};
+use super::{Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -31,6 +31,7 @@ pub struct Model {
     /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
+    constraints: Vec<Arc<dyn Constraint>>,
     effort: Effort,
 }
 
@@ -111,6 +112,17 @@ impl Model {
     #[must_use]
     pub fn forces(&self) -> &[Arc<dyn Force>] {
         &self.forces
+    }
+
+    /// What holds bodies together.
+    #[must_use]
+    pub fn constraints(&self) -> &[Arc<dyn Constraint>] {
+        &self.constraints
+    }
+
+    /// The motion of a body, if it is given.
+    pub(super) fn motion(&self, body: usize) -> Option<Arc<dyn Motion>> {
+        self.motions.iter().find(|(other, _)| *other == body).map(|(_, motion)| motion.clone())
     }
 
     /// What counts the interactions of pairs.
@@ -219,6 +231,10 @@ impl Model {
         self.forces.push(force);
     }
 
+    pub(super) fn push_constraint(&mut self, constraint: Arc<dyn Constraint>) {
+        self.constraints.push(constraint);
+    }
+
     pub(super) fn set_constant_force(&mut self, body: usize, force: DVec3) {
         self.force.set(body, force);
     }
@@ -233,10 +249,17 @@ impl Model {
         }
     }
 
-    /// Sums up all forces and torques at `time` into `loads`; whatever was in there is gone.
+    /// Sums up all forces and torques at `time` into `loads`; whatever was in there is gone. What constraints take is not
+    /// among them: [`System::evaluate`](super::System::evaluate) adds it.
     ///
     /// Loads on bodies that do not move are zero: whatever holds the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
+        self.sum(time, state, loads);
+        self.bear(state, loads);
+    }
+
+    /// The sum of all forces and torques, also on bodies that no load moves.
+    pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
         self.force.write(&mut loads.force, self.len());
         self.torque.write(&mut loads.torque, self.len());
         loads.power = 0.0;
@@ -247,6 +270,10 @@ impl Model {
         for force in &self.forces {
             force.apply(&moment, loads);
         }
+    }
+
+    /// Takes away the loads on bodies that no load moves, since whatever holds or guides them bears these.
+    pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
             // What guides the body bears the loads on it, and so does their work, with the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));

@@ -21,4 +21,7 @@ pub struct Pose {
 pub trait Motion: Send + Sync {
     /// The pose at time `t`, s; its velocities and its acceleration must be the derivatives of its place.
     fn at(&self, t: f64) -> Pose;
+
+    /// The angular acceleration at time `t`, world axes, rad/s²: the derivative of the angular velocity.
+    fn angular_acceleration(&self, t: f64) -> DVec3;
 }

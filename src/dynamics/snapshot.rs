@@ -42,6 +42,15 @@ pub enum Breakdown {
         /// The time, s.
         time: f64,
     },
+    /// A constraint cannot be kept.
+    Broken {
+        /// Its number, in the order in which constraints were added.
+        constraint: usize,
+        /// The time, s.
+        time: f64,
+        /// By how much it does not hold, in metres or, of a turn, in radians.
+        missing: f64,
+    },
 }
 
 impl Snapshot {
@@ -85,8 +94,14 @@ impl BodySnapshot {
 
 impl std::fmt::Display for Breakdown {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Breakdown::Diverged { body, time } = self;
-        write!(f, "at t = {time} s body {} is at no finite place", body.index())
+        match self {
+            Breakdown::Diverged { body, time } => {
+                write!(f, "at t = {time} s body {} is at no finite place", body.index())
+            }
+            Breakdown::Broken { constraint, time, missing } => {
+                write!(f, "at t = {time} s constraint {constraint} is off by {missing:.3e}")
+            }
+        }
     }
 }
 

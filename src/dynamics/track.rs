@@ -122,6 +122,32 @@ impl Motion for Track {
         debug_assert!(a.time <= t && t < b.time);
         self.between(after - 1, t)
     }
+
+    fn angular_acceleration(&self, t: f64) -> DVec3 {
+        let after = self.keys.partition_point(|key| key.time <= t);
+        let is_end = after == self.keys.len() && self.keys.last().is_some_and(|last| last.time == t);
+        let after = if is_end { after.saturating_sub(1) } else { after };
+        let within = after > 0 && after < self.keys.len() && self.interpolation == Interpolation::Cubic;
+        if within { self.turning(after - 1, t).acceleration() } else { DVec3::ZERO }
+    }
+}
+
+/// A quaternion that is not of unit length, with its derivatives with respect to time.
+struct Turning {
+    quaternion: DQuat,
+    rate: DQuat,
+    curvature: DQuat,
+}
+
+impl Turning {
+    /// With w = Q' Q* / |Q|², the angular velocity is twice its vector part, and the acceleration
+    /// 2 vec(Q'' Q*) / |Q|² − 2 Re(w) ω: the length of Q turns nothing.
+    fn acceleration(&self) -> DVec3 {
+        let per_square = 1.0 / self.quaternion.length_squared();
+        let conjugate = self.quaternion.conjugate() * per_square;
+        let (rate, curvature) = (self.rate * conjugate, self.curvature * conjugate);
+        2.0 * curvature.xyz() - 4.0 * rate.w * rate.xyz()
+    }
 }
 
 impl Track {
@@ -146,9 +172,7 @@ impl Track {
         let [d00, d10, d01, d11] = hermite_slope(s).map(|d| d / duration);
         let [c00, c10, c01, c11] = hermite_curvature(s).map(|c| c / (duration * duration));
         let (m0, m1) = (from.0 * duration, to.0 * duration);
-        let (n0, n1) = (from.1 * duration, to.1 * duration);
-        let quaternion = a.orientation * h00 + n0 * h10 + b.orientation * h01 + n1 * h11;
-        let rate = a.orientation * d00 + n0 * d10 + b.orientation * d01 + n1 * d11;
+        let Turning { quaternion, rate, .. } = self.turning(i, t);
         let length = quaternion.length();
         let orientation = quaternion * (1.0 / length);
         // The part of the rate that turns; the rest lengthens, which the division by the length undoes.
@@ -158,7 +182,22 @@ impl Track {
             velocity: a.location * d00 + m0 * d10 + b.location * d01 + m1 * d11,
             acceleration: a.location * c00 + m0 * c10 + b.location * c01 + m1 * c11,
             orientation,
-            angular_velocity: 2.0 * DVec3::new(turning.x, turning.y, turning.z),
+            angular_velocity: 2.0 * turning.xyz(),
+        }
+    }
+
+    /// How it turns between a key and the next, where the interpolation is cubic.
+    fn turning(&self, i: usize, t: f64) -> Turning {
+        let (a, b) = (&self.keys[i], &self.keys[i + 1]);
+        let duration = b.time - a.time;
+        let s = (t - a.time) / duration;
+        let (n0, n1) = (self.slopes[i].1 * duration, self.slopes[i + 1].1 * duration);
+        let mix =
+            |[w00, w10, w01, w11]: [f64; 4]| a.orientation * w00 + n0 * w10 + b.orientation * w01 + n1 * w11;
+        Turning {
+            quaternion: mix(hermite(s)),
+            rate: mix(hermite_slope(s).map(|d| d / duration)),
+            curvature: mix(hermite_curvature(s).map(|c| c / (duration * duration))),
         }
     }
 }
@@ -246,6 +285,9 @@ mod tests {
                 );
                 let turn = (after.orientation * before.orientation.conjugate()).to_scaled_axis() / (2.0 * H);
                 assert!(turn.abs_diff_eq(here.angular_velocity, 1e-8), "{turn} {}", here.angular_velocity);
+                let spun = (after.angular_velocity - before.angular_velocity) / (2.0 * H);
+                let given = track.angular_acceleration(t);
+                assert!(spun.abs_diff_eq(given, 1e-7), "{spun} {given}");
             }
         }
     }

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use super::constraint::Solver;
 use super::presence::Calendar;
 use super::{
-    Balance, BodyId, BodySnapshot, Breakdown, Dynamics, Effort, EnergyLedger, Force, Integrator, Loads,
-    METHODS, Method, Model, Motion, Presence, RigidBody, Snapshot, State, Step,
+    Balance, BodyId, BodySnapshot, Breakdown, Constraint, Dynamics, Effort, EnergyLedger, Force, Integrator,
+    Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Snapshot, State, Step, System,
 };
 
 /// The longest timestep where none is set, s.
@@ -29,6 +30,9 @@ pub struct World {
     state: State,
     method: &'static Method,
     integrator: Box<dyn Integrator>,
+    solver: Solver,
+    /// Whether the constraints hold at the state.
+    is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
     steps: u64,
@@ -50,6 +54,8 @@ impl World {
             state: State::default(),
             method,
             integrator: (method.create)(),
+            solver: Solver::default(),
+            is_settled: true,
             ledger: EnergyLedger::new(),
             calendar: Calendar::default(),
             steps: 0,
@@ -116,6 +122,18 @@ impl World {
         self.model.push_force(force);
     }
 
+    /// Adds a constraint, at any time. Where it does not hold, the bodies are moved the shortest way to where it does, and
+    /// their velocities lose what leads away from there.
+    pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
+        self.add_shared_constraint(Arc::new(constraint));
+    }
+
+    /// Adds a constraint that others may hold as well, at any time.
+    pub fn add_shared_constraint(&mut self, constraint: Arc<dyn Constraint>) {
+        self.about_to_change();
+        self.model.push_constraint(constraint);
+    }
+
     /// From now on, `force` (world axes, N) is the body's constant force.
     pub fn apply_force(&mut self, body: BodyId, force: DVec3) {
         self.about_to_change();
@@ -132,6 +150,21 @@ impl World {
     fn about_to_change(&mut self) {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
+        self.solver.forget();
+        self.is_settled = false;
+    }
+
+    /// After changes by hand, before anything is measured or time goes on.
+    fn settle(&mut self) {
+        if !self.is_settled {
+            self.is_settled = true;
+            let accounts = self.state.accounts;
+            let mut system = System::new(&self.model, &mut self.solver);
+            system.begin(&self.state);
+            system.settle(self.time, &mut self.state);
+            // What this gives and takes is booked with the change itself.
+            self.state.accounts = accounts;
+        }
     }
 
     /// Integrates by `method` from now on.
@@ -170,9 +203,12 @@ impl World {
     }
 
     fn step_from(&mut self, t: f64, dt: f64) {
+        self.settle();
         self.ledger.close(&self.model, t, &self.state);
-        self.integrator.advance(&self.model, t, dt, &mut self.state);
-        self.model.place(t + dt, &mut self.state);
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.begin(&self.state);
+        self.integrator.advance(&mut system, t, dt, &mut self.state);
+        system.settle(t + dt, &mut self.state);
         self.steps += 1;
     }
 
@@ -235,6 +271,7 @@ impl World {
         let due = self.calendar.arrive(self.time);
         self.change(&due);
         // At once, so that the books do not depend on who looks at this moment.
+        self.settle();
         self.ledger.close(&self.model, self.time, &self.state);
     }
 
@@ -248,7 +285,8 @@ impl World {
     /// The present moment, which leaves no trace in the books.
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
-        picture(&self.model, self.time, &self.state, balance, &mut self.loads)
+        let mut system = System::new(&self.model, &mut self.solver);
+        picture(&mut system, self.time, &self.state, balance, &mut self.loads)
     }
 
     fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
@@ -278,14 +316,18 @@ impl World {
 
     /// Looks at some moments of the step that was made last.
     fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
-        let Self { model, state, integrator, ledger, loads, before, .. } = self;
+        let Self { model, state, integrator, solver, ledger, loads, before, .. } = self;
         let step = Step { model, start, duration, before, after: state };
-        let dense = integrator.dense(step);
+        let mut system = System::new(model, solver);
+        let dense = integrator.dense(&mut system, step);
         let mut within = State::default();
         for &time in moments {
             dense.at(time, &mut within);
+            if system.is_constrained() {
+                system.settle(time, &mut within);
+            }
             let balance = ledger.peek(model, time, &within);
-            see(picture(model, time, &within, balance, loads));
+            see(picture(&mut system, time, &within, balance, loads));
         }
     }
 
@@ -310,14 +352,24 @@ impl World {
     /// The resultant force on each body at this moment, N. It is evaluated for this call, zero for bodies that do not
     /// move, and m a for those whose motion is given.
     pub fn forces(&mut self) -> &[DVec3] {
-        self.model.evaluate(self.time, &self.state, &mut self.loads);
+        self.settle();
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.begin(&self.state);
+        system.evaluate(self.time, &self.state, &mut self.loads);
         self.model.guide(self.time, &mut self.loads);
         &self.loads.force
+    }
+
+    /// By how much constraints do not hold: the largest value of all their equations, in metres or, of a turn, in radians.
+    pub fn violation(&mut self) -> f64 {
+        self.settle();
+        self.solver.violation(&self.model, &self.state)
     }
 
     /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
     /// measurements so far.
     pub fn balance(&mut self) -> Balance {
+        self.settle();
         self.ledger.measure(&self.model, self.time, &self.state)
     }
 
@@ -400,12 +452,14 @@ impl Dynamics for World {
             Ok(_) => {}
             Err(error) => broken = broken.or(Some(error)),
         });
-        broken.map_or(Ok(()), Err)
+        broken.or(self.solver.take_failure()).map_or(Ok(()), Err)
     }
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
-        picture(&self.model, self.time, &self.state, balance, &mut self.loads).checked()
+        let mut system = System::new(&self.model, &mut self.solver);
+        let snapshot = picture(&mut system, self.time, &self.state, balance, &mut self.loads).checked();
+        self.solver.take_failure().map_or(snapshot, Err)
     }
 
     fn steps(&self) -> u64 {
@@ -414,8 +468,16 @@ impl Dynamics for World {
 }
 
 /// All that can be known of a moment; `loads` is room to work in.
-fn picture(model: &Model, time: f64, state: &State, balance: Balance, loads: &mut Loads) -> Snapshot {
-    model.evaluate(time, state, loads);
+fn picture(
+    system: &mut System<'_>,
+    time: f64,
+    state: &State,
+    balance: Balance,
+    loads: &mut Loads,
+) -> Snapshot {
+    let model = system.model();
+    system.begin(state);
+    system.evaluate(time, state, loads);
     model.guide(time, loads);
     let body = |id: usize| BodySnapshot {
         id,

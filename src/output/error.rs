@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
-use crate::simulate::{Diverged, SimulateError};
+use crate::simulate::{Broken, Diverged, SimulateError};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub enum OutputError {
     Io(PathBuf, io::Error),
     /// The run left the numbers.
     Diverged(Diverged),
+    /// A joint cannot be kept.
+    Broken(Broken),
     /// The recording of the run could not be written or read.
     Recording(String),
     /// A script cannot be written.
@@ -49,6 +51,7 @@ impl OutputError {
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
             OutputError::Diverged(_) => Code::Diverged,
+            OutputError::Broken(_) => Code::Diverged,
             OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
             OutputError::Emit(_) => Code::CannotEmit,
@@ -73,6 +76,9 @@ impl OutputError {
         match self {
             OutputError::Diverged(_) => Some(
                 "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+            ),
+            OutputError::Broken(_) => Some(
+                "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
             ),
             OutputError::Recording(_) => Some(
                 "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
@@ -120,6 +126,7 @@ impl fmt::Display for OutputError {
             }
             OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
             OutputError::Diverged(error) => error.fmt(f),
+            OutputError::Broken(error) => error.fmt(f),
             OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
             OutputError::Emit(error) => error.fmt(f),
         }
@@ -132,6 +139,7 @@ impl From<SimulateError> for OutputError {
     fn from(error: SimulateError) -> OutputError {
         match error {
             SimulateError::Diverged(error) => OutputError::Diverged(error),
+            SimulateError::Broken(error) => OutputError::Broken(error),
             SimulateError::Recording(message) => OutputError::Recording(message),
         }
     }

@@ -50,6 +50,13 @@ impl Motion for BodyMotion {
             }
         }
     }
+
+    fn angular_acceleration(&self, t: f64) -> DVec3 {
+        match self {
+            BodyMotion::Track(track) => track.angular_acceleration(t),
+            BodyMotion::Formula { orientation, .. } => orientation.angular_acceleration(t),
+        }
+    }
 }
 
 /// An orientation that may change with time.
@@ -85,6 +92,30 @@ impl TimedOrientation {
                 // Each turn is about an axis that the later ones turn too.
                 let spin = DVec3::Z * rates.z + z * (DVec3::Y * rates.y) + zy * (DVec3::X * rates.x);
                 (zy * DQuat::from_rotation_x(angles.x), spin)
+            }
+        }
+    }
+
+    /// The angular acceleration at a time (s), world axes, rad/s².
+    pub fn angular_acceleration(&self, t: f64) -> DVec3 {
+        match self {
+            TimedOrientation::Constant(_) => DVec3::ZERO,
+            TimedOrientation::Axis { axis, angle } => *axis * angle.curvature(t).to_radians(),
+            TimedOrientation::Euler(angles) => {
+                let radians = |v: DVec3| v * (std::f64::consts::PI / 180.0);
+                let (turned, rates) = (radians(angles.at(t)), radians(angles.rate(t)));
+                let curvatures = radians(angles.curvature(t));
+                let z = DQuat::from_rotation_z(turned.z);
+                let y_axis = z * DVec3::Y;
+                let x_axis = z * (DQuat::from_rotation_y(turned.y) * DVec3::X);
+                // The axes of the earlier turns are turned by the later ones.
+                let z_spin = DVec3::Z * rates.z;
+                let zy_spin = z_spin + y_axis * rates.y;
+                DVec3::Z * curvatures.z
+                    + y_axis * curvatures.y
+                    + x_axis * curvatures.x
+                    + z_spin.cross(y_axis) * rates.y
+                    + zy_spin.cross(x_axis) * rates.x
             }
         }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::past::History;
 use super::recording::{Reader, Recording};
 use super::simulation::{Entry, Simulation};
-use super::{Diverged, Frame, Moments, SimulateError};
+use super::{Frame, Moments, SimulateError};
 use crate::dynamics::{Effort, Snapshot};
 use crate::scene::Scene;
 
@@ -195,12 +195,6 @@ pub fn within(scene: &Scene, time: f64) -> f64 {
     let simulation = &scene.simulation;
     let end = simulation.duration.max(simulation.time(simulation.frames() - 1));
     if time > 0.0 { time.min(end) } else { 0.0 }
-}
-
-impl From<Diverged> for SimulateError {
-    fn from(error: Diverged) -> SimulateError {
-        SimulateError::Diverged(error)
-    }
 }
 
 impl From<std::io::Error> for SimulateError {

@@ -70,15 +70,34 @@ pub struct Diverged {
 pub enum SimulateError {
     /// It left the numbers.
     Diverged(Diverged),
+    /// A joint cannot be kept.
+    Broken(Broken),
     /// Its recording cannot be written or read.
     Recording(String),
 }
 
-impl Diverged {
+/// That a joint cannot be kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Broken {
+    /// The name of the joint.
+    pub joint: String,
+    /// The time, s.
+    pub time: f64,
+    /// By how much it does not hold, in metres or, of a turn, in radians.
+    pub missing: f64,
+}
+
+impl SimulateError {
     /// Why the dynamics of a scene cannot go on.
-    fn of(scene: &Scene, error: Breakdown) -> Diverged {
-        let Breakdown::Diverged { body, time } = error;
-        Diverged { body: scene.bodies[body.index()].name.to_string(), time }
+    fn of(scene: &Scene, error: Breakdown) -> SimulateError {
+        match error {
+            Breakdown::Diverged { body, time } => {
+                SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
+            }
+            Breakdown::Broken { constraint, time, missing } => {
+                SimulateError::Broken(Broken { joint: constraint.to_string(), time, missing })
+            }
+        }
     }
 }
 
@@ -90,10 +109,20 @@ impl std::fmt::Display for Diverged {
 
 impl std::error::Error for Diverged {}
 
+impl std::fmt::Display for Broken {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Broken { joint, time, missing } = self;
+        write!(f, "the joint `{joint}` cannot be kept: at t = {time} s it is off by {missing:.3e} m")
+    }
+}
+
+impl std::error::Error for Broken {}
+
 impl std::fmt::Display for SimulateError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SimulateError::Diverged(error) => error.fmt(f),
+            SimulateError::Broken(error) => error.fmt(f),
             SimulateError::Recording(message) => f.write_str(message),
         }
     }

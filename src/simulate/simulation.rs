@@ -1,6 +1,6 @@
 //! A run that is being computed.
 
-use super::{Diverged, Moments, world};
+use super::{Moments, SimulateError, world};
 use crate::dynamics::{Breakdown, Dynamics, Effort, Snapshot};
 use crate::scene::Scene;
 
@@ -37,14 +37,14 @@ impl<'a> Simulation<'a> {
 
     /// Advances to the next frame, or by the time between two where there are moments after the last; `see` is told of
     /// all moments on the way. It is false after the end.
-    pub(super) fn advance(&mut self, see: &mut dyn FnMut(Entry)) -> Result<bool, Diverged> {
+    pub(super) fn advance(&mut self, see: &mut dyn FnMut(Entry)) -> Result<bool, SimulateError> {
         if self.next > self.intervals {
             return Ok(false);
         }
         let done = self.advance_to_next(see);
         // After what is not finite, nothing could be.
         self.next = if done.is_ok() { self.next + 1 } else { usize::MAX };
-        done.map(|()| true).map_err(|error| Diverged::of(self.scene, error))
+        done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }
 
     fn advance_to_next(&mut self, see: &mut dyn FnMut(Entry)) -> Result<(), Breakdown> {

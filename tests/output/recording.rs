@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use jabuka::Run;
 use jabuka::cache::Cache;
-use jabuka::dynamics::{DenseOutput, Effort, Integrator, METHODS, Method, Model, State, Step};
+use jabuka::dynamics::{DenseOutput, Effort, Integrator, METHODS, Method, State, Step, System};
 use jabuka::output::{self, Folder};
 use jabuka::scene::Scene;
 use jabuka::simulate::{Moments, Recorded, Selection};
@@ -31,13 +31,13 @@ impl Counted {
 }
 
 impl Integrator for Counted {
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         STEPS.fetch_add(1, Ordering::Relaxed);
-        self.0.advance(model, t, dt, state);
+        self.0.advance(system, t, dt, state);
     }
 
-    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        self.0.dense(step)
+    fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        self.0.dense(system, step)
     }
 
     fn clone_box(&self) -> Box<dyn Integrator> {

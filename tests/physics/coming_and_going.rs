@@ -163,6 +163,10 @@ impl Motion for Rolling {
             angular_velocity: DVec3::NEG_Z,
         }
     }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        DVec3::ZERO
+    }
 }
 
 /// Whether steps end at births (something is free) or not (all motion is given), the same is seen.

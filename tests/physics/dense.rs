@@ -114,6 +114,10 @@ fn guided_bodies_are_exact_within_steps() {
                 angular_velocity: DVec3::Z,
             }
         }
+
+        fn angular_acceleration(&self, _: f64) -> DVec3 {
+            DVec3::ZERO
+        }
     }
     for method in METHODS {
         let mut world = build(method, 0.1);

@@ -19,6 +19,10 @@ impl Motion for Shaken {
             angular_velocity: DVec3::Y * 2.0,
         }
     }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        DVec3::ZERO
+    }
 }
 
 /// A ball of 1 kg on a spring of 4 N/m to a body that is shaken.

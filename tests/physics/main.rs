@@ -12,6 +12,7 @@ mod dense;
 mod energy;
 mod gravitation;
 mod guided;
+mod joints;
 mod order;
 mod rotation;
 mod same_bits;

@@ -15,7 +15,7 @@ pub use drag::Drag;
 pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
 pub use lorentz::Lorentz;
-pub use spring::{Anchor, Spring};
+pub use spring::Spring;
 
 use super::{Loads, Model, State};
 

@@ -1,58 +1,9 @@
 //! A spring with a damper beside it.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
-use super::super::BodyId;
+use super::super::{Anchor, BodyId};
 use super::{Force, Loads, Moment};
-
-/// What an end of a [`Spring`] is fastened to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Anchor {
-    /// A point of a body.
-    Body {
-        /// The body.
-        id: BodyId,
-        /// The point in the frame of the body, from its centre of mass, m.
-        at: DVec3,
-    },
-    /// A point of the world, m.
-    Point(DVec3),
-}
-
-impl Anchor {
-    /// The centre of mass of a body.
-    #[must_use]
-    pub const fn centre(id: BodyId) -> Anchor {
-        Anchor::Body { id, at: DVec3::ZERO }
-    }
-
-    /// The body, if it is one.
-    #[must_use]
-    pub fn body(self) -> Option<BodyId> {
-        match self {
-            Anchor::Body { id, .. } => Some(id),
-            Anchor::Point(_) => None,
-        }
-    }
-
-    /// Whether it is the centre of mass of a body.
-    #[must_use]
-    pub fn is_centre(self) -> bool {
-        matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
-    }
-
-    /// Where it is, m. The closure gives the location of a body and its orientation (`world_from_body`).
-    #[must_use]
-    pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
-        match self {
-            Anchor::Body { id, at } => {
-                let (location, orientation) = pose(id);
-                if at == DVec3::ZERO { location } else { location + orientation * at }
-            }
-            Anchor::Point(point) => point,
-        }
-    }
-}
 
 /// An anchor at one moment, in world axes.
 struct End {
@@ -172,6 +123,8 @@ impl Force for Spring {
 
 #[cfg(test)]
 mod tests {
+    use glam::DQuat;
+
     use super::super::super::{Compound, Model, Part, RigidBody, Shape, State};
     use super::super::testing::{assert_minus_gradient, bodies, loads};
     use super::*;

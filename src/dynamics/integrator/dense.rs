@@ -5,7 +5,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::{Accounts, Loads, Model, State};
+use super::super::{Accounts, Loads, Model, State, System};
 use super::{rotation, splitting};
 
 /// A step that has been made.
@@ -106,10 +106,10 @@ struct Turn {
 
 impl<'a> Hermite<'a> {
     /// The polynomials of a step. Forces are evaluated at both ends.
-    pub(super) fn new(step: Step<'a>) -> Hermite<'a> {
+    pub(super) fn new(system: &mut System<'_>, step: Step<'a>) -> Hermite<'a> {
         let (mut start, mut end) = (Loads::default(), Loads::default());
-        step.model.evaluate(step.start, step.before, &mut start);
-        step.model.evaluate(step.start + step.duration, step.after, &mut end);
+        system.evaluate(step.start, step.before, &mut start);
+        system.evaluate(step.start + step.duration, step.after, &mut end);
         let turn = |i: usize| turn(&step, i, start.torque[i], end.torque[i]);
         let turns = (0..step.before.len()).map(turn).collect();
         Hermite { step, start, end, turns }

@@ -1,11 +1,12 @@
 //! Euler–Cromer: first the velocity, then the location with the new velocity.
 
-use super::super::{Loads, Model, State};
-use super::dense::{DenseOutput, Drift, Step};
+use super::super::{Loads, State, System};
+use super::dense::{DenseOutput, Drift, Hermite, Step};
 use super::{Integrator, Method, splitting};
 
 /// Also called semi-implicit or symplectic Euler. Source: A. Cromer, *Stable solutions using the Euler approximation*,
-/// Am. J. Phys. 49 (1981) 455.
+/// Am. J. Phys. 49 (1981) 455. With constraints it is SHAKE, of first order: Hairer, Lubich & Wanner, *Geometric Numerical
+/// Integration*, VII.1.3.
 pub(super) const METHOD: Method = Method {
     name: "euler-cromer",
     order: 1,
@@ -20,15 +21,17 @@ struct EulerCromer {
 }
 
 impl Integrator for EulerCromer {
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
-        model.evaluate(t, state, &mut self.loads);
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        system.evaluate_forces(t, state, &mut self.loads);
         state.accounts.work += self.loads.power * dt;
-        splitting::kick(model, &self.loads, dt, state);
-        splitting::drift(model, dt, state);
+        splitting::kick(system.model(), &self.loads, dt, state);
+        system.aim(t, dt, state);
+        splitting::drift(system.model(), dt, state);
     }
 
-    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        Box::new(Drift(step))
+    fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        // With constraints, the velocity that leads to the end of the step is not the one that is kept there.
+        if system.is_constrained() { Box::new(Hermite::new(system, step)) } else { Box::new(Drift(step)) }
     }
 
     fn clone_box(&self) -> Box<dyn Integrator> {

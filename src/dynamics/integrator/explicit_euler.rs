@@ -1,6 +1,6 @@
 //! Explicit Euler: everything with the values at the start of the step.
 
-use super::super::{Model, State};
+use super::super::{State, System};
 use super::dense::{DenseOutput, Step, Tangent};
 use super::runge_kutta::{Slope, follow};
 use super::{Integrator, Method};
@@ -21,12 +21,12 @@ struct ExplicitEuler {
 }
 
 impl Integrator for ExplicitEuler {
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
-        self.slope.measure(model, t, state);
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        self.slope.measure(system, t, state);
         follow([(1.0, &self.slope)], dt, state);
     }
 
-    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+    fn dense<'a>(&self, _: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
         Box::new(Tangent(step))
     }
 

@@ -12,20 +12,21 @@ mod runge_kutta;
 mod splitting;
 mod velocity_verlet;
 
-use super::{Model, State};
+use super::{State, System};
 
 pub use dense::{DenseOutput, Step};
+pub(super) use splitting::drift_body;
 
 /// A method of integration. It advances a state; time belongs to the [`World`](super::World).
 pub trait Integrator: Send {
-    /// Advances `state` from time `t` by one step of `dt` seconds. Where it evaluates forces at a later time, it must first
-    /// [place](Model::place) the bodies whose motion is given; at the end of the step, the caller does.
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State);
+    /// Advances `state` from time `t` by one step of `dt` seconds. Where it evaluates forces at a later time, it
+    /// must [arrive](System::arrive) there; at the end of the step, the caller does, and settles what constraints hold.
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State);
 
     /// What happened within the step that was made last, for whoever looks between two steps. The default takes
     /// quintic Hermite polynomials, which suit smooth methods from order 2 up.
-    fn dense<'a>(&self, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        Box::new(dense::Hermite::new(step))
+    fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
+        Box::new(dense::Hermite::new(system, step))
     }
 
     /// Told after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from

@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method.
 
-use super::super::{Model, State};
+use super::super::{State, System};
 use super::runge_kutta::{Slope, follow};
 use super::{Integrator, Method};
 
@@ -21,26 +21,20 @@ struct Rk4 {
 }
 
 impl Integrator for Rk4 {
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let half = 0.5 * dt;
         let Self { stage, slopes: [k1, k2, k3, k4] } = self;
 
-        k1.measure(model, t, state);
+        k1.measure(system, t, state);
         stage.clone_from(state);
         follow([(1.0, k1)], half, stage);
-        model.place(t + half, stage);
-
-        k2.measure(model, t + half, stage);
+        k2.arrive(system, t + half, stage);
         stage.clone_from(state);
         follow([(1.0, k2)], half, stage);
-        model.place(t + half, stage);
-
-        k3.measure(model, t + half, stage);
+        k3.arrive(system, t + half, stage);
         stage.clone_from(state);
         follow([(1.0, k3)], dt, stage);
-        model.place(t + dt, stage);
-
-        k4.measure(model, t + dt, stage);
+        k4.arrive(system, t + dt, stage);
         follow([(1.0 / 6.0, k1), (1.0 / 3.0, k2), (1.0 / 3.0, k3), (1.0 / 6.0, k4)], dt, state);
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::{Loads, Model, State};
+use super::super::{Loads, State, System};
 use super::rotation;
 
 /// The derivative of a [`State`] with respect to time. The slopes of angular momentum and of work are the torque and
@@ -17,8 +17,9 @@ pub(super) struct Slope {
 
 impl Slope {
     /// Measures the slope at `state`: the right-hand side of the equations of motion.
-    pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
-        model.evaluate(t, state, &mut self.loads);
+    pub(super) fn measure(&mut self, system: &mut System<'_>, t: f64, state: &State) {
+        let model = system.model();
+        system.evaluate(t, state, &mut self.loads);
         self.location.clone_from(&state.velocity);
         self.velocity.clear();
         self.velocity.extend(
@@ -29,6 +30,12 @@ impl Slope {
             let angular_velocity = model.angular_velocity(i, state);
             rotation::rate(state.orientation[i], angular_velocity)
         }));
+    }
+
+    /// The same at a later time, at which bodies whose motion is given are elsewhere.
+    pub(super) fn arrive(&mut self, system: &mut System<'_>, t: f64, state: &mut State) {
+        system.model().place(t, state);
+        self.measure(system, t, state);
     }
 }
 

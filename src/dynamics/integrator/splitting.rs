@@ -29,3 +29,13 @@ pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
         }
     }
 }
+
+/// The same for one body.
+pub(in crate::dynamics) fn drift_body(model: &Model, dt: f64, state: &mut State, i: usize) {
+    state.location[i] += dt * state.velocity[i];
+    let angular_momentum = state.angular_momentum[i];
+    if angular_momentum != DVec3::ZERO {
+        let inverse_inertia = model.inverse_inertia()[i];
+        state.orientation[i] = rotation::free(state.orientation[i], angular_momentum, inverse_inertia, dt);
+    }
+}

@@ -1,13 +1,15 @@
 //! Velocity Verlet: half a kick, a drift, half a kick.
 
-use super::super::{Loads, Model, State};
+use glam::DVec3;
+
+use super::super::{Loads, State, System};
 use super::{Integrator, Method, splitting};
 
 /// Source: W. C. Swope et al., J. Chem. Phys. 76 (1982) 637.
 ///
 /// Their method falls to first order where a force depends on velocity, as it evaluates the force at the end of the
 /// step before the velocity there is known. Here that velocity is predicted, v + a·dt; it is off by O(dt²), so the
-/// step by O(dt³), and second order is kept.
+/// step by O(dt³), and second order is kept. With constraints it is RATTLE: H. C. Andersen, J. Comput. Phys. 52 (1983) 24.
 pub(super) const METHOD: Method = Method {
     name: "velocity-verlet",
     order: 2,
@@ -22,28 +24,85 @@ struct VelocityVerlet {
     end: Loads,
     /// Whether `start` holds the loads at the current state, from the end of the step before.
     primed: bool,
+    /// Velocities at the beginning and in the middle of a step, where constraints change them on the way.
+    begin: Velocities,
+    middle: Velocities,
 }
 
-impl Integrator for VelocityVerlet {
-    fn advance(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
-        let half = 0.5 * dt;
-        if !self.primed {
-            model.evaluate(t, state, &mut self.start);
-        }
+/// How all bodies move.
+#[derive(Clone, Default)]
+struct Velocities {
+    velocity: Vec<DVec3>,
+    angular_momentum: Vec<DVec3>,
+}
+
+impl Velocities {
+    fn read(&mut self, state: &State) {
+        self.velocity.clone_from(&state.velocity);
+        self.angular_momentum.clone_from(&state.angular_momentum);
+    }
+
+    fn write(&self, state: &mut State) {
+        state.velocity.clone_from(&self.velocity);
+        state.angular_momentum.clone_from(&self.angular_momentum);
+    }
+
+    /// Adds to the velocities of a state by how much it is faster than these.
+    fn extrapolate(&self, state: &mut State) {
+        let pairs = state.velocity.iter_mut().zip(&self.velocity);
+        pairs.for_each(|(now, before)| *now += *now - *before);
+        let pairs = state.angular_momentum.iter_mut().zip(&self.angular_momentum);
+        pairs.for_each(|(now, before)| *now += *now - *before);
+    }
+}
+
+impl VelocityVerlet {
+    /// A step of RATTLE: the impulses of the constraints take part in the kicks. What they do at the end of the step,
+    /// [`System::settle`] adds.
+    fn rattle(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        let (model, half) = (system.model(), 0.5 * dt);
+        self.begin.read(state);
+        splitting::kick(model, &self.start, half, state);
+        system.aim(t, dt, state);
+        self.middle.read(state);
+        splitting::drift(model, dt, state);
+        // The second half of the kick is predicted to be like the first.
+        self.begin.extrapolate(state);
+        model.place(t + dt, state);
+        system.evaluate_forces(t + dt, state, &mut self.end);
+        self.middle.write(state);
+        splitting::kick(model, &self.end, half, state);
+    }
+
+    fn free(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        let (model, half) = (system.model(), 0.5 * dt);
         splitting::kick(model, &self.start, half, state);
         splitting::drift(model, dt, state);
 
         // The second half of the kick, with the old loads: this is the prediction.
         splitting::kick(model, &self.start, half, state);
         model.place(t + dt, state);
-        model.evaluate(t + dt, state, &mut self.end);
+        system.evaluate_forces(t + dt, state, &mut self.end);
 
         // And now what the new loads would have made of it.
         for (i, &inverse_mass) in model.inverse_mass().iter().enumerate() {
             state.velocity[i] += half * inverse_mass * (self.end.force[i] - self.start.force[i]);
             state.angular_momentum[i] += half * (self.end.torque[i] - self.start.torque[i]);
         }
-        state.accounts.work += half * (self.start.power + self.end.power);
+    }
+}
+
+impl Integrator for VelocityVerlet {
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        if !self.primed {
+            system.evaluate_forces(t, state, &mut self.start);
+        }
+        if system.is_constrained() {
+            self.rattle(system, t, dt, state);
+        } else {
+            self.free(system, t, dt, state);
+        }
+        state.accounts.work += 0.5 * dt * (self.start.power + self.end.power);
 
         std::mem::swap(&mut self.start, &mut self.end);
         self.primed = true;

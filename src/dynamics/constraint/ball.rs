@@ -1,0 +1,26 @@
+//! A ball joint: two points stay together, and every turn is free.
+
+use super::super::{Anchor, BodyId};
+use super::member::End;
+use super::{Constraint, Equations, Members, parts};
+
+/// A ball-and-socket joint, also called spherical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// The two points.
+    pub between: [Anchor; 2],
+}
+
+impl Constraint for Ball {
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(self.between)
+    }
+
+    fn rows(&self) -> usize {
+        3
+    }
+
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        parts::same_point(&End::pair(self.between, members), 0, equations);
+    }
+}

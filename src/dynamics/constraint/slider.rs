@@ -1,0 +1,36 @@
+//! A slider: one body moves along an axis of the other, and does not turn against it.
+
+use glam::{DQuat, DVec3};
+
+use super::super::{Anchor, BodyId};
+use super::member::End;
+use super::{Constraint, Equations, Members, parts};
+
+/// A slider, also called a prismatic joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slider {
+    /// The two points; the second stays on the axis through the first.
+    pub between: [Anchor; 2],
+    /// The axis, a unit vector, in the axes of the first end; those of a point of the world are the world's.
+    pub axis: DVec3,
+    /// The rotation that takes the axes of the first end to those of the second end.
+    pub turned: DQuat,
+}
+
+impl Constraint for Slider {
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(self.between)
+    }
+
+    fn rows(&self) -> usize {
+        5
+    }
+
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        let ends = End::pair(self.between, members);
+        parts::same_turn(&ends, self.turned, 0, equations);
+        for (i, across) in parts::across(self.axis).into_iter().enumerate() {
+            parts::beside(&ends, ends[0].orientation * across, 3 + i, equations);
+        }
+    }
+}

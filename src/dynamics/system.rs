@@ -1,0 +1,65 @@
+//! The equations of motion, as a method of integration sees them.
+
+use super::constraint::Solver;
+use super::{Loads, Model, State};
+
+/// Bodies, the forces on them, and the constraints that hold them together.
+pub struct System<'a> {
+    model: &'a Model,
+    solver: &'a mut Solver,
+}
+
+impl<'a> System<'a> {
+    pub(super) fn new(model: &'a Model, solver: &'a mut Solver) -> System<'a> {
+        System { model, solver }
+    }
+
+    /// The masses, the forces and the constraints.
+    #[must_use]
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// Whether constraints hold bodies.
+    #[must_use]
+    pub fn is_constrained(&self) -> bool {
+        !self.model.constraints().is_empty()
+    }
+
+    /// All that acts at time `t`, s: the forces, and what the constraints take to be kept. Bodies whose motion is given must
+    /// be where they are at that time.
+    pub fn evaluate(&mut self, t: f64, state: &State, loads: &mut Loads) {
+        self.model.sum(t, state, loads);
+        self.solver.react(self.model, t, state, loads);
+        self.model.bear(state, loads);
+    }
+
+    /// Places the bodies whose motion is given where they are at time `t`, and then [evaluates](Self::evaluate).
+    pub fn arrive(&mut self, t: f64, state: &mut State, loads: &mut Loads) {
+        self.model.place(t, state);
+        self.evaluate(t, state, loads);
+    }
+
+    /// The forces alone, without what the constraints take: for methods that keep these by [`aim`](Self::aim).
+    pub fn evaluate_forces(&mut self, t: f64, state: &State, loads: &mut Loads) {
+        self.model.evaluate(t, state, loads);
+    }
+
+    /// Changes the velocities at the beginning of a step from `t` to `t` + `dt` such that bodies on which nothing acts
+    /// within it are where the constraints hold at its end.
+    pub(super) fn aim(&mut self, t: f64, dt: f64, state: &mut State) {
+        self.solver.aim(self.model, t, dt, state);
+    }
+
+    /// To be called before a step from this state.
+    pub(super) fn begin(&mut self, state: &State) {
+        self.solver.begin(self.model, state);
+    }
+
+    /// Places the bodies whose motion is given, and moves the others the shortest way to where all constraints hold; takes out
+    /// of velocities what leads away from there.
+    pub(super) fn settle(&mut self, t: f64, state: &mut State) {
+        self.model.place(t, state);
+        self.solver.settle(self.model, t, state);
+    }
+}
