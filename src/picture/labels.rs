@@ -1,5 +1,8 @@
 //! Texts in the picture, with the numbers of the moment.
 
+use std::borrow::Cow;
+use std::collections::HashMap;
+
 use super::room::Room;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
@@ -8,7 +11,7 @@ use crate::dynamics::Balance;
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
-use crate::simulate::{BodyFrame, Frame};
+use crate::simulate::{BodyFrame, Frame, Ghost};
 
 /// The usual height of a line, as part of the picture's height.
 const SIZE: f64 = 0.055;
@@ -66,7 +69,7 @@ impl Labels {
                 // A line that is wider than the picture is made smaller.
                 let wide = width(&longest(label), 1.0);
                 height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
-                inset = inset_without_overlap(&mut taken, corner, wide * height, height);
+                inset = inset_without_overlap(&mut taken, corner, [wide * height, height], 2.0 * aspect);
             }
             Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
@@ -102,12 +105,14 @@ impl Labels {
         room: &mut Room,
     ) -> Vec<(usize, Text<'_>)> {
         let now = Moment::now(frame);
+        let ghosts_of = self.ghosts_by_body(frame);
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
             let text = self.beside(planned, (&frame.bodies[body], side), &now, screen, room);
             texts.extend(text.map(|text| (number, text)));
-            for ghost in frame.past.ghosts.iter().filter(|ghost| ghosts && ghost.body.id == body) {
+            let its = ghosts_of.get(&body).filter(|_| ghosts);
+            for ghost in its.into_iter().flatten() {
                 let bodies = std::slice::from_ref(&ghost.body);
                 let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
                 let text = self.beside(planned, (&ghost.body, side), &then, screen, room);
@@ -117,6 +122,17 @@ impl Labels {
         texts
     }
 
+    /// The ghosts of a frame by the numbers of their bodies, if a label stands at ghosts.
+    fn ghosts_by_body<'a>(&self, frame: &'a Frame) -> HashMap<usize, Vec<&'a Ghost>> {
+        let mut by_body: HashMap<usize, Vec<&Ghost>> = HashMap::new();
+        let at_ghosts =
+            |planned: &Planned| matches!(planned.label.place, LabelPlace::Body { ghosts: true, .. });
+        if self.labels.iter().any(at_ghosts) {
+            frame.past.ghosts.iter().for_each(|ghost| by_body.entry(ghost.body.id).or_default().push(ghost));
+        }
+        by_body
+    }
+
     fn in_corner<'a>(&'a self, planned: &'a Planned, now: &Moment<'_>) -> Option<Text<'a>> {
         let LabelPlace::Corner(corner) = planned.label.place else { return None };
         let (x, align) = across(corner);
@@ -124,7 +140,7 @@ impl Labels {
             true => Vertical::Top(planned.inset + 0.3 * planned.height),
             false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
         };
-        Some(self.text(planned, (x, y), align, now))
+        Some(planned.text(self.said(&planned.label, now).into(), (x, y), align))
     }
 
     /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
@@ -157,10 +173,11 @@ impl Labels {
             Side::Left => (-to_left - 0.35 * height - farther, -0.3 * height, 1.0),
             Side::Right => (to_right + 0.35 * height + farther, -0.3 * height, 0.0),
         };
+        let said = self.said(&planned.label, moment);
         let candidate = |side: Side, lines: f64| {
             let (x, y, align) = at_side(side, lines * LINE * height);
-            let text = self.text(planned, (spot.x + x, Vertical::Middle(spot.y + y)), align, moment);
-            self.kept_inside(text)
+            let y = Vertical::Middle(spot.y + y);
+            self.kept_inside(planned.text(said.as_str().into(), (spot.x + x, y), align))
         };
         let others = match side {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
@@ -173,7 +190,8 @@ impl Labels {
         let free = candidates.find(|text| room.has_room_for(text));
         let text = free.unwrap_or_else(|| candidate(side, 0.0));
         room.take_text(&text);
-        Some(text)
+        let Text { x, y, align, .. } = text;
+        Some(planned.text(said.into(), (x, y), align))
     }
 
     /// A text that would leave the picture, moved to its edge.
@@ -190,24 +208,6 @@ impl Labels {
         let x = text.x + shift(area.left, area.right, edge);
         let y = text.y.raised(shift(area.bottom, area.top, self.aspect - MARGIN / 2.0));
         Text { x, y, ..text }
-    }
-
-    fn text<'a>(
-        &'a self,
-        planned: &'a Planned,
-        (x, y): (f64, Vertical),
-        align: f64,
-        moment: &Moment<'_>,
-    ) -> Text<'a> {
-        Text {
-            name: &planned.label.name,
-            says: self.said(&planned.label, moment).into(),
-            x,
-            y,
-            height: planned.height,
-            align,
-            color: planned.color,
-        }
     }
 
     /// What a label says at a moment.
@@ -245,6 +245,13 @@ impl Labels {
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
             }
         }
+    }
+}
+
+impl Planned {
+    /// The label, with what it says.
+    fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
+        Text { name: &self.label.name, says, x, y, height: self.height, align, color: self.color }
     }
 }
 
@@ -289,8 +296,9 @@ fn under_bar(corner: Corner, aspect: f64) -> Taken {
     }
 }
 
-/// How far the middle of a line of text in a corner is from the edge: as near as the lines there leave room.
-fn inset_without_overlap(taken: &mut Vec<Taken>, corner: Corner, wide: f64, height: f64) -> f64 {
+/// How far the middle of a line of text in a corner is from the edge: as near as the lines there leave room. Beyond the
+/// other edge of the picture, at `most`, nothing is seen, so no room is kept.
+fn inset_without_overlap(taken: &mut Vec<Taken>, corner: Corner, [wide, height]: [f64; 2], most: f64) -> f64 {
     let (x, align) = across(corner);
     let across = [x - align * wide, x - align * wide + wide];
     let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] - 1e-9 && b[0] < a[1] - 1e-9;
@@ -304,6 +312,7 @@ fn inset_without_overlap(taken: &mut Vec<Taken>, corner: Corner, wide: f64, heig
                 && overlap(line.inset, down)
         });
         match hidden.map(|line| line.inset[1]).reduce(f64::max) {
+            Some(end) if end > most => return end + height / 2.0,
             Some(end) => begin = end,
             None => {
                 taken.push(Taken { is_top: is_top(corner), across, inset: down });

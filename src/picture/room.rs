@@ -5,6 +5,9 @@ use glam::DVec3;
 use super::screen::Screen;
 use super::text::Text;
 
+/// So many cells side by side are as wide as the picture.
+const CELLS: f64 = 48.0;
+
 /// A part of the picture, whose width is 2; the middle of the picture is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rectangle {
@@ -22,24 +25,58 @@ struct Stripe {
     half: f64,
 }
 
-/// What is taken of a picture.
+/// What is taken of a picture. Each cell of the picture knows what reaches into it, so the search for a free part looks
+/// at what is near alone.
 #[derive(Debug)]
 pub(super) struct Room {
     /// The height of the picture, as part of its width.
     aspect: f64,
+    /// How many cells there are across and upward.
+    across: usize,
+    upward: usize,
+    /// Row by row from the lower left one.
+    cells: Vec<Cell>,
+}
+
+/// What is taken in a cell.
+#[derive(Clone, Debug, Default)]
+struct Cell {
+    /// Rectangles in the cell, of which none is inside another.
     taken: Vec<Rectangle>,
     stripes: Vec<Stripe>,
+}
+
+impl Cell {
+    /// Takes a part of the cell.
+    fn take(&mut self, part: Rectangle) {
+        if !self.has_taken(part) {
+            self.taken.retain(|other| !part.covers(*other));
+            self.taken.push(part);
+        }
+    }
+
+    /// Whether a single rectangle takes all of a part of the cell.
+    fn has_taken(&self, part: Rectangle) -> bool {
+        self.taken.iter().any(|other| other.covers(part))
+    }
 }
 
 impl Room {
     /// A picture of which nothing is taken.
     pub(super) fn new(aspect: f64) -> Room {
-        Room { aspect, taken: Vec::new(), stripes: Vec::new() }
+        let (across, upward) = (CELLS, (CELLS * aspect).ceil().clamp(1.0, CELLS));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "both are 48 at most")]
+        let (across, upward) = (across as usize, upward as usize);
+        Room { aspect, across, upward, cells: Vec::new() }
     }
 
     /// Takes a part of the picture.
     pub(super) fn take(&mut self, part: Rectangle) {
-        self.taken.push(part);
+        self.each_cell(part, |cell, place| {
+            if part.overlaps(place) {
+                cell.take(part.within(place));
+            }
+        });
     }
 
     /// Takes the part of the picture in which a text stands.
@@ -66,17 +103,71 @@ impl Room {
 
     /// Takes a line of a width.
     fn stripe(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
-        self.stripes.push(Stripe { from, to, half: width / 2.0 });
+        let stripe = Stripe { from, to, half: width / 2.0 };
+        self.each_cell(stripe.bounds(), |cell, place| {
+            if !cell.has_taken(place) && stripe.meets(place) {
+                cell.stripes.push(stripe);
+            }
+        });
     }
 
     /// Whether a part is in the picture and nothing of it is taken.
     pub(super) fn is_free(&self, part: Rectangle) -> bool {
         let inside =
             part.left >= -1.0 && part.right <= 1.0 && part.bottom >= -self.aspect && part.top <= self.aspect;
-        inside
-            && !self.taken.iter().any(|other| part.overlaps(*other))
-            && !self.stripes.iter().any(|stripe| stripe.meets(part))
+        let is_taken = |cell: &Cell| {
+            cell.taken.iter().any(|other| part.overlaps(*other))
+                || cell.stripes.iter().any(|stripe| stripe.meets(part))
+        };
+        let mut cells = self.numbers(part).filter_map(|number| self.cells.get(number));
+        inside && !cells.any(is_taken)
     }
+
+    /// Does something with the cells, and their places, into which a part of the picture reaches.
+    fn each_cell(&mut self, part: Rectangle, mut work: impl FnMut(&mut Cell, Rectangle)) {
+        if self.cells.is_empty() {
+            self.cells = vec![Cell::default(); self.across * self.upward];
+        }
+        for number in self.numbers(part) {
+            let place = self.place(number);
+            work(&mut self.cells[number], place);
+        }
+    }
+
+    /// The numbers of the cells into which a part of the picture reaches.
+    fn numbers(&self, part: Rectangle) -> impl Iterator<Item = usize> + use<> {
+        let across = self.across;
+        let columns = range([part.left, part.right], 1.0, across);
+        let rows = range([part.bottom, part.top], self.aspect, self.upward);
+        rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
+    }
+
+    /// The place of a cell.
+    #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
+    fn place(&self, number: usize) -> Rectangle {
+        let (row, column) = (number / self.across, number % self.across);
+        let edge = |number: usize, half: f64, count: usize| half * (2.0 * number as f64 / count as f64 - 1.0);
+        Rectangle {
+            left: edge(column, 1.0, self.across),
+            right: edge(column + 1, 1.0, self.across),
+            bottom: edge(row, self.aspect, self.upward),
+            top: edge(row + 1, self.aspect, self.upward),
+        }
+    }
+}
+
+/// The numbers of the cells between two places, of so many between `-half` and `half`. One more on both sides makes up
+/// for rounding.
+#[allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates, and what is outside the picture belongs to no cell"
+)]
+fn range([low, high]: [f64; 2], half: f64, count: usize) -> std::ops::Range<usize> {
+    let cell = |place: f64| (place / half + 1.0) / 2.0 * count as f64;
+    let (first, end) = (cell(low).floor() - 1.0, cell(high).ceil() + 1.0);
+    first as usize..(end.max(0.0) as usize).min(count)
 }
 
 impl Rectangle {
@@ -86,9 +177,39 @@ impl Rectangle {
             && self.bottom < other.top
             && other.bottom < self.top
     }
+
+    /// What of it is in another part that it overlaps.
+    fn within(self, other: Rectangle) -> Rectangle {
+        Rectangle {
+            left: self.left.max(other.left),
+            right: self.right.min(other.right),
+            bottom: self.bottom.max(other.bottom),
+            top: self.top.min(other.top),
+        }
+    }
+
+    /// Whether nothing of another part is outside this one.
+    fn covers(self, other: Rectangle) -> bool {
+        self.left <= other.left
+            && other.right <= self.right
+            && self.bottom <= other.bottom
+            && other.top <= self.top
+    }
 }
 
 impl Stripe {
+    /// The part of the picture that it is in.
+    fn bounds(self) -> Rectangle {
+        let [low, high] =
+            [f64::min, f64::max].map(|of| [0, 1].map(|axis| of(self.from[axis], self.to[axis])));
+        Rectangle {
+            left: low[0] - self.half,
+            right: high[0] + self.half,
+            bottom: low[1] - self.half,
+            top: high[1] + self.half,
+        }
+    }
+
     /// Whether some of it is in a rectangle: clips its middle line at the four edges (Liang and Barsky).
     fn meets(self, part: Rectangle) -> bool {
         let edges = [
@@ -142,6 +263,43 @@ mod tests {
             let mut room = Room::new(0.5);
             room.stripe(from, to, 0.02);
             assert_eq!(!room.is_free(PART), meets, "{from:?} {to:?}");
+        }
+    }
+
+    /// The cells are only there to be fast.
+    #[test]
+    fn parts_are_free_as_if_each_were_held_against_all_that_is_taken() {
+        let mut state: u32 = 7;
+        let mut random = |low: f64, high: f64| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            low + (high - low) * f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        for (aspect, largest) in [(0.5625, 0.1), (0.5625, 0.9), (3.0, 0.4), (0.01, 0.02)] {
+            let mut room = Room::new(aspect);
+            let (mut taken, mut stripes): (Vec<Rectangle>, Vec<Stripe>) = Default::default();
+            for number in 0..400 {
+                let mut point = || [random(-1.2, 1.2), random(-1.2 * aspect, 1.2 * aspect)];
+                let ([left, bottom], end) = (point(), point());
+                let (right, top) = (left + random(0.01, largest), bottom + random(0.01, largest) * aspect);
+                let part = Rectangle { left, right, bottom, top };
+                let free = !taken.iter().any(|other| part.overlaps(*other))
+                    && !stripes.iter().any(|stripe| stripe.meets(part));
+                let inside = left >= -1.0 && right <= 1.0 && bottom >= -aspect && top <= aspect;
+                assert_eq!(room.is_free(part), free && inside, "{number}: {part:?}");
+                match number % 8 {
+                    0 => {
+                        let half = random(0.001, 0.01);
+                        let to = [left + 0.2 * (end[0] - left), bottom + 0.2 * (end[1] - bottom)];
+                        stripes.push(Stripe { from: [left, bottom], to, half });
+                        room.stripe([left, bottom], to, 2.0 * half);
+                    }
+                    1 | 2 => {
+                        taken.push(part);
+                        room.take(part);
+                    }
+                    _ => {}
+                }
+            }
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The bodies that a force acts on.
 
+use std::collections::HashSet;
+
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -51,14 +53,14 @@ impl Reader<'_, '_> {
     /// Each of the bodies of `on`, and where it is named; none where there is no `on`. To name one twice is an error.
     pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
         let items = view.list("on")?;
-        let mut seen = vec![false; self.bodies.len()];
+        let mut seen = HashSet::with_capacity(items.len());
         let mut named = Vec::with_capacity(items.len());
         for item in items {
             let Some(body) = self.body(item) else { continue };
-            if std::mem::replace(&mut seen[body], true) {
-                self.named_twice(body, item.span);
-            } else {
+            if seen.insert(body) {
                 named.push((body, item.span));
+            } else {
+                self.named_twice(body, item.span);
             }
         }
         Some(named)

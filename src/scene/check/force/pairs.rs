@@ -83,9 +83,9 @@ impl Reader<'_, '_> {
                 None => groups.push((item.span, members)),
             }
         }
-        let mut seen = vec![false; self.bodies.len()];
+        let mut seen = HashSet::new();
         for (body, span) in groups.iter().flat_map(|(_, group)| group) {
-            if std::mem::replace(&mut seen[*body], true) {
+            if !seen.insert(*body) {
                 self.named_twice(*body, *span);
             }
         }
