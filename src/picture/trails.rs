@@ -1,5 +1,8 @@
 //! Lines along the ways of bodies.
 
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use glam::DVec3;
 
 use super::{colors, decimal_step};
@@ -17,6 +20,8 @@ const MOST_PIECES: f64 = 16.0;
 const FINEST: f64 = 50.0;
 /// So many pieces of a way, from one kept point to the next, make a stretch.
 const STRETCH: usize = 32;
+/// So many stretches of a trail are remembered: twice as many as a frame has at most.
+const REMEMBERED: usize = 32;
 
 /// The trail of a body up to a moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +32,8 @@ pub struct Trail {
     pub points: Vec<DVec3>,
     /// The stretches of the line that are the same in all frames that have them, in order.
     pub stretches: Vec<Stretch>,
+    /// The largest coordinate of its points, without its sign, m.
+    pub reach: f64,
     /// Half its width, m.
     pub radius: f64,
     /// What is nearer than this cannot be told apart in the picture, m.
@@ -81,6 +88,54 @@ struct Planned {
     trail: Trail,
     /// The least distance between its points, m. It is the same in all frames, so that stretches are.
     least: f64,
+    stretches: Arc<Remembered>,
+}
+
+/// The points of the stretches of a trail that were made last. A frame has nearly the same stretches as the one before,
+/// so making them anew for each would be most of the work.
+#[derive(Debug, Default)]
+struct Remembered {
+    made: Mutex<VecDeque<Made>>,
+}
+
+/// A stretch with its points, named by its stride and number.
+#[derive(Clone, Debug)]
+struct Made {
+    stride: usize,
+    number: usize,
+    part: Part,
+}
+
+/// The points of a part of a line, and the largest of their coordinates, m: infinite if one is no number.
+#[derive(Clone, Debug)]
+struct Part {
+    points: Arc<[DVec3]>,
+    reach: f64,
+}
+
+impl Part {
+    fn of(points: Vec<DVec3>) -> Part {
+        let far = |point: &DVec3| if point.is_finite() { point.abs().max_element() } else { f64::INFINITY };
+        Part { reach: points.iter().map(far).fold(0.0, f64::max), points: points.into() }
+    }
+}
+
+impl Remembered {
+    /// The stretch of a stride and a number, which is made if it is not remembered.
+    fn part(&self, (stride, number): (usize, usize), make: impl FnOnce() -> Part) -> Part {
+        let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it = |made: &&Made| (made.stride, made.number) == (stride, number);
+        if let Some(it) = made().iter().find(is_it) {
+            return it.part.clone();
+        }
+        let part = make();
+        let mut made = made();
+        if made.len() >= REMEMBERED {
+            made.pop_front();
+        }
+        made.push_back(Made { stride, number, part: part.clone() });
+        part
+    }
 }
 
 impl Trails {
@@ -96,12 +151,13 @@ impl Trails {
                 body: number,
                 points: Vec::new(),
                 stretches: Vec::new(),
+                reach: 0.0,
                 radius: trail.width.unwrap_or(0.0) / 2.0,
                 fineness: decimal_step(least / FINEST),
                 tapers: trail.duration.is_some(),
                 color: trail.color.or(of_body).unwrap_or(AMBER),
             };
-            trails.push(Planned { trail, least });
+            trails.push(Planned { trail, least, stretches: Arc::default() });
         }
         Trails { trails }
     }
@@ -115,10 +171,10 @@ impl Trails {
     pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
         let trail = |way: &Way| {
             let of = self.trails.binary_search_by_key(&way.body, |planned| planned.trail.body).ok()?;
-            let Planned { trail, least } = &self.trails[of];
-            let Line { points, stretches, .. } = Line::along(way, *least);
-            let is_line = points.len() >= 2 && points.iter().all(|point| point.is_finite());
-            is_line.then(|| Trail { points, stretches, ..trail.clone().of_width(stroke) })
+            let Planned { trail, least, stretches } = &self.trails[of];
+            let Line { points, stretches, reach, .. } = Line::along(way, *least, stretches);
+            let is_line = points.len() >= 2 && reach.is_finite();
+            is_line.then(|| Trail { points, stretches, reach, ..trail.clone().of_width(stroke) })
         };
         frame.past.trails.iter().filter_map(trail).collect()
     }
@@ -128,6 +184,8 @@ impl Trails {
 struct Line {
     points: Vec<DVec3>,
     stretches: Vec<Stretch>,
+    /// The largest of the coordinates, m: infinite if one is no number.
+    reach: f64,
     /// The least distance from one point to the next, m.
     least: f64,
 }
@@ -135,13 +193,18 @@ struct Line {
 impl Line {
     /// The line along a way whose points are no nearer to each other than given, m. So the points of a stretch follow
     /// from its own part of the way alone.
-    fn along(way: &Way, least: f64) -> Line {
-        let mut line = Line { points: Vec::new(), stretches: Vec::new(), least };
+    fn along(way: &Way, least: f64, remembered: &Remembered) -> Line {
+        let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
         let mut rest = way.points.as_slice();
         while rest.len() > 1 {
             let number = stretch_at(rest, way.stride);
             let end = number.map_or_else(|| until_stretch(rest, way.stride), |_| STRETCH);
-            let points = between(&rest[..=end], least);
+            let make = || Part::of(between(&rest[..=end], least));
+            let Part { points, reach } = match number {
+                Some(number) => remembered.part((way.stride, number), make),
+                None => make(),
+            };
+            line.reach = line.reach.max(reach);
             match number {
                 Some(number) if points.len() > 1 => {
                     // Of two points at the same place, the first is the last of what was before.
@@ -149,7 +212,7 @@ impl Line {
                         line.points.pop();
                     }
                     let first = line.points.len();
-                    line.points.extend(points);
+                    line.points.extend_from_slice(&points);
                     line.stretches.push(Stretch {
                         stride: way.stride,
                         number,
@@ -157,7 +220,7 @@ impl Line {
                         last: line.points.len() - 1,
                     });
                 }
-                _ => points.into_iter().for_each(|point| line.put(point)),
+                _ => points.iter().for_each(|point| line.put(*point)),
             }
             rest = &rest[end..];
         }
@@ -216,4 +279,32 @@ fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
         }
     }
     line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::Frames;
+
+    /// Frames that come in any order, and one alone, have the same trails.
+    #[test]
+    fn what_is_remembered_of_a_trail_changes_nothing() {
+        let scene = Scene::parse(
+            "simulation.duration = 60\n[body.b]\nshape.sphere.radius = 0.1\ntrail = true\n\
+             motion.formula.location = ['cos(t)', 'sin(t)', 't/9']",
+        );
+        let scene = scene.unwrap();
+        let often = Trails::new(&scene, 0.01);
+        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+        for frame in frames.iter().chain(frames.iter().rev()).step_by(37) {
+            let trails = often.up_to(frame, 0.01);
+            assert_eq!(trails, Trails::new(&scene, 0.01).up_to(frame, 0.01), "{}", frame.index);
+            let far = |trail: &Trail| {
+                trail.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max)
+            };
+            assert!(trails.iter().all(|trail| trail.reach == far(trail)));
+        }
+        let remembered = often.trails[0].stretches.made.lock().unwrap();
+        assert!((17..=REMEMBERED).contains(&remembered.len()), "{}", remembered.len());
+    }
 }

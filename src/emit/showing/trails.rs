@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::{Mutex, PoisonError};
 
+use glam::DVec3;
 use sha2::{Digest, Sha256};
 
 use super::super::{sdl::Style, text};
@@ -69,7 +70,7 @@ impl Trails {
     fn written(&self, plan: &Plan, frame: &Frame) -> impl Iterator<Item = Trail> {
         let style = self.style;
         let can_write = move |trail: &Trail| {
-            trail.points.iter().all(|point| style.can_write(*point))
+            style.can_write(DVec3::splat(trail.reach))
                 && trail.points.windows(2).any(|pair| style.can_tell(pair[0], pair[1]))
         };
         plan.trails(frame).into_iter().filter(can_write)
@@ -102,7 +103,12 @@ impl Trails {
     /// Appends a part of a trail that stands in the script itself, from one point to another.
     fn own(&self, out: &mut String, trail: &Trail, first: usize, last: usize) {
         // Where a body has hardly moved, two stretches meet in points that are nearly the same.
-        let is_line = last > first + 1 || self.point(trail, first) != self.point(trail, last);
+        let text = |number: usize| {
+            let mut out = String::new();
+            self.point(&mut out, trail, number);
+            out
+        };
+        let is_line = last > first + 1 || text(first) != text(last);
         if last > first && is_line {
             out.push_str(&format!("  #local Points = {}", self.array(trail, first, last)));
             self.call(out, trail, "Points", first);
@@ -120,16 +126,18 @@ impl Trails {
 
     /// The points of a trail from one to another.
     fn array(&self, trail: &Trail, first: usize, last: usize) -> String {
-        let points: Vec<String> = (first..=last).map(|number| self.point(trail, number)).collect();
-        format!("array[{}] {{\n{}\n}}\n", points.len(), points.join(",\n"))
+        let mut out = format!("array[{}] {{\n", last + 1 - first);
+        for number in first..=last {
+            self.point(&mut out, trail, number);
+            out.push_str(if number < last { ",\n" } else { "\n}\n" });
+        }
+        out
     }
 
-    /// A point of a trail, as finely as can be seen: more digits would make most of a script.
-    fn point(&self, trail: &Trail, number: usize) -> String {
+    /// Appends a point of a trail, as finely as can be seen: more digits would make most of a script.
+    fn point(&self, out: &mut String, trail: &Trail, number: usize) {
         let step = trail.fineness;
-        let mut out = String::new();
-        self.style.point(&mut out, (trail.points[number] / step).round() * step);
-        out
+        self.style.point(out, (trail.points[number] / step).round() * step);
     }
 
     /// The digest in the name of a stretch.
