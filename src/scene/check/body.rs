@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, look, mesh, motion, shape, showing};
+use super::{Context, habits, look, mesh, motion, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -232,11 +232,12 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
 
 /// Reports an axis without an angle, and an angle without an axis.
 pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context<'_>) {
-    for (key, other) in [("axis", "angle"), ("angle", "axis")] {
+    for (key, other, value) in [("axis", "angle", "45"), ("angle", "axis", "[0, 0, 1]")] {
         if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
             let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
             let error = Diagnostic::error(Code::MissingKey, message).at(span, format!("needs `{other}`"));
-            context.diagnostics.push(error);
+            let (place, text) = habits::before(span, &format!("{other} = {value}"), context);
+            context.diagnostics.push(error.fix(place, text));
         }
     }
 }

@@ -5,6 +5,7 @@ mod body;
 mod braces;
 mod camera;
 mod consequence;
+mod counts;
 mod effect;
 mod force;
 mod geometry;
@@ -30,7 +31,7 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-pub(super) use self::simulation::MAX_FRAMES;
+pub(super) use self::counts::MAX_FRAMES;
 
 use super::expand::{self, Expansion, Groups};
 use super::grammar::{Collection, SCENE};
@@ -60,8 +61,12 @@ struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
     names: Names,
+    /// Where the tables of the scene stand.
+    tables: HashMap<Arc<str>, Span>,
     /// The bodies that are copies of others.
     groups: Groups,
+    /// Whether a force is wrong, so that none can be said to be missing.
+    forces_are_wrong: bool,
     /// Whether what is looked at is a part of a table, which needs none of its keys.
     is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
@@ -103,7 +108,9 @@ impl Context<'_> {
             folder: None,
             trust: false,
             names: Names::default(),
+            tables: HashMap::new(),
             groups: Groups::default(),
+            forces_are_wrong: false,
             is_partial: false,
             told: HashSet::new(),
             wrong_copies: HashMap::new(),
@@ -127,6 +134,11 @@ impl Context<'_> {
     /// Notes what is in a file that is read.
     fn add_file(&mut self, bytes: &[u8]) {
         self.files.push(Sha256::digest(bytes).into());
+    }
+
+    /// Whether there are errors among what has been said since there were `before` diagnostics.
+    fn has_errors(&self, before: usize) -> bool {
+        self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
     /// Whether so many copies of the same body are wrong that no more of them need be looked at: the scene is refused anyway.
@@ -217,6 +229,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         folder: input.folder,
         trust: options.trust,
         names: Names::of(&root),
+        tables: root.entries.iter().map(|entry| (entry.name.text.clone(), entry.name.span)).collect(),
         groups,
         comparisons: suggest::MAX_COMPARISONS,
         assets: sdl::Assets::of(&root, input.folder, options.trust),
@@ -251,11 +264,17 @@ fn build(
     context: &mut Context<'_>,
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
-    let simulation = simulation::read(&root.table("simulation"), needs_steps(&root), context);
+    let (simulation, counts) = simulation::read(&root.table("simulation"), needs_steps(&root));
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);
+    let before = context.diagnostics.len();
     let forces = force::read(&root, &bodies, context);
-    effect::check(&root, &bodies, &forces, context);
+    context.forces_are_wrong |= context.has_errors(before);
+    counts::check(&root, counts, &bodies, &forces, context);
+    // A force that is wrong may be the one that needs them.
+    if !context.forces_are_wrong {
+        effect::check(&root, &bodies, &forces, context);
+    }
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";

@@ -17,24 +17,36 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     // What an unknown key was meant to be is not missing as well.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
-    let hint = habits::hint(table, spec);
-    meant.extend(hint.iter().map(|hint| hint.way[0]));
+    let kind = habits::meant_kind(table, spec, path);
+    meant.extend(kind.iter().filter(|kind| kind.word.is_some()).map(|kind| kind.way[0]));
+    let pair = habits::mend_ends(table, spec, kind.as_ref(), path, context)
+        .or_else(|| habits::mend_launch(table, spec, path, context));
+    let said = pair.map_or_else(Vec::new, |(error, spans, key)| {
+        context.diagnostics.push(error);
+        meant.push(key);
+        spans
+    });
+    let mut is_something_else = false;
     for entry in &table.entries {
         if let Some(key) = spec.key(&entry.name.text) {
+            let before = context.diagnostics.len();
             value(&entry.node, &key.kind, Some(entry), path, context);
-        } else {
-            let word = &*entry.name.text;
-            let way = habits::way_by_hint(hint.as_ref(), word).or_else(|| suggest::deeper(word, spec));
-            let way = way.or_else(|| suggest::key(word, spec).map(|near| vec![near]));
-            let way = way.or_else(|| suggest::deeper_also(word, spec));
-            meant.extend(way.iter().map(|way| way[0]));
-            let error = unknown_key(entry, way.as_deref(), spec, path);
-            let error = habits::mend_unknown(error, entry, way.as_deref(), table, spec, context);
+            context.forces_are_wrong |=
+                path == "the scene" && key.name == "force" && context.has_errors(before);
+        } else if !said.contains(&entry.name.span) {
+            let nameless = if path == "the scene" { habits::nameless(entry, context) } else { None };
+            let (error, key) = match nameless {
+                Some((error, key)) => (error, Some(key)),
+                None => habits::unknown(entry, kind.as_ref(), table, spec, path, context),
+            };
+            context.forces_are_wrong |= path == "the scene" && key.is_none_or(|key| key == "force");
+            is_something_else |= key.is_none();
+            meant.extend(key);
             context.diagnostics.push(error);
         }
     }
-    if let Some(hint) = &hint {
-        habits::mend_hint(hint, table, before, context);
+    if let Some(kind) = &kind {
+        habits::mend_word(kind, table, before, context);
     }
     let is_whole = !context.is_partial;
     for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
@@ -43,22 +55,10 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
             context.diagnostics.push(error);
         }
     }
-    rule(table, spec, &meant, at, path, context);
-}
-
-fn unknown_key(entry: &Entry, meant: Option<&[&str]>, spec: &TableSpec, path: &str) -> Diagnostic {
-    let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{}` in {path}", entry.name.text));
-    match meant {
-        Some(way) => error.at(entry.name.span, format!("did you mean `{}`?", way.join("."))),
-        None => error.at(entry.name.span, format!("not a key of {}", spec.noun)).help(known_keys(spec)),
+    // What is of no kind that there is has been said to be so.
+    if !is_something_else || !matches!(spec.rule, Rule::ExactlyOne(_)) {
+        rule(table, spec, &meant, at, path, context);
     }
-}
-
-/// The keys of a table, in words.
-fn known_keys(spec: &TableSpec) -> String {
-    let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
-    let s = if names.len() == 1 { "" } else { "s" };
-    format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }
 
 fn missing_key(key: &Key, at: Option<Span>, path: &str) -> Diagnostic {
@@ -79,7 +79,7 @@ fn lower_first(text: &str) -> String {
 
 fn rule(
     table: &Table,
-    spec: &TableSpec,
+    spec: &'static TableSpec,
     meant: &[&str],
     at: Option<Span>,
     path: &str,
@@ -105,10 +105,11 @@ fn rule(
             [] => {
                 let message = format!("{} needs one of {}", spec.noun, quoted(names));
                 let error = Diagnostic::error(Code::MissingKey, message);
-                context.diagnostics.push(match at {
+                let error = match at {
                     Some(span) => error.at(span, format!("{path} says none of them")),
                     None => error,
-                });
+                };
+                context.diagnostics.push(habits::mend_kind(error, spec, at, path, context));
             }
             entries => context.diagnostics.push(exclusive(entries, path)),
         },
@@ -197,7 +198,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Table(spec) => match node.as_table() {
             Some(inner) if is_known(inner, context) => {}
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
-            None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
+            None => context.diagnostics.push(read::wrong_type(node, kind).help(habits::known_keys(spec))),
         },
         Kind::Partial(spec) => match node.as_table() {
             Some(inner) => {
@@ -207,7 +208,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
                 context.is_partial = false;
                 context.once(before, "", node.span);
             }
-            None => context.diagnostics.push(read::wrong_type(node, kind).help(known_keys(spec))),
+            None => context.diagnostics.push(read::wrong_type(node, kind).help(habits::known_keys(spec))),
         },
         Kind::Variables => match node.as_table() {
             Some(inner) => {
@@ -249,12 +250,13 @@ fn inner_path(entry: Option<&Entry>, path: &str) -> String {
     format!("`{}` of {table}", entry.name.text)
 }
 
-fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: &mut Context<'_>) {
-    let word = entry.map_or("", |entry| &*entry.name.text);
+fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &mut Context<'_>) {
+    let word = sort.map_or("", |entry| &*entry.name.text);
     let Some(tables) = node.as_table() else {
         let found = node.in_words();
         let message = format!("expected tables with names, as in `[{word}.NAME]`, found {found}");
-        context.diagnostics.push(Diagnostic::error(Code::WrongType, message).at(node.span, ""));
+        let error = Diagnostic::error(Code::WrongType, message).at(node.span, "");
+        context.diagnostics.push(habits::mend_array(error, node, word, context));
         return;
     };
     for entry in &tables.entries {
@@ -271,11 +273,14 @@ fn named(node: &Node, spec: &'static TableSpec, entry: Option<&Entry>, context: 
             _ => {
                 let name = &entry.name.text;
                 let message = format!("`{name}` stands in [{word}], where only tables with names do");
-                let help = format!("name {} with `[{word}.NAME]`, and write `{name}` below it", spec.noun);
-                let label = format!("of which {}?", spec.noun.trim_start_matches("a "));
-                context.diagnostics.push(
-                    Diagnostic::error(Code::UnnamedTable, message).at(entry.name.span, label).help(help),
-                );
+                let help = format!("name a {word} with `[{word}.NAME]`, and write `{name}` below it");
+                let label = format!("of which {word}?");
+                let error =
+                    Diagnostic::error(Code::UnnamedTable, message).at(entry.name.span, label).help(help);
+                context.diagnostics.push(match sort {
+                    Some(sort) => habits::mend_unnamed(error, sort, entry, spec, context),
+                    None => error,
+                });
             }
         }
     }
@@ -294,7 +299,7 @@ fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
 }
 
 /// A name as TOML writes it in a header.
-fn as_key(name: &str) -> String {
+pub(super) fn as_key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { format!("\"{name}\"") }
 }

@@ -97,8 +97,16 @@ impl Expander<'_> {
             let message = format!("expected spacings of {directions}, found {}", spacing.len());
             let error =
                 Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
-            let (spacing, count) = (view.span("spacing")?, view.span("count")?);
-            self.diagnostics.push(error.at(spacing, "").at(count, format!("the grid has {directions}")));
+            let (spacings, spacing, count) = (spacing.len(), view.span("spacing")?, view.span("count")?);
+            let error = error.at(spacing, "").at(count, format!("the grid has {directions}"));
+            // A grid of so many directions, with one copy along those that are not given.
+            let padded = counts.iter().map(usize::to_string).chain(std::iter::repeat("1".to_owned()));
+            let padded: Vec<String> = padded.take(spacings).collect();
+            let is_short = counts.len() < spacings && spacings <= 3;
+            self.diagnostics.push(match is_short {
+                true => error.fix(count, format!("[{}]", padded.join(", "))),
+                false => error,
+            });
             return None;
         }
         let along = |direction: usize| spacing.get(direction).copied().unwrap_or(0.0);

@@ -1,0 +1,266 @@
+//! How many frames and timesteps a scene has.
+
+use super::Context;
+use super::habits::{insertion, is_file};
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Severity, Span};
+use crate::dynamics::Spring;
+use crate::scene::{Body, Force, ForceKind};
+
+/// More frames than anyone renders: eleven hours at 25 frames per second.
+pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
+/// More timesteps than are taken.
+pub(super) const MAX_STEPS: f64 = 1e11;
+/// More timesteps than anybody wants who has not said how long one is: five days of 1/240 s.
+const MANY_STEPS: f64 = 1e8;
+/// So many timesteps are taken in the shortest time that the start shows, where nobody has said how long one is.
+const STEPS_OF_A_TIME: f64 = 100.0;
+/// So many frames make a film of 20 seconds.
+const USUAL_FRAMES: f64 = 500.0;
+/// So many bodies are looked at, each with each.
+const MAX_BODIES: usize = 1000;
+
+/// How many frames and timesteps there are.
+#[derive(Clone, Copy)]
+pub(super) struct Counts {
+    pub(super) duration: f64,
+    pub(super) frame_rate: f64,
+    pub(super) step: f64,
+    /// Whether any timestep is taken: not where the motion of every body is given.
+    pub(super) needs_steps: bool,
+}
+
+impl Counts {
+    fn frames(self) -> f64 {
+        (self.duration * self.frame_rate).round() + 1.0
+    }
+
+    fn steps(self) -> f64 {
+        if self.needs_steps { self.duration / self.step.min(1.0 / self.frame_rate) } else { 0.0 }
+    }
+
+    /// Whether there are more than can be counted.
+    pub(super) fn are_too_many(self) -> bool {
+        self.frames() > MAX_FRAMES || self.steps() > MAX_STEPS
+    }
+
+    /// The longest timestep that suits how the bodies start; a tenth of a frame where that shows no time.
+    fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
+        let shortest = shortest_time(bodies, forces);
+        let step = if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 / self.frame_rate };
+        step.min(1.0 / self.frame_rate)
+    }
+}
+
+/// Says where there are too many of them, with the values that would suit.
+pub(super) fn check(
+    root: &View<'_>,
+    counts: Counts,
+    bodies: &[Body],
+    forces: &[Force],
+    context: &mut Context<'_>,
+) {
+    let view = root.table("simulation");
+    let frames = counts.frames();
+    if frames > MAX_FRAMES {
+        let Counts { duration, frame_rate, .. } = counts;
+        let message =
+            format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
+        let rate = written(one_digit(USUAL_FRAMES / duration));
+        let longest = written(digit_below((MAX_FRAMES - 1.0) / frame_rate));
+        let help = format!(
+            "frames = duration × frame_rate + 1: `frame_rate = {rate}` makes some {USUAL_FRAMES}, \
+             or `duration = {longest}` fits"
+        );
+        let error = Diagnostic::error(Code::TooManyFrames, message).help(help);
+        let slower = Counts { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts };
+        let mut values = vec![("frame_rate", rate)];
+        if slower.steps() > MANY_STEPS && !view.has("step") {
+            values.push(("step", written(one_digit(slower.sensible_step(bodies, forces)))));
+        }
+        let error = point(error, &view, &["duration", "frame_rate"]);
+        context.diagnostics.push(with_values(error, root, &view, &values, context));
+        return;
+    }
+    let steps = counts.steps();
+    let severity = match steps {
+        steps if steps > MAX_STEPS => Severity::Error,
+        steps if steps > MANY_STEPS && !view.has("step") => Severity::Warning,
+        _ => return,
+    };
+    let step = one_digit(counts.sensible_step(bodies, forces));
+    let said = if severity == Severity::Error {
+        let message =
+            format!("the scene has {} timesteps; at most {} are taken", count(steps), count(MAX_STEPS));
+        let help = "timesteps = duration / step, where a step is at most one frame long";
+        point(
+            Diagnostic::error(Code::TooManySteps, message).help(help),
+            &view,
+            &["step", "duration", "frame_rate"],
+        )
+    } else {
+        let message = format!("the scene has {} timesteps: without `step`, each is 1/240 s", count(steps));
+        let help = format!(
+            "with `step = {}`, there are {}",
+            written(step),
+            count(Counts { step, ..counts }.steps().ceil())
+        );
+        let warning = Diagnostic::warning(Code::TooManySteps, message).help(help);
+        point(warning, &view, &["duration"])
+    };
+    let suits = Counts { step, ..counts }.steps() <= MANY_STEPS;
+    let values = [("step", written(step))];
+    context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
+}
+
+/// The shortest time that the start of a scene shows: in which a body comes as far as another one is from it, at the speed at
+/// which the two move against each other, or a spring turns a motion round.
+fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
+    let free = |body: &Body| body.motion.is_none() && !body.start.fixed;
+    let bounded: Vec<&Body> =
+        bodies.iter().filter(|body| body.motion.is_none() && !body.shape.is_unbounded()).collect();
+    let bounded = &bounded[..bounded.len().min(MAX_BODIES)];
+    let velocity = |body: &Body| if body.start.fixed { glam::DVec3::ZERO } else { body.start.velocity };
+    let pairs = bounded
+        .iter()
+        .enumerate()
+        .flat_map(|(i, one)| bounded[i + 1..].iter().map(move |two| (*one, *two)))
+        .filter(|(one, two)| free(one) || free(two));
+    let meetings = pairs.map(|(one, two)| {
+        one.start.location.distance(two.start.location) / velocity(one).distance(velocity(two))
+    });
+    let links = forces.iter().flat_map(|force| match &force.kind {
+        ForceKind::Spring { links, .. } => links.as_slice(),
+        _ => &[],
+    });
+    let swings = links.map(|Spring { between, stiffness, .. }| {
+        let bodies = between.iter().filter_map(|end| bodies.get(end.body()?.index()));
+        let lightest =
+            bodies.filter(|body| free(body)).map(|body| body.start.mass).fold(f64::INFINITY, f64::min);
+        (lightest / stiffness).sqrt()
+    });
+    // Those at one place, or at rest against each other, show none.
+    meetings.chain(swings).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Points at the values of those keys that are given.
+fn point(error: Diagnostic, view: &View<'_>, keys: &[&str]) -> Diagnostic {
+    keys.iter().filter_map(|key| view.span(key)).fold(error, |error, span| error.at(span, ""))
+}
+
+/// Adds the lines that give keys of `[simulation]` these values.
+fn with_values(
+    said: Diagnostic,
+    root: &View<'_>,
+    view: &View<'_>,
+    values: &[(&str, String)],
+    context: &Context<'_>,
+) -> Diagnostic {
+    let edit = |(key, value): &(&str, String)| -> Option<(Span, String)> {
+        match view.span(key) {
+            Some(span) => Some((span, value.clone())),
+            None => insertion(root.key_span("simulation")?, &format!("{key} = {value}"), context),
+        }
+    };
+    let Some(mut edits) = values.iter().map(edit).collect::<Option<Vec<_>>>() else { return said };
+    // Two lines at one place are one piece.
+    if let [(one, first), (two, second)] = edits.as_mut_slice()
+        && one == two
+    {
+        first.push_str(second);
+        edits.truncate(1);
+    }
+    let source = edits[0].0.source;
+    if !is_file(source, context) || edits.iter().any(|(span, _)| span.source != source) {
+        return said;
+    }
+    edits.into_iter().fold(said, |said, (span, text)| said.fix(span, text))
+}
+
+/// A number rounded to one digit.
+fn one_digit(number: f64) -> f64 {
+    format!("{number:.0e}").parse().unwrap_or(number)
+}
+
+/// The largest number of one digit that is not above this one.
+fn digit_below(number: f64) -> f64 {
+    let text = format!("{number:e}");
+    let cut = text.split_once('e').map(|(digits, power)| format!("{}e{power}", &digits[..1]));
+    cut.and_then(|cut| cut.parse().ok()).unwrap_or(number)
+}
+
+/// A number as TOML has it: `0.02`, `2e-7`, `30000`.
+fn written(number: f64) -> String {
+    if (0.001..1e7).contains(&number) { number.to_string() } else { format!("{number:e}") }
+}
+
+/// A number that may be large, so that it can be read: `1,000,001`.
+fn count(number: f64) -> String {
+    if number >= 1e15 {
+        let most = f64::MAX.min(number);
+        return format!("{}{most:.1e}", if number.is_finite() { "" } else { "more than " });
+    }
+    let digits = format!("{number:.0}");
+    let mut text = String::new();
+    for (place, digit) in digits.char_indices() {
+        if place > 0 && (digits.len() - place) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scene;
+
+    const YEAR: &str = "simulation = { duration = 3.16e7, frame_rate = 1e-5 }\n";
+
+    fn warnings(text: &str) -> String {
+        Scene::parse(&format!("{YEAR}{text}")).unwrap().warnings.to_text(false)
+    }
+
+    #[test]
+    fn suggested_numbers_have_one_digit_and_stay_below_a_limit() {
+        assert_eq!(written(one_digit(500.0 / 86_400.0)), "0.006");
+        assert_eq!(written(one_digit(1.58e-5)), "2e-5");
+        assert_eq!(written(digit_below(999_999.0 / 25.0)), "30000");
+        assert_eq!(written(digit_below(999_999.0)), "900000");
+    }
+
+    /// The third comes to the second in 1000 s, and the spring's mass is 4 kg: √(4/1e-6) = 2000 s.
+    #[test]
+    fn the_step_is_a_hundredth_of_the_shortest_time_of_the_start() {
+        let bodies = "
+            [body.one]
+            shape.sphere.radius = 1
+            mass = 4
+            location = [0, 1e6, 0]
+            [body.two]
+            shape.sphere.radius = 1
+            fixed = true
+            [force.a.spring]
+            between = ['one', [0, 2e6, 0]]
+            stiffness = 1e-6
+            ";
+        let third = "
+            [body.three]
+            shape.sphere.radius = 1
+            location = [3000, 4000, 0]
+            velocity = [0, 5, 0]
+            ";
+        assert!(warnings(bodies).contains("`step = 20`"), "{}", warnings(bodies));
+        let text = format!("{bodies}{third}");
+        assert!(warnings(&text).contains("`step = 10`"), "{}", warnings(&text));
+    }
+
+    #[test]
+    fn what_takes_no_steps_gets_no_warning() {
+        let moved = "[body.a]\nshape.sphere.radius = 1\nmotion.formula.location = ['t', 0, 0]\n";
+        assert_eq!(warnings(moved), "");
+        let free = "[body.a]\nshape.sphere.radius = 1\nvelocity = [1, 0, 0]\n";
+        assert!(warnings(free).contains("too-many-steps"), "{}", warnings(free));
+    }
+}

@@ -1,0 +1,149 @@
+//! The two ends of a spring, which other programs name by two keys.
+
+use super::super::Context;
+use super::kind::MeantKind;
+use super::text::{raw, removal, whole};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::TableSpec;
+use crate::scene::source::{Entry, Node, Table, Value};
+
+/// What the ends are called in other programs.
+const ENDS: [&str; 34] = [
+    "from",
+    "to",
+    "start",
+    "end",
+    "a",
+    "b",
+    "first",
+    "second",
+    "body",
+    "other",
+    "anchor",
+    "body1",
+    "body2",
+    "body_1",
+    "body_2",
+    "body_a",
+    "body_b",
+    "object",
+    "object1",
+    "object2",
+    "end1",
+    "end2",
+    "p1",
+    "p2",
+    "parent",
+    "child",
+    "fixed_point",
+    "fixed_end",
+    "pivot",
+    "point",
+    "attached_to",
+    "on",
+    "source",
+    "target",
+];
+
+/// What is said of keys that name the ends, where `between` should, and where they stand.
+pub(in crate::scene::check) fn mend_ends(
+    table: &Table,
+    spec: &'static TableSpec,
+    meant: Option<&MeantKind>,
+    path: &str,
+    context: &Context<'_>,
+) -> Option<(Diagnostic, Vec<Span>, &'static str)> {
+    let (way, inner) = match meant {
+        Some(meant) => (meant.way.as_slice(), meant.spec),
+        None => (&[][..], spec),
+    };
+    let between = inner.key("between")?;
+    if table.get(between.name).is_some() {
+        return None;
+    }
+    let is_end = |entry: &&Entry| {
+        let word = entry.name.text.to_lowercase();
+        ENDS.contains(&word.as_str()) && spec.key(&word).is_none() && inner.key(&word).is_none()
+    };
+    let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
+    entries.sort_by_key(|entry| entry.name.span);
+    let (first, second) = match entries.as_slice() {
+        [only] => (*only, None),
+        [first, second] => (*first, Some(*second)),
+        _ => return None,
+    };
+    let list = match second {
+        Some(second) => {
+            format!("[{}, {}]", end(&first.node, context), end(&second.node, context))
+        }
+        None => with_other_end(&first.node, context)?,
+    };
+    let key = way.iter().copied().chain([between.name]).collect::<Vec<_>>().join(".");
+    let names: Vec<String> =
+        [Some(first), second].into_iter().flatten().map(|entry| format!("`{}`", entry.name.text)).collect();
+    let s = if second.is_some() { "s" } else { "" };
+    let message = format!("unknown key{s} {} in {path}", names.join(" and "));
+    let error = Diagnostic::error(Code::UnknownKey, message);
+    let error = error.at(first.name.span, "`between` lists both ends");
+    let mut spans = vec![first.name.span];
+    let mut error = error.fix(whole(first), format!("{key} = {list}"));
+    if let Some(second) = second {
+        spans.push(second.name.span);
+        error = error.at(second.name.span, "").fix(removal(whole(second), context)?, "");
+    }
+    Some((error, spans, way.first().copied().unwrap_or(between.name)))
+}
+
+/// An end as it stands in `between`: of a list of one name, the name.
+fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
+    match &node.value {
+        Value::Array(items) => match items.as_slice() {
+            [only] => raw(only.span, context),
+            _ => raw(node.span, context),
+        },
+        _ => raw(node.span, context),
+    }
+}
+
+/// Both ends, where somebody has given one: another body, or else a point of the world.
+pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<String> {
+    let (one, name) = match &node.value {
+        Value::Array(items) => match items.as_slice() {
+            [only] => (raw(only.span, context), only.as_str()),
+            [first, second] if first.as_str().is_some() && second.as_str().is_some() => {
+                return Some(raw(node.span, context).to_owned());
+            }
+            [_, _, _] => (raw(node.span, context), None),
+            _ => return None,
+        },
+        Value::String(name) => (raw(node.span, context), Some(&**name)),
+        _ => return None,
+    };
+    let other = bodies(context).into_iter().find(|body| Some(*body) != name);
+    let other = other.map_or_else(|| "[0, 0, 0]".to_owned(), |body| format!("\"{body}\""));
+    Some(format!("[{one}, {other}]"))
+}
+
+/// Both ends, where somebody has given none.
+pub(super) fn example(context: &Context<'_>) -> Option<String> {
+    match bodies(context).as_slice() {
+        [] => None,
+        [only] => Some(format!("[\"{only}\", [0, 0, 0]]")),
+        [first, second, ..] => Some(format!("[\"{first}\", \"{second}\"]")),
+    }
+}
+
+/// The names of the first bodies, in the order of the file; the copies of one have a name together.
+fn bodies<'a>(context: &'a Context<'_>) -> Vec<&'a str> {
+    let mut names: Vec<(&str, usize)> = context
+        .names
+        .bodies
+        .iter()
+        .map(|(name, number)| (context.groups.original(name).unwrap_or(name), *number))
+        .filter(|(name, _)| !name.contains(['"', '\\']))
+        .collect();
+    names.sort_unstable_by_key(|(_, number)| *number);
+    names.dedup_by_key(|(name, _)| *name);
+    names.truncate(3);
+    names.into_iter().map(|(name, _)| name).collect()
+}

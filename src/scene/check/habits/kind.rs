@@ -1,0 +1,131 @@
+//! Which of several kinds a table was meant to be, where its keys do not stand below one of them.
+
+use super::super::Context;
+use super::key_of;
+use super::text::{removal, whole};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::source::{Entry, Table};
+
+/// A kind that was meant, as `shape.sphere` of a body.
+pub(in crate::scene::check) struct MeantKind {
+    /// The way from the table to the kind.
+    pub(in crate::scene::check) way: Vec<&'static str>,
+    /// The keys of the kind.
+    pub(super) spec: &'static TableSpec,
+    /// The key with the word that names it, `type = "sphere"`, if there is one.
+    pub(in crate::scene::check) word: Option<Span>,
+    /// Whether keys of the kind stand in the table.
+    has_keys: bool,
+}
+
+impl MeantKind {
+    /// The way to a key of the kind.
+    pub(super) fn way_to(&self, word: &str) -> Option<Vec<&'static str>> {
+        let key = key_of(word, self.spec)?;
+        Some(self.way.iter().copied().chain([key.name]).collect())
+    }
+}
+
+/// The kind that a table was meant to be: by a word, by a kind that is there already, or by its name and its keys.
+pub(in crate::scene::check) fn meant_kind(
+    table: &Table,
+    spec: &'static TableSpec,
+    path: &str,
+) -> Option<MeantKind> {
+    by_word(table, spec).or_else(|| by_keys(table, spec, path))
+}
+
+/// The kinds that a table may be, and the way to them: those of a body are those of its shape.
+fn kinds_of(spec: &'static TableSpec) -> Option<(Vec<&'static str>, &'static TableSpec)> {
+    match (&spec.rule, spec.key("shape").map(|key| &key.kind)) {
+        (Rule::ExactlyOne(_), _) => Some((Vec::new(), spec)),
+        (_, Some(Kind::Table(kinds))) => Some((vec!["shape"], kinds)),
+        _ => None,
+    }
+}
+
+/// The kind that a table names by a word: `shape = "sphere"`, `type = "point"`.
+fn by_word(table: &Table, spec: &'static TableSpec) -> Option<MeantKind> {
+    let found = table.entries.iter().find_map(|entry| {
+        let word = entry.node.as_str()?;
+        let name = &*entry.name.text;
+        let (mut way, kinds) = match spec.key(name) {
+            Some(Key { kind: Kind::Table(kinds), name, .. }) => (vec![*name], *kinds),
+            None if matches!(name, "type" | "kind") => kinds_of(spec).unwrap_or((Vec::new(), spec)),
+            _ => return None,
+        };
+        let Rule::ExactlyOne(names) = &kinds.rule else { return None };
+        let key = key_of(word, kinds).filter(|key| names.contains(&key.name))?;
+        way.push(key.name);
+        Some((entry.name.span, way, key.kind.table()?))
+    });
+    let (word, way, spec) = found?;
+    let is_of_it = |name: &str| key_of(name, spec).is_some() || way.len() == 1 && way[0] == name;
+    let has_keys = table.entries.iter().any(|entry| is_of_it(&entry.name.text));
+    Some(MeantKind { way, spec, word: Some(word), has_keys })
+}
+
+/// The kind that has most of the keys which the table itself has not; of several, the one that it is named after.
+fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantKind> {
+    let (way, kinds) = kinds_of(spec)?;
+    let Rule::ExactlyOne(names) = &kinds.rule else { return None };
+    // The own words of a thing come before those of its shape, and a kind before the keys of others.
+    let is_free = |entry: &&Entry| {
+        let word = &*entry.name.text;
+        let own = key_of(word, spec);
+        spec.key(word).is_none() && own.is_none_or(|own| way.is_empty() && !own.kind.takes(&entry.node.value))
+    };
+    let words: Vec<&str> = table.entries.iter().filter(is_free).map(|entry| &*entry.name.text).collect();
+    if words.is_empty() {
+        return None;
+    }
+    let present = match way.first() {
+        Some(shape) => table.get(shape).and_then(|entry| entry.node.as_table()),
+        None => Some(table),
+    };
+    let is_there = |name: &str| present.is_some_and(|table| table.get(name).is_some());
+    let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
+    let is_named = |key: &Key| key_of(name, kinds).is_some_and(|named| named.name == key.name);
+    // A key by its own name counts more than one by another program's.
+    let fits = |inner: &'static TableSpec| -> usize {
+        let worth = |word: &&str| match inner.key(word) {
+            Some(_) => 2,
+            None => usize::from(key_of(word, inner).is_some()),
+        };
+        words.iter().map(worth).sum()
+    };
+    let candidates = kinds.keys.iter().filter(|key| names.contains(&key.name));
+    let (_, key, spec) = candidates
+        .filter_map(|key| Some((key, key.kind.table()?)))
+        .map(|(key, inner)| ((is_there(key.name), fits(inner), is_named(key)), key, inner))
+        .filter(|((_, fits, _), ..)| *fits > 0)
+        .rev()
+        .max_by_key(|(worth, ..)| *worth)?;
+    let has_keys = true;
+    Some(MeantKind { way: way.into_iter().chain([key.name]).collect(), spec, word: None, has_keys })
+}
+
+/// Adds what belongs in the place of the word that names a kind, to what has been said since there were `before`
+/// diagnostics.
+pub(in crate::scene::check) fn mend_word(
+    meant: &MeantKind,
+    table: &Table,
+    before: usize,
+    context: &mut Context<'_>,
+) {
+    let Some(entry) = table.entries.iter().find(|entry| Some(entry.name.span) == meant.word) else { return };
+    let example = if meant.has_keys {
+        removal(whole(entry), context).map(|line| (line, String::new()))
+    } else {
+        super::missing::example(&meant.way, meant.spec, context).map(|text| (whole(entry), text))
+    };
+    let is_of_it = |diagnostic: &&mut Diagnostic| {
+        diagnostic.span().is_some_and(|span| span == entry.name.span || span == entry.node.span)
+    };
+    if let (Some(diagnostic), Some((span, text))) =
+        (context.diagnostics[before..].iter_mut().find(is_of_it), example)
+    {
+        *diagnostic = Diagnostic { fix: None, ..diagnostic.clone() }.fix(span, text);
+    }
+}

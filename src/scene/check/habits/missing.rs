@@ -1,0 +1,118 @@
+//! Keys that are missing, with an example of each.
+
+use super::super::Context;
+use super::text::{header_end, is_file};
+use super::{ends, key_of};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+
+/// A key that is missing, with an example of it at its place.
+pub(in crate::scene::check) fn mend_missing(
+    error: Diagnostic,
+    key: &Key,
+    at: Option<Span>,
+    context: &Context<'_>,
+) -> Diagnostic {
+    let text = match &key.kind {
+        Kind::Table(spec) => match &spec.rule {
+            Rule::ExactlyOne(names) => match spec.key(names[0]) {
+                Some(first) => {
+                    first.kind.table().and_then(|inner| example(&[key.name, first.name], inner, context))
+                }
+                None => None,
+            },
+            _ => None,
+        },
+        _ => example_of(key, context).map(|value| format!("{} = {value}", key.name)),
+    };
+    inserted(error, text, at, context)
+}
+
+/// A table that must be one of several kinds and is none, with an example of the kind that it is named after.
+pub(in crate::scene::check) fn mend_kind(
+    error: Diagnostic,
+    spec: &'static TableSpec,
+    at: Option<Span>,
+    path: &str,
+    context: &Context<'_>,
+) -> Diagnostic {
+    let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
+    let Some(key) = key_of(name, spec) else { return error };
+    let text = key.kind.table().and_then(|inner| example(&[key.name], inner, context));
+    inserted(error, text, at, context)
+}
+
+fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: &Context<'_>) -> Diagnostic {
+    match at.zip(text).and_then(|(at, text)| insertion(at, &text, context)) {
+        Some((span, text)) => error.fix(span, text),
+        None => error,
+    }
+}
+
+/// A whole table of a kind as a line: `shape.sphere.radius = 0.5`.
+pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
+    let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    if keys.is_empty() {
+        // What does nothing without it.
+        keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
+    }
+    let values: Vec<(&str, String)> =
+        keys.iter().map(|key| Some((key.name, example_of(key, context)?))).collect::<Option<_>>()?;
+    let way = way.join(".");
+    Some(match values.as_slice() {
+        [] => format!("{way} = {{}}"),
+        [(key, value)] => format!("{way}.{key} = {value}"),
+        values => {
+            let entries: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+            format!("{way} = {{ {} }}", entries.join(", "))
+        }
+    })
+}
+
+/// A value of a key to begin with.
+pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
+    let text = match (&key.kind, key.name) {
+        (Kind::List { .. }, "between") => return ends::example(context),
+        (Kind::Number(_), "radius" | "every") => "0.5",
+        (Kind::Number(_), "tube_radius" | "linear") => "0.1",
+        (Kind::Number(_), "stiffness" | "period") => "10",
+        (Kind::Number(_), _) => "1",
+        (Kind::Integer(..), "count") => "5",
+        (Kind::Numbers(3, _), "size") => "[1, 1, 1]",
+        (Kind::Numbers(3, _), "magnetic") => "[0, 0, 1]",
+        (Kind::Numbers(3, _), "to") => "[4, 0, 0]",
+        (Kind::TimedNumbers(3, _), "location") => "[3, 5, 4]",
+        (Kind::Direction(3), "direction") => "[-1, -2, -1]",
+        (Kind::Text, "text") => "\"t = ${t:.2} s\"",
+        _ => return None,
+    };
+    Some(text.to_owned())
+}
+
+/// Where a line belongs that is to stand in a table which is named at a place, and the text that does it.
+pub(in crate::scene::check) fn insertion(
+    at: Span,
+    line: &str,
+    context: &Context<'_>,
+) -> Option<(Span, String)> {
+    if !is_file(at.source, context) {
+        return None;
+    }
+    let text = &context.sources.get(at.source).text;
+    let insert = |place: usize, text: String| Some((Span { start: place, end: place, ..at }, text));
+    if let Some(end) = header_end(at, context) {
+        return text[at.end..end]
+            .trim_start_matches('"')
+            .starts_with(']')
+            .then(|| insert(end, format!("\n{line}")))?;
+    }
+    let start = text[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let rest = &text[at.end..];
+    if rest.starts_with('.') && !text[start..at.end].contains(['{', '[', '=']) {
+        let end = rest.find('\n').map_or(text.len(), |newline| at.end + newline);
+        return insert(end, format!("\n{}.{line}", &text[start..at.end]));
+    }
+    let brace = rest.trim_start().strip_prefix('=')?.trim_start().strip_prefix('{')?;
+    let comma = if brace.trim_start().starts_with('}') { " " } else { "," };
+    insert(text.len() - brace.len(), format!(" {line}{comma}"))
+}

@@ -1,0 +1,33 @@
+//! What should have been written in the place of a key or a value, as text that can be pasted.
+
+mod ends;
+mod kind;
+mod launch;
+mod missing;
+mod nameless;
+mod not_built;
+mod table;
+mod text;
+mod unknown;
+mod value;
+mod vector;
+
+pub(super) use self::ends::mend_ends;
+pub(super) use self::kind::{meant_kind, mend_word};
+pub(super) use self::launch::mend_launch;
+pub(super) use self::missing::{insertion, mend_kind, mend_missing};
+pub(super) use self::nameless::{mend_array, mend_unnamed, nameless};
+
+pub(super) use self::text::{before, is_file};
+pub(super) use self::unknown::{known_keys, unknown};
+pub(super) use self::value::{color_for_material, mend_value};
+
+use self::not_built::not_built;
+use crate::scene::grammar::{Key, TableSpec};
+
+/// The key of a table that is called so, here or in other programs.
+fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static Key> {
+    let folded = word.to_lowercase();
+    let is_it = |key: &&Key| key.name == folded || key.also.contains(&folded.as_str());
+    spec.keys.iter().find(is_it)
+}

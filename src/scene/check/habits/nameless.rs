@@ -1,0 +1,190 @@
+//! Tables that need a name of their own, or the kind of thing that they are.
+
+use super::super::validate::as_key;
+use super::super::{Context, suggest};
+use super::key_of;
+use super::text::{header_end, raw, removal, whole};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::source::{Entry, Node, Table, Value};
+
+/// What is said of a table that stands in the scene without its kind, `[ball]` for `[body.ball]`, or of a key of bodies
+/// that does, and the key of the scene that was meant.
+pub(in crate::scene::check) fn nameless(
+    entry: &Entry,
+    context: &Context<'_>,
+) -> Option<(Diagnostic, &'static str)> {
+    let word = &*entry.name.text;
+    let fits =
+        |way: Vec<&'static str>| key_at(&way, &SCENE).is_some_and(|key| key.kind.takes(&entry.node.value));
+    if suggest::key(word, &SCENE).is_some()
+        || suggest::deeper(word, &SCENE).is_some_and(fits)
+        || suggest::deeper_also(word, &SCENE).is_some()
+    {
+        return None;
+    }
+    let (kind, edits) = of_a_kind(entry, context).or_else(|| of_bodies(entry, context)).or_else(|| {
+        best(entry.node.as_table()?).map(|kind| (kind, vec![(entry.name.span, format!("{kind}.{word}"))]))
+    })?;
+    let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{word}` in the scene"));
+    let is_said = edits.len() == 1;
+    let error = match edits.as_slice() {
+        [(_, text)] => error.at(entry.name.span, format!("did you mean `{text}`?")),
+        _ => error.at(entry.name.span, format!("this is a kind of {kind}")),
+    };
+    let error = edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text));
+    Some((if is_said { error.fix_is_said() } else { error }, kind))
+}
+
+/// The key that a way leads to.
+pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static Key> {
+    let (first, rest) = way.split_first()?;
+    let key = spec.key(first)?;
+    if rest.is_empty() { Some(key) } else { key_at(rest, key.kind.table()?) }
+}
+
+type Edits = Vec<(Span, String)>;
+
+/// The tables with names of a scene: their key and what each holds.
+fn collections() -> impl DoubleEndedIterator<Item = (&'static str, &'static TableSpec)> {
+    SCENE.keys.iter().filter_map(|key| match key.kind {
+        Kind::Named(inner) => Some((key.name, inner)),
+        _ => None,
+    })
+}
+
+fn collection(name: &str) -> Option<&'static TableSpec> {
+    collections().find(|(key, _)| *key == name).map(|(_, spec)| spec)
+}
+
+/// A table that is called after a kind of force or of shape: `[drag]`, `[spring.left]`, `[sphere.ball]`.
+fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
+    let (word, table) = (&*entry.name.text, entry.node.as_table()?);
+    let force = collection("force")?;
+    let (kind, is_force) = match force.keys.iter().find(|key| key.name == word) {
+        Some(key) => (key, true),
+        None => match &collection("body")?.key("shape")?.kind {
+            Kind::Table(shapes) => (shapes.keys.iter().find(|key| key.name == word)?, false),
+            _ => return None,
+        },
+    };
+    let inner = kind.kind.table()?;
+    let are_named = !table.entries.is_empty()
+        && table
+            .entries
+            .iter()
+            .all(|entry| entry.node.as_table().is_some() && key_of(&entry.name.text, inner).is_none());
+    let name = if is_force { "force" } else { "body" };
+    let edits = match (are_named, is_force) {
+        (true, _) => renamed(entry, table, name, is_force.then_some(word), context),
+        (false, true) => vec![(entry.name.span, format!("force.{word}.{word}"))],
+        (false, false) => vec![(entry.name.span, format!("body.{word}"))],
+    };
+    Some((name, edits))
+}
+
+/// Puts another word in front of the names in headers, and a kind behind them.
+fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, context: &Context<'_>) -> Edits {
+    let mut edits = Vec::new();
+    for inner in &table.entries {
+        let span = inner.name.span;
+        let text = &context.sources.get(span.source).text;
+        let before = text[..span.start].strip_suffix('.').unwrap_or_default();
+        if before.ends_with(&*entry.name.text) {
+            let word = Span { start: before.len() - entry.name.text.len(), end: before.len(), ..span };
+            edits.push((word, first.to_owned()));
+        }
+        edits.extend(kind.map(|kind| (span, format!("{}.{kind}", inner.name.text))));
+    }
+    edits
+}
+
+/// A key of bodies: of all of them, or of a first one where there is none.
+fn of_bodies(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
+    let key = collection("body")?.key(&entry.name.text)?;
+    let (kind, place) =
+        if context.names.bodies.is_empty() { ("body", "body.ball") } else { ("defaults", "defaults.body") };
+    Some((kind, vec![(entry.name.span, format!("{place}.{}", key.name))]))
+}
+
+/// The sort of thing that has most of the keys of a table; of several, the first.
+fn best(table: &Table) -> Option<&'static str> {
+    let worth = |inner: &'static TableSpec, entry: &Entry| match inner.key(&entry.name.text) {
+        Some(_) => 2,
+        None => usize::from(suggest::deeper(&entry.name.text, inner).is_some()),
+    };
+    let fitting = |inner| table.entries.iter().map(|entry| worth(inner, entry)).sum::<usize>();
+    let (count, name) =
+        collections().map(|(name, inner)| (fitting(inner), name)).rev().max_by_key(|(count, _)| *count)?;
+    (count > 0).then_some(name)
+}
+
+/// A value that stands where only tables with names do, with the name that it needs.
+pub(in crate::scene::check) fn mend_unnamed(
+    error: Diagnostic,
+    entry: &Entry,
+    inner: &Entry,
+    spec: &'static TableSpec,
+    context: &Context<'_>,
+) -> Diagnostic {
+    let (word, key) = (&*entry.name.text, &*inner.name.text);
+    let is_thing = |entry: &Entry| spec.key(&entry.name.text).is_some();
+    if matches!(&spec.rule, Rule::ExactlyOne(names) if names.contains(&key))
+        && inner.node.as_table().is_some()
+    {
+        return error.fix(inner.name.span, format!("{key}.{key}"));
+    }
+    let all = entry.node.as_table().is_some_and(|table| table.entries.iter().all(is_thing));
+    if all && header_end(entry.name.span, context).is_some() {
+        return error.fix(entry.name.span, format!("{word}.{}", name_of(word)));
+    }
+    // `clock = "t = ${t}"` in [label]: the name is there, and the key is not.
+    let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    match required.as_slice() {
+        [only] if spec.key(key).is_none() && only.kind.takes(&inner.node.value) => {
+            error.fix(inner.name.span, format!("{key}.{}", only.name))
+        }
+        _ => error,
+    }
+}
+
+/// Tables of a list, `[[body]]`, with the headers that they need: with the names that stand in them, or else with numbers.
+pub(in crate::scene::check) fn mend_array(
+    error: Diagnostic,
+    node: &Node,
+    word: &str,
+    context: &Context<'_>,
+) -> Diagnostic {
+    let Value::Array(items) = &node.value else { return error };
+    let mut edits = Vec::new();
+    for (number, item) in items.iter().enumerate() {
+        let (Some(table), "[[") = (item.as_table(), raw(item.span, context).get(..2).unwrap_or_default())
+        else {
+            return error;
+        };
+        let name = table.get("name").filter(|entry| entry.node.as_str().is_some());
+        let text = match name.and_then(|entry| entry.node.as_str()) {
+            Some(name) => as_key(name),
+            None if items.len() == 1 => name_of(word).to_owned(),
+            None => format!("{}{}", name_of(word), number + 1),
+        };
+        let header =
+            raw(item.span, context).find("]]").map_or(item.span.end, |end| item.span.start + end + 2);
+        edits.push((Span { end: header, ..item.span }, format!("[{word}.{text}]")));
+        edits.extend(name.and_then(|entry| Some((removal(whole(entry), context)?, String::new()))));
+    }
+    edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text))
+}
+
+/// A name for a first thing of a sort.
+fn name_of(word: &str) -> &'static str {
+    match word {
+        "body" => "ball",
+        "force" => "push",
+        "material" => "paint",
+        "light" => "lamp",
+        "label" => "clock",
+        "view" => "side",
+        _ => "first",
+    }
+}

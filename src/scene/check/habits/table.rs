@@ -1,0 +1,74 @@
+//! A table for a value that somebody has given in its place: `trail = 2`, `follow = "ball"`.
+
+use super::super::Context;
+use super::missing::example_of;
+use super::text::raw;
+use crate::scene::Color;
+use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::source::{Node, Value};
+use crate::scene::units;
+
+/// A table with the key that is required, or else with the one that is most likely meant.
+pub(super) fn as_table(
+    spec: &'static TableSpec,
+    node: &Node,
+    name: &str,
+    context: &Context<'_>,
+) -> Option<String> {
+    let raw = raw(node.span, context);
+    let entry = |key: &Key, value: &str| Some(format!("{{ {} = {value} }}", key.name));
+    let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    if matches!(node.value, Value::Table(_)) || matches!(spec.rule, Rule::ExactlyOne(_)) {
+        return None;
+    }
+    match (required.as_slice(), &node.value) {
+        ([_, _, ..], _) => None,
+        ([only], Value::String(text)) if matches!(only.kind, Kind::Number(_)) => {
+            let (number, unit) = units::quantity(text)?;
+            entry(only, &units::converted(number, unit, only.unit)?)
+        }
+        ([only], value) if only.kind.takes(value) => entry(only, raw),
+        ([only], Value::Boolean(true)) => entry(only, &example_of(only, context)?),
+        ([_], _) => None,
+        // One kind of arrow, to begin with.
+        ([], Value::Boolean(true)) if name == "arrows" => entry(spec.keys.first()?, "true"),
+        ([], Value::Boolean(true)) => Some("{}".to_owned()),
+        ([], Value::Integer(_) | Value::Float(_)) => {
+            entry(spec.keys.iter().find(|key| matches!(key.kind, Kind::Number(_)))?, raw)
+        }
+        ([], Value::String(word)) => {
+            let text = by_word(spec, word)?;
+            Some(format!("{{ {text} }}"))
+        }
+        ([], Value::Array(items)) => {
+            let switches = items.iter().map(|item| Some(format!("{} = true", switch(spec, item.as_str()?)?)));
+            let switches = switches.collect::<Option<Vec<_>>>().filter(|switches| !switches.is_empty())?;
+            Some(format!("{{ {} }}", switches.join(", ")))
+        }
+        _ => None,
+    }
+}
+
+/// The entry that a word stands for: one of the words of a key, a color, a number with its unit, or a switch.
+fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
+    let find = |is: &dyn Fn(&Key) -> bool| spec.keys.iter().find(|key| is(key));
+    let is_choice = |key: &Key| matches!(key.kind, Kind::Choice(words) if words().contains(&word));
+    if let Some(key) = find(&is_choice) {
+        return Some(format!("{} = \"{word}\"", key.name));
+    }
+    if let Some(key) = find(&|key| matches!(key.kind, Kind::Color)).filter(|_| Color::parse(word).is_some()) {
+        return Some(format!("{} = \"{word}\"", key.name));
+    }
+    if let Some((number, unit)) = units::quantity(word) {
+        let measured =
+            |key: &Key| matches!(key.kind, Kind::Number(_)) && units::factor(unit, key.unit).is_some();
+        let key = find(&measured)?;
+        return Some(format!("{} = {}", key.name, units::converted(number, unit, key.unit)?));
+    }
+    Some(format!("{} = true", switch(spec, word)?))
+}
+
+/// The key of a table that is switched on by a word: `velocity` of `arrows`.
+fn switch(spec: &'static TableSpec, word: &str) -> Option<&'static str> {
+    super::key_of(word, spec).filter(|key| key.kind.takes(&Value::Boolean(true))).map(|key| key.name)
+}
