@@ -36,13 +36,19 @@ const MEMORY: f64 = 0.15;
 /// A kind of thing: its name, the scene of so many of them, the exponent that is allowed.
 type Kind = (&'static str, fn(usize) -> String, f64);
 
-const KINDS: [Kind; 24] = [
+const KINDS: [Kind; 26] = [
     ("bodies", |n| bodies(n, |_| String::new()), LINEAR),
     ("bodies by repeat", |n| copies(n, "location = ['i % 100', 'i / 100', 0]"), LINEAR),
     ("bodies by scatter", scatter, LINEAR),
     (
         "formula motions",
         |n| copies(n, "motion.formula.location = ['i % 100 + sin(t)', 'i / 100', 'cos(t)']"),
+        LINEAR,
+    ),
+    ("guided bodies that come and go", |n| copies(n, COMING_AND_GOING), LINEAR),
+    (
+        "free bodies that come at once",
+        |n| copies(n, "location = ['i % 100', 'i / 100', 0]\nstart = 0.02"),
         LINEAR,
     ),
     ("torques", |n| bodies(n, |_| "torque = [0, 1, 0]".to_owned()), LINEAR),
@@ -78,6 +84,10 @@ const KINDS: [Kind; 24] = [
     ("bodies with defaults", |n| bodies(n, |_| String::new()) + "[defaults.body]\nmass = 2\n", LINEAR),
     ("gravitation of all pairs", gravitation, PAIRS),
 ];
+
+/// Each at times of its own.
+const COMING_AND_GOING: &str = "motion.formula.location = ['i % 100 + sin(t)', 'i / 100', 'cos(t)']\n\
+    start = '0.04*(0.618*i % 1)'\nend = '0.02 + 0.04*(0.618*i % 1)'";
 
 fn main() {
     println!("{:<28}{:>10}{:>10}{:>10}   exponent, from 1,000", "seconds", "100", "1,000", "10,000");

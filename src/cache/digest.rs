@@ -26,7 +26,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
     writeln!(text, "{duration:?} {rate:?} {step:?} {} {:?}", simulation.method.name, simulation.gravity)?;
     for body in &scene.bodies {
-        writeln!(text, "{:?} {:?}", body.start, body.motion)?;
+        writeln!(text, "{:?} {:?} {:?}", body.start, body.presence, body.motion)?;
     }
     for force in &scene.forces {
         match &force.kind {
@@ -87,6 +87,7 @@ mod tests {
             ("velocity = [1, 0", "velocity = [1.0000000000000002, 0"),
             ("'3 + t'", "'3 + 2*t'"),
             ("'3 + t'", "'4 + t'"),
+            ("[body.b]", "[body.b]\nstart = 2"),
             ("stiffness = 3", "stiffness = 4"),
             ("['a', [0, 0, 0]]", "['a', [0, 1, 0]]"),
         ] {

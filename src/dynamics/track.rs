@@ -43,14 +43,26 @@ impl Track {
     /// Where a key of a cubic track has no velocity, the slope is that of the parabola through it and its neighbours;
     /// at both ends, `at_rest` says that it is 0, and not that of the first or last two keys.
     #[must_use]
-    pub fn new(mut keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
+    pub fn new(keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
+        Track::with_gaps(keys, &[], interpolation, at_rest)
+    }
+
+    /// The same with gaps, given by the numbers of the keys behind them, in rising order: each of the parts between has slopes
+    /// of its own.
+    #[must_use]
+    pub fn with_gaps(
+        mut keys: Vec<Key>,
+        gaps: &[usize],
+        interpolation: Interpolation,
+        at_rest: bool,
+    ) -> Track {
         // q and −q are the same orientation; neighbours are written so that the way between them is the short one.
         for i in 1..keys.len() {
             if keys[i].orientation.dot(keys[i - 1].orientation) < 0.0 {
                 keys[i].orientation = -keys[i].orientation;
             }
         }
-        let slope = |i| slope(&keys, i, at_rest);
+        let slope = |i| slope(&keys, gaps, i, at_rest);
         let slopes = match interpolation {
             Interpolation::Linear => Vec::new(),
             Interpolation::Cubic => (0..keys.len()).map(slope).collect(),
@@ -66,8 +78,10 @@ impl Track {
 }
 
 /// The slope of location and orientation at a key.
-fn slope(keys: &[Key], i: usize, at_rest: bool) -> (DVec3, DQuat) {
-    let (before, after) = (i.checked_sub(1).map(|i| &keys[i]), keys.get(i + 1));
+fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat) {
+    let joins = |i: &usize| gaps.binary_search(i).is_err();
+    let before = Some(i).filter(joins).and_then(|i| keys.get(i.checked_sub(1)?));
+    let after = Some(i + 1).filter(joins).and_then(|i| keys.get(i));
     let key = &keys[i];
     let rise = |a: &Key, b: &Key| {
         let part = 1.0 / (b.time - a.time);

@@ -87,11 +87,13 @@ impl World {
     pub fn follow(&mut self, body: BodyId, motion: Arc<dyn Motion>) {
         self.about_to_change();
         let (i, is_present) = (body.index(), self.model.is_present(body.index()));
-        self.model.bring(i, &mut self.state);
-        // This body alone: placing all guided bodies here would make adding n of them take n² placements.
-        self.model.place_body(i, &motion.at(self.time), &mut self.state);
-        self.model.drive(i, motion);
-        if !is_present {
+        if is_present {
+            // This body alone: placing all guided bodies here would make adding n of them take n² placements.
+            self.model.place_body(i, &motion.at(self.time), &mut self.state);
+            self.model.drive(i, motion);
+        } else {
+            self.model.bring(i, &mut self.state);
+            self.model.drive(i, motion);
             self.model.take_away(i, &mut self.state);
         }
     }

@@ -27,9 +27,9 @@ pub(super) struct Block {
 
 /// Bodies that stand together: those of one plain material, or a single one with a look of its own.
 struct Group {
-    before: String,
     bodies: Vec<Item>,
-    after: String,
+    /// The material that they share, as it is used.
+    shared: Option<String>,
 }
 
 /// One body: the text that many have, and behind it the name.
@@ -88,14 +88,24 @@ impl Block {
         Block { style, groups, forms }
     }
 
-    /// Appends the bodies of a frame. The first body that cannot be written in these units is an error.
+    /// Appends the bodies that are there in a frame. The first body that cannot be written in these units is an error.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
-        for group in &self.groups {
-            out.push_str(&group.before);
-            for item in &group.bodies {
-                self.item(out, item, &frame.bodies[item.id])?;
+        for Group { bodies, shared } in &self.groups {
+            let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
+            if shared.is_some() {
+                // POV-Ray warns of a union of one. How many there are is not said: that line would change with every body.
+                match there.clone().take(2).count() {
+                    0 => continue,
+                    1 => out.push_str("object {\n"),
+                    _ => out.push_str("union {\n"),
+                }
             }
-            out.push_str(&group.after);
+            there.try_for_each(|(item, body)| self.item(out, item, body))?;
+            if let Some(material) = shared {
+                out.push_str("  ");
+                out.push_str(material);
+                out.push_str("\n}\n");
+            }
         }
         Ok(())
     }
@@ -161,13 +171,7 @@ fn of_one_material(
         let form = Form { before: format!("  {before}"), place, after: format!("{after} }} // ") };
         Item { id, form: number(form, forms), name: in_comment(body) }
     };
-    // POV-Ray warns of a union of one. How many there are is not said: that line would change with every body.
-    let open = if bodies.len() > 1 { "union" } else { "object" };
-    Group {
-        before: format!("{open} {{\n"),
-        bodies: bodies.iter().map(item).collect(),
-        after: format!("  {}\n}}\n", material.usage()),
-    }
+    Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()) }
 }
 
 /// One body with its material.
@@ -182,7 +186,7 @@ fn single(
     let material = body.material.map(|material| &materials[material]);
     let mut group = |form: Form| {
         let item = Item { id, form: number(form, forms), name: in_comment(body) };
-        Group { before: String::new(), bodies: vec![item], after: String::new() }
+        Group { bodies: vec![item], shared: None }
     };
     let plane_macro = material.and_then(MaterialText::plane_macro);
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {

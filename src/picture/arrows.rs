@@ -138,14 +138,14 @@ impl Arrows {
     /// The arrows of a frame, as a camera sees them.
     pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
-        let of_one = of_one.map(|its| (its, &frame.bodies[self.bodies[its[0].of].0]));
+        let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
         of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect()
     }
 
     /// The axes of a frame.
     pub(super) fn axes(&self, frame: &Frame) -> Vec<Axes> {
         let axes = |(number, body): &(usize, Body)| {
-            let (length, at) = (axis(body)?, &frame.bodies[*number]);
+            let (length, at) = (axis(body)?, frame.body(*number)?);
             Some(Axes { body: *number, location: at.location, orientation: at.orientation, length })
         };
         self.bodies.iter().filter_map(axes).collect()

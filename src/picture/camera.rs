@@ -216,12 +216,12 @@ impl Eye {
         let Some(Moving { camera, followed }) = &self.moving else { return self.placed };
         let (body, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let behind = camera.motion.follow.and_then(|follow| {
-            let lag = follow.lag?;
+            let lag = follow.lag.unwrap_or(0.0);
             frame.past.lagging.iter().find(|lagging| lagging.is_of(follow.body, lag))
         });
         let here = match behind {
             Some(lagging) => lagging.location,
-            None => frame.bodies.get(body).map_or(start, |body| body.location),
+            None => frame.body(body).map_or(start, |body| body.location),
         };
         self.placed.moved(camera, size, frame.time, [start, here])
     }

@@ -1,6 +1,6 @@
 //! Springs, as coils between the surfaces of what they are fastened to.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::dynamics::{Anchor, Shape, Spring};
 use crate::scene::{self, Body, Color, ForceKind, Scene};
@@ -81,7 +81,7 @@ impl Coils {
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Coil<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
-        its.map(|(_, number)| self.coil(&self.coils[*number], frame))
+        its.filter_map(|(_, number)| self.coil(&self.coils[*number], frame))
     }
 
     /// An end as it is drawn: a point of a body that is drawn larger is farther from its centre.
@@ -92,29 +92,30 @@ impl Coils {
         }
     }
 
-    /// The coils as they are in a frame.
+    /// The coils of a frame: those whose ends are there.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Coil<'_>> {
-        self.coils.iter().map(|coil| self.coil(coil, frame)).collect()
+        self.coils.iter().filter_map(|coil| self.coil(coil, frame)).collect()
     }
 
-    fn coil<'a>(&'a self, coil: &'a Planned, frame: &Frame) -> Coil<'a> {
-        let place = |end: Anchor| {
-            self.drawn(end).place(|id| {
-                let body = &frame.bodies[id.index()];
-                (body.location, body.orientation)
-            })
+    fn coil<'a>(&'a self, coil: &'a Planned, frame: &Frame) -> Option<Coil<'a>> {
+        // A point of the world is always there.
+        let turned = |end: Anchor| match end.body() {
+            Some(id) => frame.body(id.index()).map(|body| (body.location, body.orientation)),
+            None => Some((DVec3::ZERO, DQuat::IDENTITY)),
         };
-        let [from, to] = coil.between.map(place);
+        let [Some(one), Some(other)] = coil.between.map(turned) else { return None };
+        let place = |end: Anchor, pose| self.drawn(end).place(|_| pose);
+        let (from, to) = (place(coil.between[0], one), place(coil.between[1], other));
         let along = (to - from).normalize_or_zero();
-        let reach = |end: Anchor, direction: DVec3| match end {
+        let reach = |end: Anchor, orientation: DQuat, direction: DVec3| match end {
             // A little below the surface, so that no gap is seen where that is not flat.
             Anchor::Body { id, .. } if end.is_centre() => {
-                0.95 * surface(&self.shapes[id.index()], frame.bodies[id.index()].orientation, direction)
+                0.95 * surface(&self.shapes[id.index()], orientation, direction)
             }
             _ => 0.0,
         };
-        let (begin, end) =
-            (from + along * reach(coil.between[0], along), to - along * reach(coil.between[1], -along));
+        let begin = from + along * reach(coil.between[0], one.1, along);
+        let end = to - along * reach(coil.between[1], other.1, -along);
         let fixed = |end: Anchor| match end {
             Anchor::Body { .. } => None,
             Anchor::Point(point) => Some(point),
@@ -122,7 +123,7 @@ impl Coils {
         let wire = WIRE * coil.radius;
         // Bodies that touch leave no room for a spring.
         let is_room = (end - begin).dot(along) > room_for(coil.radius);
-        Coil {
+        Some(Coil {
             name: &coil.name,
             span: is_room.then_some([begin, end]),
             fixed: coil.between.map(fixed),
@@ -131,7 +132,7 @@ impl Coils {
             wire,
             turns: coil.turns,
             color: coil.color,
-        }
+        })
     }
 }
 

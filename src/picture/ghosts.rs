@@ -18,18 +18,21 @@ impl Ghosts {
         Ghosts { bodies: near.collect() }
     }
 
-    /// The ghosts of a frame that are elsewhere than their bodies.
+    /// The ghosts of a frame that are elsewhere than their bodies. Those of bodies that are gone stay.
     pub(super) fn drawn<'a>(&self, frame: &'a Frame) -> impl Iterator<Item = &'a Ghost> {
         frame.past.ghosts.iter().map(AsRef::as_ref).filter(|ghost| self.is_drawn(ghost, frame))
     }
 
     fn is_drawn(&self, ghost: &Ghost, frame: &Frame) -> bool {
-        let now = &frame.bodies[ghost.body.id];
+        let now = frame.body(ghost.body.id);
         let of = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number);
         of.is_ok_and(|of| {
             let near = self.bodies[of].1;
-            let turned = now.orientation.dot(ghost.body.orientation).abs() < 1.0 - 1e-4;
-            ghost.body.is_finite() && (ghost.body.location.distance(now.location) > near || turned)
+            let is_elsewhere = now.is_none_or(|now| {
+                let turned = now.orientation.dot(ghost.body.orientation).abs() < 1.0 - 1e-4;
+                ghost.body.location.distance(now.location) > near || turned
+            });
+            ghost.body.is_finite() && is_elsewhere
         })
     }
 }

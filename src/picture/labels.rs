@@ -7,7 +7,7 @@ use super::room::Room;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
-use crate::dynamics::Balance;
+use crate::dynamics::{Balance, find};
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
@@ -109,7 +109,8 @@ impl Labels {
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
-            let text = self.beside(planned, (&frame.bodies[body], side), &now, screen, room);
+            let here = frame.body(body);
+            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, room));
             texts.extend(text.map(|text| (number, text)));
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
@@ -236,12 +237,7 @@ impl Labels {
             Measure::Run(RunMeasure::Kinetic) => energy(|balance| balance.kinetic),
             Measure::Run(RunMeasure::Potential) => energy(|balance| balance.potential),
             Measure::Body(number, measure) => {
-                let mut bodies = moment.bodies.iter();
-                let at = if moment.bodies.get(number).is_some_and(|body| body.id == number) {
-                    moment.bodies.get(number)
-                } else {
-                    bodies.find(|body| body.id == number)
-                };
+                let at = find(moment.bodies, number);
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
             }
         }

@@ -22,7 +22,7 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
 }
 
 /// Of a body in each frame: the time; its location, velocity, angular velocity, the force on it, 3 numbers each; its
-/// kinetic energy.
+/// kinetic energy. Where it is not there, all but the time are not numbers.
 pub(super) fn of_body(
     run: &Simulation,
     body: usize,
@@ -32,14 +32,15 @@ pub(super) fn of_body(
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
     for frame in frames {
-        let Some(at) = reader.body(frame, body)?.1 else { continue };
+        put(&mut all, &[run.scene.simulation.time(frame)]);
+        let Some(at) = reader.body(frame, body)?.1 else {
+            put(&mut all, &[f64::NAN; 13]);
+            continue;
+        };
         let vectors =
             [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
-        let time = [run.scene.simulation.time(frame)];
-        let energy = [kinetic(rigid, &at)];
-        put(&mut all, &time);
         put(&mut all, vectors.as_flattened());
-        put(&mut all, &energy);
+        put(&mut all, &[kinetic(rigid, &at)]);
     }
     Ok(all)
 }
@@ -62,6 +63,25 @@ mod tests {
     use super::*;
     use crate::Scene;
     use crate::cache::Cache;
+
+    /// One that is not there has a time and no numbers, so that each frame has its place in the list.
+    #[test]
+    fn a_body_that_is_not_there_has_no_numbers() {
+        let text = "simulation.duration = 0.4\n[body.a]\nshape.sphere.radius = 1\nstart = 0.2\nvelocity = [1, 0, 0]\n";
+        let scene = Scene::parse(text).unwrap();
+        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        while run.outcome().is_none() {
+            std::thread::yield_now();
+        }
+        let bytes = of_body(&run, 0, 0..11).unwrap();
+        let numbers: Vec<f64> =
+            bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
+        assert_eq!(numbers.len(), 11 * 14);
+        for (frame, of_frame) in numbers.chunks(14).enumerate() {
+            assert_eq!(of_frame[0], run.scene.simulation.time(frame));
+            assert_eq!(of_frame[1..].iter().all(|number| number.is_nan()), frame < 5, "{frame}");
+        }
+    }
 
     /// The energies of all bodies together are that of the run.
     #[test]

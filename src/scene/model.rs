@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::Showing;
 use super::motion::BodyMotion;
-use crate::dynamics::{Method, RigidBody, Shape};
+use crate::dynamics::{Method, Presence, RigidBody, Shape};
 
 /// How the world is advanced.
 #[derive(Clone, Debug)]
@@ -39,6 +39,18 @@ impl Simulation {
     pub fn time(&self, frame: usize) -> f64 {
         frame as f64 / self.frame_rate
     }
+
+    /// The time of the last frame, s.
+    pub fn end(&self) -> f64 {
+        self.time(self.frames() - 1)
+    }
+
+    /// The time of the nearest frame, if `time` (s) differs from that by rounding alone; else `time`.
+    pub fn nearest_frame(&self, time: f64) -> f64 {
+        let frame = (time * self.frame_rate).round();
+        let at_frame = frame / self.frame_rate;
+        if (time - at_frame).abs() <= 1e-6 / self.frame_rate { at_frame } else { time }
+    }
 }
 
 /// A rigid body and its look.
@@ -50,6 +62,8 @@ pub struct Body {
     pub shape: Shape,
     /// What it is at the start.
     pub start: RigidBody,
+    /// When it is there. What it is at the start, it is when it first comes.
+    pub presence: Presence,
     /// The motion that it follows, whatever acts on it.
     pub motion: Option<Arc<BodyMotion>>,
     /// The number of its material among the scene's; none for axes, which have colors of their own, and for

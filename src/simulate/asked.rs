@@ -36,8 +36,8 @@ pub struct AskedArrow {
 pub struct AskedTrail {
     /// The number of the body.
     pub body: usize,
-    /// Where it begins, m.
-    begin: DVec3,
+    /// Where it begins, m, once the body has come.
+    begin: Option<DVec3>,
     /// How far the body goes from there, m.
     pub way: f64,
 }
@@ -81,8 +81,7 @@ impl Asked {
                 let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
                 asked.arrows.extend(arrow);
             }
-            let begin = body.start.location;
-            let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin, way: 0.0 });
+            let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin: None, way: 0.0 });
             asked.trails.extend(trail);
         }
         for force in &scene.forces {
@@ -99,16 +98,16 @@ impl Asked {
     /// Looks at the next frame of the run.
     pub(super) fn see(&mut self, scene: &Scene, frame: &Frame) {
         for arrow in &mut self.arrows {
-            arrow.see(&scene.bodies[arrow.body], &frame.bodies[arrow.body], frame.time);
+            let Some(body) = frame.body(arrow.body) else { continue };
+            arrow.see(&scene.bodies[arrow.body], body, frame.time);
         }
         for trail in &mut self.trails {
-            if frame.index == 0 {
-                trail.begin = frame.bodies[trail.body].location;
-            }
-            trail.way = trail.way.max(trail.begin.distance(frame.bodies[trail.body].location));
+            let Some(body) = frame.body(trail.body) else { continue };
+            let begin = *trail.begin.get_or_insert(body.location);
+            trail.way = trail.way.max(begin.distance(body.location));
         }
         for spring in &mut self.springs {
-            let [from, to] = spring.ends.each_ref().map(|end| end.place(frame));
+            let [Some(from), Some(to)] = spring.ends.each_ref().map(|end| end.place(frame)) else { continue };
             let along = (to - from).normalize_or_zero();
             let inside = spring.ends[0].depth(frame, along) + spring.ends[1].depth(frame, -along);
             spring.room = spring.room.max(from.distance(to) - inside);
@@ -130,12 +129,13 @@ impl AskedArrow {
 }
 
 impl End {
-    fn place(&self, frame: &Frame) -> DVec3 {
+    /// Where it is, m, if it is there.
+    fn place(&self, frame: &Frame) -> Option<DVec3> {
         match self {
-            End::Point(point) => *point,
+            End::Point(point) => Some(*point),
             End::Body { number, at, .. } => {
-                let body = &frame.bodies[*number];
-                body.location + body.orientation * *at
+                let body = frame.body(*number)?;
+                Some(body.location + body.orientation * *at)
             }
         }
     }
@@ -144,7 +144,7 @@ impl End {
     fn depth(&self, frame: &Frame, direction: DVec3) -> f64 {
         match self {
             End::Body { number, shape: Some(shape), .. } => {
-                surface(shape, frame.bodies[*number].orientation, direction)
+                frame.body(*number).map_or(0.0, |body| surface(shape, body.orientation, direction))
             }
             End::Body { .. } | End::Point(_) => 0.0,
         }

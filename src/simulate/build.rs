@@ -24,6 +24,9 @@ pub fn world(scene: &Scene) -> World {
 
 fn add(world: &mut World, body: &Body) {
     let id = world.add(body.start);
+    if !body.presence.is_always() {
+        world.limit(id, &body.presence);
+    }
     if let Some(motion) = &body.motion {
         world.follow(id, motion.clone());
     }

@@ -1,16 +1,17 @@
-//! Places that come after bodies, as a camera does that follows one with a lag.
+//! Places that come after bodies, as a camera does that follows one with a lag, or one that is not there all the time.
 
 use glam::DVec3;
 
 use super::Frame;
 use crate::scene::Scene;
 
-/// A place that comes after a body: x' = (b − x) / τ, where b is the location of the body.
+/// A place that comes after a body: x' = (b − x) / τ, where b is the location of the body. It stays where it is while the body
+/// is not there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lagging {
     /// The number of the body.
     pub body: usize,
-    /// The time τ by which it is behind what moves evenly, s.
+    /// The time τ by which it is behind what moves evenly, s; without it, it is where the body is or was last.
     pub lag: f64,
     /// Where it is, m.
     pub location: DVec3,
@@ -24,9 +25,13 @@ impl Lagging {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut all: Vec<Lagging> = Vec::new();
         for follow in cameras.filter_map(|camera| camera.motion.follow) {
-            let Some(lag) = follow.lag else { continue };
+            let body = &scene.bodies[follow.body];
+            if follow.lag.is_none() && body.presence.is_always() {
+                continue;
+            }
+            let lag = follow.lag.unwrap_or(0.0);
             if !all.iter().any(|other| other.is_of(follow.body, lag)) {
-                all.push(Lagging { body: follow.body, lag, location: DVec3::ZERO, seen: None });
+                all.push(Lagging { body: follow.body, lag, location: body.start.location, seen: None });
             }
         }
         all

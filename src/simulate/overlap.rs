@@ -11,7 +11,7 @@ use crate::scene::Scene;
 /// Bodies overlap when they still do after they have been made smaller by this part.
 const DEEP: f64 = 0.01;
 
-/// That two bodies go into each other, which were apart at the start.
+/// That two bodies go into each other, which were apart when the later of them came.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// The names of the two.
@@ -22,7 +22,7 @@ pub struct Overlap {
 
 /// Watches a run for the first two bodies that go into each other.
 ///
-/// Bodies that touch in the first frame belong together and may do as they like; so may two of which neither is moved
+/// Bodies that touch in the first frame in which both are there belong together and may do as they like; so may two of which neither is moved
 /// by forces. What is not convex — meshes, rings — is not watched, and what happens between frames is not seen.
 ///
 /// The work is proportional to the number of bodies. After a frame with very many near pairs, some frames are passed over;
@@ -32,8 +32,10 @@ pub(super) struct Watch<'a> {
     bodies: Vec<Watched>,
     /// The sizes that there are, the smallest first.
     sizes: Vec<Size>,
-    /// Pairs that have touched in the first frame; none before that.
-    together: Option<HashSet<(usize, usize)>>,
+    /// Pairs that have touched in their first frame.
+    together: HashSet<(usize, usize)>,
+    /// Which of the bodies were there in the frame before.
+    were_there: Vec<bool>,
     found: Option<Overlap>,
     /// Nothing is watched any more.
     is_over: bool,
@@ -75,7 +77,7 @@ const USUAL: u64 = 32;
 const ALWAYS: u64 = 16_384;
 /// So many times what is usual ends the watch.
 const MOST: u64 = 128;
-/// So many pairs may touch in the first frame, for each body: equal balls have six.
+/// So many pairs may touch in their first frame, for each body: equal balls have six.
 const TOGETHER: usize = 64;
 
 impl<'a> Watch<'a> {
@@ -106,7 +108,8 @@ impl<'a> Watch<'a> {
         let is_over = !sizes.iter().any(|size| size.has_moving);
         let bodies: Vec<Watched> = bodies.into_iter().map(numbered).collect();
         let grid = Grid::new(if is_over { 0 } else { bodies.len() });
-        Watch { scene, bodies, sizes, together: None, found: None, is_over, pause: 0, grid }
+        let (together, were_there) = (HashSet::new(), vec![false; bodies.len()]);
+        Watch { scene, bodies, sizes, together, were_there, found: None, is_over, pause: 0, grid }
     }
 
     /// Looks at the next frame of the run.
@@ -121,35 +124,27 @@ impl<'a> Watch<'a> {
         let mut grid = std::mem::take(&mut self.grid);
         grid.fill(self.bodies.iter().map(|body| self.key(frame, body)));
         let mut first: Option<(usize, usize)> = None;
-        let cost = match self.together.take() {
-            None => {
-                let mut together = HashSet::new();
-                let most = TOGETHER * self.bodies.len();
-                let cost = self.each_near_pair(frame, &grid, |i, j| {
-                    if self.meet(frame, i, j, 1.0 + DEEP) {
-                        together.insert((i, j));
-                    }
-                    if together.len() > most { u64::MAX } else { self.cost(i, j) }
-                });
-                self.together = Some(together);
-                cost
+        let mut together = std::mem::take(&mut self.together);
+        let most = TOGETHER * self.bodies.len();
+        let cost = self.each_near_pair(frame, &grid, |i, j| {
+            if !(self.were_there[i] && self.were_there[j]) {
+                if self.meet(frame, i, j, 1.0 + DEEP) {
+                    together.insert((i, j));
+                }
+                return if together.len() > most { u64::MAX } else { self.cost(i, j) };
             }
-            Some(together) => {
-                let cost = self.each_near_pair(frame, &grid, |i, j| {
-                    let is_earlier = first.is_none_or(|first| (i, j) < first);
-                    if !is_earlier || together.contains(&(i, j)) {
-                        return 1;
-                    }
-                    if self.meet(frame, i, j, 1.0 - DEEP) {
-                        first = Some((i, j));
-                    }
-                    self.cost(i, j)
-                });
-                self.together = Some(together);
-                cost
+            let is_earlier = first.is_none_or(|first| (i, j) < first);
+            if !is_earlier || together.contains(&(i, j)) {
+                return 1;
             }
-        };
-        self.grid = grid;
+            if self.meet(frame, i, j, 1.0 - DEEP) {
+                first = Some((i, j));
+            }
+            self.cost(i, j)
+        });
+        (self.together, self.grid) = (together, grid);
+        let are_there = self.bodies.iter().map(|body| frame.body(body.id).is_some());
+        are_there.zip(&mut self.were_there).for_each(|(is_there, was_there)| *was_there = is_there);
         let name = |i: usize| self.scene.bodies[self.bodies[i].id].name.to_string();
         self.found = first.map(|(i, j)| Overlap { bodies: [name(i), name(j)], time: frame.time });
         self.is_over = self.found.is_some() || cost > MOST * self.usual();
@@ -170,11 +165,12 @@ impl<'a> Watch<'a> {
             if cost > most {
                 break;
             }
-            let here = frame.bodies[body.id].location;
+            let Some(here) = frame.body(body.id).map(|body| body.location) else { continue };
             let mut look = |j: usize| {
                 let other = &self.bodies[j];
                 let reach = (body.radius + other.radius) * (1.0 + DEEP);
-                let square = (frame.bodies[other.id].location - here).length_squared();
+                let Some(there) = frame.body(other.id) else { return };
+                let square = (there.location - here).length_squared();
                 // By chance there may be any body in a cell, also this one.
                 let is_pair = j != i && (body.moves || other.moves);
                 let is_near = is_pair && square < reach * reach;
@@ -210,22 +206,23 @@ impl<'a> Watch<'a> {
         ALWAYS + USUAL * self.bodies.len() as u64
     }
 
-    /// The key of the cell that a body is in.
-    fn key(&self, frame: &Frame, body: &Watched) -> u64 {
-        let cell = Cell::of(self.sizes[body.size].edge, frame.bodies[body.id].location);
-        cell.key(body.size, body.moves)
+    /// The key of the cell that a body is in, if it is there.
+    fn key(&self, frame: &Frame, body: &Watched) -> Option<u64> {
+        let cell = Cell::of(self.sizes[body.size].edge, frame.body(body.id)?.location);
+        Some(cell.key(body.size, body.moves))
     }
 
     /// Whether two bodies overlap that are so many times larger than they are.
     fn meet(&self, frame: &Frame, i: usize, j: usize, scale: f64) -> bool {
         let placed = |i: usize| {
             let id = self.bodies[i].id;
-            let at = frame.bodies[id];
-            parts(&self.scene.bodies[id].shape).map(move |(shape, location, orientation)| Placed {
-                shape,
-                location: at.location + at.orientation * location,
-                orientation: at.orientation * orientation,
-                scale,
+            frame.body(id).into_iter().flat_map(move |at| {
+                parts(&self.scene.bodies[id].shape).map(move |(shape, location, orientation)| Placed {
+                    shape,
+                    location: at.location + at.orientation * location,
+                    orientation: at.orientation * orientation,
+                    scale,
+                })
             })
         };
         placed(i).any(|one| placed(j).any(|other| one.meets(&other)))
@@ -310,11 +307,12 @@ impl Grid {
         Grid { last: vec![Grid::NONE; places], before: vec![Grid::NONE; bodies] }
     }
 
-    /// Puts bodies into the cells with these keys, and what was in them is gone.
+    /// Puts the bodies that have one into the cells with these keys, and what was in them is gone.
     #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
-    fn fill(&mut self, keys: impl Iterator<Item = u64>) {
+    fn fill(&mut self, keys: impl Iterator<Item = Option<u64>>) {
         self.last.fill(Grid::NONE);
         for (body, key) in keys.enumerate() {
+            let Some(key) = key else { continue };
             let place = self.place(key);
             self.before[body] = std::mem::replace(&mut self.last[place], body as u32);
         }
@@ -446,7 +444,7 @@ mod tests {
                 }
             }
             assert!(expected.len() > 100, "{}", expected.len());
-            let found = watch.together.unwrap();
+            let found = &watch.together;
             assert_eq!(
                 found.symmetric_difference(&expected).collect::<Vec<_>>(),
                 Vec::<&(usize, usize)>::new()
@@ -481,6 +479,6 @@ mod tests {
         let mut watch = Watch::new(&scene);
         watch.see(&first_frame(&scene));
         assert!(watch.is_over);
-        assert!(watch.together.is_none_or(|together| together.len() < 100_000));
+        assert!(watch.together.len() < 100_000);
     }
 }

@@ -84,6 +84,8 @@ pub(super) struct History {
     asks: Arc<[(usize, Showing)]>,
     /// For each of them, the points of its trail, each with the number of its frame.
     ways: Vec<Vec<(usize, Passed)>>,
+    /// For each of them, whether it is away after it has been there.
+    is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
     interval: f64,
@@ -97,6 +99,7 @@ impl History {
         let asks: Arc<[_]> = asks.map(|(number, showing)| (number, showing.clone())).collect();
         History {
             ways: vec![Vec::new(); asks.len()],
+            is_away: vec![false; asks.len()],
             asks,
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
@@ -129,8 +132,14 @@ impl History {
     /// Remembers where bodies are in a frame, but for their ghosts.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
-        for ((body, showing), way) in self.asks.iter().zip(&mut self.ways) {
+        let ways = self.ways.iter_mut().zip(&mut self.is_away);
+        for ((body, showing), (way, is_away)) in self.asks.iter().zip(ways) {
             let Some(trail) = showing.trail else { continue };
+            let present = frame.body(*body);
+            if std::mem::replace(is_away, present.is_none()) && present.is_some() {
+                // It may come back elsewhere: between, there is no way.
+                way.clear();
+            }
             // Which frames are kept follows from their numbers and the present one alone.
             let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
@@ -140,7 +149,7 @@ impl History {
             }
             way.retain(|(index, _)| index % stride == 0);
             if frame.index.is_multiple_of(stride) {
-                let Some(body) = frame.body(*body) else { continue };
+                let Some(body) = present else { continue };
                 let point = Passed::of(frame.time, body);
                 way.push((frame.index, Passed { frame: Some(frame.index), ..point }));
             }

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
 use super::span::Spans;
-use super::{BodyFrame, Bounds, Frame, Frames, SimulateError, Span, world};
-use crate::dynamics::Shape;
+use super::{Bounds, Frame, Frames, SimulateError, Span, world};
+use crate::dynamics::{BodySnapshot, RigidBody, Shape};
 use crate::scene::{Body, Scene};
 
 /// What is known of a run as a whole.
@@ -64,9 +64,10 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Sim
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
-    /// The planes that are watched; from the first frame on, each knows the bodies that may go through it.
+    /// The planes that are watched; each knows the bodies that may go through it, from the frame on in which they come.
     planes: Vec<Watched>,
-    has_begun: bool,
+    /// The bodies that forces move and that have not come yet.
+    awaited: Vec<usize>,
     /// For each body: whether it has gone through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
@@ -90,7 +91,7 @@ impl<'a> Surveyor<'a> {
             scene,
             spans: Spans::default(),
             planes: planes(scene),
-            has_begun: false,
+            awaited: free(scene).collect(),
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
             asked: Asked::new(scene),
@@ -102,22 +103,18 @@ impl<'a> Surveyor<'a> {
     /// Looks at the next frame of the run.
     pub fn see(&mut self, frame: &Frame) {
         let scene = self.scene;
-        if !std::mem::replace(&mut self.has_begun, true) {
-            // Only these can go through a plane. A scene of many planes has few of them.
-            let free = |body: &&BodyFrame| {
-                let Body { start, motion, .. } = &scene.bodies[body.id];
-                !start.fixed && motion.is_none()
-            };
-            let free: Vec<&BodyFrame> = frame.bodies.iter().filter(free).collect();
-            self.planes.iter_mut().for_each(|plane| plane.begin(scene, &free));
-        }
+        let mut come: Vec<&BodySnapshot> = Vec::new();
+        self.awaited.retain(|&id| {
+            come.extend(frame.body(id));
+            frame.body(id).is_none()
+        });
         for plane in &mut self.planes {
-            plane.watch(scene, frame, &mut self.crossed);
+            plane.see(scene, frame, &come, &mut self.crossed);
         }
         self.overlaps.see(frame);
         self.asked.see(scene, frame);
         // A body that has gone through a plane is behind the scenery: the camera need not follow it.
-        let counts = |body: &&BodyFrame| !self.crossed[body.id];
+        let counts = |body: &&BodySnapshot| !self.crossed[body.id];
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts));
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;
@@ -148,9 +145,19 @@ impl<'a> Surveyor<'a> {
     }
 }
 
+/// The bodies that forces move: only these can go through a plane. A scene of many planes has few of them.
+fn free(scene: &Scene) -> impl Iterator<Item = usize> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies.filter(|(_, body)| !body.start.fixed && body.motion.is_none()).map(|(id, _)| id)
+}
+
 /// A plane that is watched for bodies that go through it.
 struct Watched {
     name: Option<String>,
+    /// The body that it is, if it is one.
+    body: Option<usize>,
+    /// Whether it was there in the frame before.
+    is_there: bool,
     point: DVec3,
     normal: DVec3,
     /// The bodies that may still go through it, by their numbers, and the side on which each began.
@@ -159,28 +166,46 @@ struct Watched {
 }
 
 fn planes(scene: &Scene) -> Vec<Watched> {
-    let watched = |name: Option<String>, point: DVec3, normal: DVec3| Watched {
+    let watched = |name: Option<String>, body: Option<usize>, point: DVec3, normal: DVec3| Watched {
         name,
+        body,
+        is_there: false,
         point,
         normal,
         bodies: Vec::new(),
         crossing: None,
     };
-    let plane = |body: &Body| match body.shape {
+    let plane = |(id, body): (usize, &Body)| match body.shape {
         Shape::Plane { normal } => {
-            Some(watched(Some(body.name.to_string()), body.start.location, body.start.orientation * normal))
+            let RigidBody { location, orientation, .. } = body.start;
+            Some(watched(Some(body.name.to_string()), Some(id), location, orientation * normal))
         }
         _ => None,
     };
     let height = scene.environment.ground.as_ref().and_then(|ground| ground.height);
-    let ground = height.map(|height| watched(None, DVec3::Y * height, DVec3::Y));
-    scene.bodies.iter().filter_map(plane).chain(ground).collect()
+    let ground = height.map(|height| watched(None, None, DVec3::Y * height, DVec3::Y));
+    scene.bodies.iter().enumerate().filter_map(plane).chain(ground).collect()
 }
 
 impl Watched {
-    /// Notes the bodies that do not touch the plane from the start.
-    fn begin(&mut self, scene: &Scene, free: &[&BodyFrame]) {
-        self.bodies = free.iter().filter_map(|body| Some((body.id, self.beginner(scene, body)?))).collect();
+    /// Looks at a frame in which some bodies have come.
+    fn see(&mut self, scene: &Scene, frame: &Frame, come: &[&BodySnapshot], crossed: &mut [bool]) {
+        let was_there =
+            std::mem::replace(&mut self.is_there, self.body.is_none_or(|id| frame.body(id).is_some()));
+        match (was_there, self.is_there) {
+            (_, false) => return self.bodies.clear(),
+            (true, true) => self.begin(scene, come.iter().copied()),
+            // It comes itself: now all begin.
+            (false, true) => self.begin(scene, free(scene).filter_map(|id| frame.body(id))),
+        }
+        self.watch(scene, frame, crossed);
+    }
+
+    /// Notes those of some bodies that do not touch the plane as they come.
+    fn begin<'a>(&mut self, scene: &Scene, come: impl Iterator<Item = &'a BodySnapshot>) {
+        for body in come {
+            self.bodies.extend(self.beginner(scene, body).map(|side| (body.id, side)));
+        }
     }
 
     /// Looks for bodies that have gone through the plane, and marks them in `crossed`.
@@ -208,22 +233,22 @@ impl Watched {
         }
     }
 
-    /// The side on which a body begins, if it does not touch the plane from the start.
-    fn beginner(&self, scene: &Scene, body: &BodyFrame) -> Option<f64> {
+    /// The side on which a body begins, if it does not touch the plane then.
+    fn beginner(&self, scene: &Scene, body: &BodySnapshot) -> Option<f64> {
         let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
         let shape = &scene.bodies[body.id].shape;
         (self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
     }
 
     /// The distance between the plane and the nearest point of a body that should be on the given side, m.
-    fn gap(&self, shape: &Shape, body: &BodyFrame, side: f64) -> f64 {
+    fn gap(&self, shape: &Shape, body: &BodySnapshot, side: f64) -> f64 {
         let towards_plane = -side * self.normal;
         let reach = shape.support(body.orientation, towards_plane).unwrap_or(0.0);
         side * (body.location - self.point).dot(self.normal) - reach
     }
 
     /// What rounding may make of a body that just touches, m.
-    fn tolerance(&self, body: &BodyFrame) -> f64 {
+    fn tolerance(&self, body: &BodySnapshot) -> f64 {
         1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
     }
 }

@@ -6,6 +6,7 @@
 //   bodies: [{ name,
 //     box: [[x, y, z], [x, y, z]],       around the triangles at the first time
 //     poses: [[x, y, z, qx, qy, qz, qw]] at each time
+//     sizes: [s]                         at each time, and at once before each but the first: 0 hides it
 //   }],
 //   cameras: [{ name, near, far,
 //     spots: [[[x, y]]]                  where the first five bodies are seen at each time: edges are at -1 and 1
@@ -48,7 +49,7 @@ async function poses(bytes) {
       const { type, intensity } = object;
       lights.push({ name, type, object, color: object.color.toArray(), intensity, places: [], toward: null });
     } else {
-      bodies.push({ name, object, box: null, poses: [] });
+      bodies.push({ name, object, box: null, poses: [], sizes: [] });
     }
   }
   const [clip] = gltf.animations;
@@ -60,8 +61,13 @@ async function poses(bytes) {
     action.clampWhenFinished = true;
     action.play();
   }
-  for (const time of times) {
+  for (const [i, time] of times.entries()) {
+    if (i) {
+      mixer.setTime(time - 0.1 * (time - times[i - 1]));
+      bodies.forEach(({ object, sizes }) => sizes.push(object.scale.x));
+    }
     mixer.setTime(time);
+    bodies.forEach(({ object, sizes }) => sizes.push(object.scale.x));
     gltf.scene.updateMatrixWorld(true);
     for (const body of bodies) {
       const place = body.object.getWorldPosition(new Vector3());

@@ -56,6 +56,8 @@ struct SeenBody {
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
     poses: Vec<[f64; 7]>,
+    /// At each time, and between each two.
+    sizes: Vec<f64>,
 }
 
 /// Looks at files, which must be good.
@@ -79,7 +81,7 @@ fn export(scene: &Path, file: &Path, arguments: &[&str]) -> String {
 /// The rows of one frame of a table: its time, and the name, location and orientation of each body.
 type Rows = (f64, Vec<(String, DVec3, DQuat)>);
 
-fn table(file: &Path, bodies: usize) -> Vec<Rows> {
+fn table(file: &Path) -> Vec<Rows> {
     let rows = csv::Reader::from_path(file).unwrap().into_records();
     let rows: Vec<csv::StringRecord> = rows.map(Result::unwrap).collect();
     let body = |row: &csv::StringRecord| {
@@ -87,7 +89,7 @@ fn table(file: &Path, bodies: usize) -> Vec<Rows> {
         let location = DVec3::new(number(2), number(3), number(4));
         (row[1].to_owned(), location, DQuat::from_xyzw(number(5), number(6), number(7), number(8)))
     };
-    let frames = rows.chunks(bodies);
+    let frames = rows.chunk_by(|one, next| one[0] == next[0]);
     frames.map(|rows| (rows[0][0].parse().unwrap(), rows.iter().map(body).collect())).collect()
 }
 
@@ -101,8 +103,10 @@ fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
         let (time, bodies) = &table[i];
         assert!(seen.bodies.len() >= bodies.len() && !bodies.is_empty(), "{name}");
         assert!((shown * faster - time).abs() <= 3e-7 * time, "{name}: {shown} for {time}");
-        for (body, (known, location, orientation)) in seen.bodies.iter().zip(bodies) {
-            assert_eq!(body.name, *known);
+        let mut places = seen.bodies.iter();
+        for (known, location, orientation) in bodies {
+            // In the order of the scene; those that are not there have no row.
+            let body = places.find(|body| body.name == *known).unwrap();
             let [x, y, z, ref turn @ ..] = body.poses[i];
             let off = (DVec3::new(x, y, z) - location).length();
             assert!(off <= 1.2e-7 * location.length(), "{name}, {known} at {time} s: {off} m");
@@ -150,7 +154,8 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
             if placed.lens() != lens {
                 continue;
             }
-            for (body, [x, y]) in frame.bodies.iter().zip(spots) {
+            for body in &frame.bodies {
+                let Some([x, y]) = spots.get(body.id) else { continue };
                 let Some(spot) = placed.screen().spot(body.location) else { continue };
                 let (of_x, of_y) = (spot.x, spot.y * aspect);
                 if of_x.abs().max(of_y.abs()) > 1.5 {
@@ -211,7 +216,7 @@ fn check(scenes: &[PathBuf], folder: &Path) {
     for ((path, file), seen) in scenes.iter().zip(&files).zip(look(&files)) {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let scene = Scene::from_path(path).unwrap();
-        assert_same_motion(name, &seen, &table(&file.with_extension("csv"), scene.bodies.len()));
+        assert_same_motion(name, &seen, &table(&file.with_extension("csv")));
         let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
         let spots = assert_same_picture(name, &seen, &scene, &frames);
         assert!(spots > 0, "{name}: something is seen");
@@ -346,6 +351,58 @@ fn cameras_see_and_lights_shine_as_in_the_pictures() {
     assert_eq!(seen.times.len(), 11);
 }
 
+const COMING: &str = "
+    simulation = { duration = 1, frame_rate = 10 }
+    [defaults.body]
+    shape.sphere.radius = 0.5
+    velocity = [1, 0, 0]
+    [body.always]
+    [body.born]
+    location = [0, 2, 0]
+    start = 0.25
+    [body.dies]
+    location = [0, 4, 0]
+    end = 0.5
+    [body.never]
+    start = 9
+    [body.still]
+    shape.compound.parts = [{ sphere.radius = 0.2 }, { sphere.radius = 0.3, location = [1, 0, 0] }]
+    fixed = true
+    velocity = [0, 0, 0]
+    start = 0.1
+    end = 0.4
+    ";
+
+/// What is away has the size 0, from the very time on at which it goes, and until the very time at which it comes.
+#[test]
+fn bodies_that_come_and_go_are_hidden_while_they_are_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, file] = ["coming.toml", "coming.glb"].map(|name| folder.path().join(name));
+    fs::write(&path, COMING).unwrap();
+    export(&path, &file, &[]);
+    let seen = look(&[file]).remove(0);
+    let scene = Scene::from_path(&path).unwrap();
+    let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+    // Behind them, there is the ground.
+    for (id, body) in seen.bodies.iter().take(scene.bodies.len()).enumerate() {
+        assert_eq!(body.sizes.len(), 2 * frames.len() - 1);
+        for (i, frame) in frames.iter().enumerate() {
+            let at = frame.body(id);
+            // Until a frame, a body is as in the one before.
+            let size = if at.is_some() { 1.0 } else { 0.0 };
+            let until_next =
+                body.sizes.get(2 * i + 1).is_none_or(|next| (next - size).abs() < 1e-6 || id == 0);
+            let is_at = (body.sizes[2 * i] - size).abs() < 1e-6 || id == 0;
+            assert!(is_at && until_next, "{} in frame {i}: {:?}", body.name, body.sizes);
+            if let Some(at) = at {
+                let [x, y, z, ..] = body.poses[i];
+                assert!(DVec3::new(x, y, z).abs_diff_eq(at.location, 1e-6), "{} in frame {i}", body.name);
+            }
+        }
+    }
+    assert_eq!(seen.bodies[3].sizes[0], 0.0);
+}
+
 const EMPTY: &str = "environment.ground = false";
 
 const FAR: &str = "
@@ -385,7 +442,7 @@ fn some_frames_are_those_at_their_times() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "nothing is left over");
     let seen = look(&[model]);
     assert_eq!(seen[0].times, [0.2f32, 0.4, 0.42, 0.44].map(f64::from));
-    assert_same_motion("projectile", &seen[0], &table(&rows, 1));
+    assert_same_motion("projectile", &seen[0], &table(&rows));
 }
 
 #[test]

@@ -10,6 +10,7 @@
 )]
 
 mod assets;
+mod coming_and_going;
 mod every_script;
 mod extremes;
 mod hostile;

@@ -1,7 +1,7 @@
 //! What moves nodes.
 
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
-use super::motion::Motion;
+use super::motion::{Motion, Way};
 
 /// What moves nodes, and how many bytes of keys that takes, which are those of a view; nothing where
 /// nothing moves.
@@ -11,12 +11,13 @@ pub(super) fn animation(
     view: u32,
     accessors: &mut Vec<Accessor>,
 ) -> (Option<Animation>, u64) {
-    if motion.ways().iter().all(|way| way.translations.is_empty() && way.rotations.is_empty()) {
+    let is_still =
+        |way: &Way| way.translations.is_empty() && way.rotations.is_empty() && way.shown.is_always();
+    if motion.ways().iter().all(is_still) {
         return (None, 0);
     }
     let mut offset = 0;
-    let mut add = |kind, width: usize, min: Vec<f64>, max: Vec<f64>| {
-        let count = motion.times().len();
+    let mut add = |kind, width: usize, count: usize, min: Vec<f64>, max: Vec<f64>| {
         let byte_offset = offset;
         offset += 4 * (width * count) as u64;
         let numbers =
@@ -25,19 +26,33 @@ pub(super) fn animation(
         accessors.len() as u32 - 1
     };
     let end = |time: Option<&f32>| time.map(|&time| f64::from(time)).into_iter().collect();
-    let input = add("SCALAR", 1, end(motion.times().first()), end(motion.times().last()));
+    let count = motion.times().len();
+    let input = add("SCALAR", 1, count, end(motion.times().first()), end(motion.times().last()));
     let mut animation = Animation { name: "motion".to_owned(), channels: Vec::new(), samplers: Vec::new() };
     for (way, &node) in motion.ways().iter().zip(nodes) {
         // In the order of `Motion::numbers`.
         let parts = [("translation", "VEC3", 3, &way.translations), ("rotation", "VEC4", 4, &way.rotations)];
         for (path, kind, width, values) in parts {
             if !values.is_empty() {
-                let output = add(kind, width, Vec::new(), Vec::new());
-                let sampler = animation.samplers.len() as u32;
-                animation.samplers.push(Sampler { input, output });
-                animation.channels.push(Channel { sampler, target: Target { node, path } });
+                let output = add(kind, width, count, Vec::new(), Vec::new());
+                animation.add(Sampler { input, interpolation: None, output }, Target { node, path });
             }
+        }
+        if !way.shown.is_always() {
+            let times = &way.shown.times;
+            let input = add("SCALAR", 1, times.len(), end(times.first()), end(times.last()));
+            let output = add("VEC3", 3, times.len(), Vec::new(), Vec::new());
+            let sampler = Sampler { input, interpolation: Some("STEP"), output };
+            animation.add(sampler, Target { node, path: "scale" });
         }
     }
     (Some(animation), offset)
+}
+
+impl Animation {
+    /// Lets a sampler move a target.
+    fn add(&mut self, sampler: Sampler, target: Target) {
+        self.channels.push(Channel { sampler: self.samplers.len() as u32, target });
+        self.samplers.push(sampler);
+    }
 }

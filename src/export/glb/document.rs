@@ -203,10 +203,13 @@ pub(super) struct Target {
     pub(super) path: &'static str,
 }
 
-/// Values at times; between them it is LINEAR, as glTF has it where nothing is said.
+/// Values at times.
 #[derive(Serialize)]
 pub(super) struct Sampler {
     pub(super) input: u32,
+    /// What is between two times; LINEAR, as glTF has it, where nothing is said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) interpolation: Option<&'static str>,
     pub(super) output: u32,
 }
 

@@ -3,6 +3,7 @@
 //! | what | where |
 //! | --- | --- |
 //! | where the bodies are in all frames | `motion` |
+//! | when they are there | `shown` |
 //! | where cameras and lights are, how they see and shine | `sight` |
 //! | triangles, those of a form once | `geometry` |
 //! | looks | `materials` |
@@ -23,6 +24,7 @@ mod materials;
 mod meshes;
 mod model;
 mod motion;
+mod shown;
 mod sight;
 #[cfg(test)]
 mod tests;

@@ -60,7 +60,8 @@ impl Model<'_> {
 
     /// Adds the node of a body, with its pieces below it; a single piece that is where the body is, is the node itself.
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
-        let number = self.node(Node { name: body.name.to_string(), ..at(way.start) });
+        let scale = (!way.shown.at_first()).then_some([0.0; 3]);
+        let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
         // A pattern is made for a ball of radius 1, and on a body as large as on a ball of its volume.
@@ -76,7 +77,8 @@ impl Model<'_> {
             let mesh = self.meshes.number(self.scene, &piece, material, pattern);
             let centred = piece.location == DVec3::ZERO && piece.orientation == DQuat::IDENTITY;
             let scale = Some(piece.scale.to_array());
-            if single && centred {
+            // A node has one scale: of what comes and goes, that says whether it is there.
+            if single && centred && way.shown.is_always() {
                 let node = &mut self.nodes[number as usize];
                 (node.mesh, node.scale) = (mesh, scale);
             } else {

@@ -3,8 +3,10 @@
 use glam::{DQuat, DVec3};
 
 use super::container::LARGEST;
+use super::shown::Shown;
 use crate::export::ExportError;
 use crate::render::{Film, Pace};
+use crate::scene::Body;
 use crate::simulate::{Recorded, Selection};
 
 /// The motion of all bodies in the frames that are asked for, and of what stands beside them.
@@ -33,6 +35,8 @@ pub(super) struct Way {
     pub(super) translations: Vec<f32>,
     /// Its orientations in all frames, each x, y, z, w; empty if they are all the same.
     pub(super) rotations: Vec<f32>,
+    /// When it is there.
+    pub(super) shown: Shown,
     /// How it was turned last, of the two signs that a quaternion can have that which is near the one before.
     last: DQuat,
 }
@@ -51,15 +55,21 @@ impl Motion {
         let mut room = Room::default();
         room.take(count)?;
         let mut bodies = Recorder::new(count);
+        let pose = |location, orientation: DQuat| Pose { location, orientation: orientation.normalize() };
+        // What is away stays where it was, or waits where it will come.
+        let start = |body: &Body| pose(body.start.location, body.start.orientation);
+        let mut poses: Vec<Pose> = scene.bodies.iter().map(start).collect();
         for exposure in run.exposures(selection) {
             let frame = exposure?.frame;
             times.push((frame.time * slower) as f32);
-            let poses = frame
-                .bodies
-                .iter()
-                .map(|body| Pose { location: body.location, orientation: body.orientation.normalize() });
+            for body in &frame.bodies {
+                poses[body.id] = pose(body.location, body.orientation);
+            }
             let name = |body: usize| scene.bodies[body].name.to_string();
-            bodies.add(poses, frame.time, name, &mut room)?;
+            bodies.add(poses.iter().copied(), frame.time, name, &mut room)?;
+            for (id, way) in bodies.ways.iter_mut().enumerate() {
+                way.shown.add(frame.body(id).is_some(), &times, &mut room)?;
+            }
         }
         Ok(Motion { times, slower, ways: bodies.ways, room })
     }
@@ -84,9 +94,11 @@ impl Motion {
         &self.ways
     }
 
-    /// All numbers in the order of the file: the times, and for each way its locations and its orientations.
+    /// All numbers in the order of the file: the times, and for each way its locations, its orientations, and when it is there.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
-        let ways = self.ways.iter().flat_map(|way| [&way.translations[..], &way.rotations[..]]);
+        let ways = self.ways.iter().flat_map(|Way { translations, rotations, shown, .. }| {
+            [&translations[..], &rotations[..], &shown.times[..], &shown.scales[..]]
+        });
         std::iter::once(&self.times[..]).chain(ways)
     }
 }
@@ -129,7 +141,8 @@ impl Recorder {
 
 impl Way {
     fn new(start: Pose) -> Way {
-        Way { start, translations: Vec::new(), rotations: Vec::new(), last: start.orientation }
+        let (translations, rotations) = (Vec::new(), Vec::new());
+        Way { start, translations, rotations, shown: Shown::default(), last: start.orientation }
     }
 
     /// Adds where it is after so many known frames of all.

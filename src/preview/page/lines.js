@@ -1,6 +1,6 @@
 // What is drawn in lines: trails, arrows, coils, grids, axes, and where the scene's camera stands.
 
-import { add, cross, dot, length, sub, times, turned, unit } from "./math.js";
+import { add, cross, dot, isThere, length, sub, times, turned, unit } from "./math.js";
 
 /** Lines of a picture: for each its ends, its radius there, and its color in sRGB. Lengths are metres. */
 export class Lines {
@@ -81,13 +81,21 @@ export function trail(lines, run, { body, radius, color, tapers }, position, mos
   const first = duration ? Math.max(0, position - duration * rate) : 0;
   const points = [];
   const stride = Math.max(1, Math.ceil((position - first) / Math.min(1500, most)));
+  let away = false;
   for (let frame = Math.ceil(first); frame < position; frame += stride) {
     const poses = run.poses(frame);
-    if (poses) points.push(Array.from(poses.subarray(3 * body, 3 * body + 3)));
-    else points.length = 0;
+    const place = poses && Array.from(poses.subarray(3 * body, 3 * body + 3));
+    const wasAway = away;
+    away = place !== undefined && !isThere(place);
+    // A body that comes back has no way from where it went.
+    if (!place || (wasAway && !away)) points.length = 0;
+    if (place && !away) points.push(place);
   }
   const here = run.posesAt(position)?.(body);
-  if (here) points.push(here.slice(0, 3));
+  if (here && isThere(here)) {
+    if (away) points.length = 0;
+    points.push(here.slice(0, 3));
+  }
   const smooth = points.length * 8 < most ? rounded(points) : points;
   for (let i = 1; i < smooth.length; i++) {
     const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);

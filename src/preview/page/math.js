@@ -90,3 +90,8 @@ export function short(number, digits = 4) {
 export const linear = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
 
 export const css = (color) => `rgb(${color.map((c) => Math.round(255 * Math.min(1, Math.max(0, c)))).join(" ")})`;
+
+/** Whether a body is there: the numbers of one that is not are none. */
+export function isThere(pose) {
+  return !Number.isNaN(pose[0]);
+}

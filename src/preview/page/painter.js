@@ -1,6 +1,6 @@
 // Draws a picture with WebGL2.
 
-import { add, length, product, orthographic, axes as axesOf, lookAt, sub, times, turned, unit } from "./math.js";
+import { add, axes as axesOf, isThere, length, lookAt, orthographic, product, sub, times, turned, unit } from "./math.js";
 import { FIRST_LAMP, surroundings } from "./surroundings.js";
 import { corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
 import * as shaders from "./shaders.js";
@@ -103,7 +103,8 @@ export class Painter {
     const { poses } = this.batches[name];
     const { center, size } = this.space;
     for (let i = 0; i < poses.count; i++) {
-      const [x, y, z, a, b, c, d] = at(i);
+      const pose = at(i);
+      const [x, y, z, a, b, c, d] = isThere(pose) ? pose : [AWAY * size, 0, 0, 0, 0, 0, 1];
       const k = 8 * i;
       poses.numbers[k] = (x - center[0]) / size;
       poses.numbers[k + 1] = (y - center[1]) / size;
@@ -221,6 +222,7 @@ export class Painter {
     }
     for (const piece of this.planes) {
       const [x, y, z, ...turn] = planePose(piece.body);
+      if (Number.isNaN(x)) continue;
       const axis = (v) => turned(turn, turned(piece.turn, v));
       const material = description.materials[description.bodies[piece.body].material] ?? description.tiles;
       const look = material.motif === "ground" ? description.tiles : material;
@@ -340,6 +342,9 @@ export class Painter {
     return number > 0 ? number - 1 : undefined;
   }
 }
+
+/** How far away what is not there is put, in sizes of the scene: beyond all that is seen. */
+const AWAY = 1e6;
 
 const PLAIN = { color: [0.3, 0.3, 0.3, 1], metallic: 0, roughness: 0.6, emissive: false, motif: "none", second: null, pale: [0.5, 0.5, 0.5] };
 

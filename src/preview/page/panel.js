@@ -1,6 +1,6 @@
 // The values of the chosen body, and the choice of methods.
 
-import { length, short } from "./math.js";
+import { isThere, length, short } from "./math.js";
 
 /** The numbers of a body in a frame come in blocks of so many frames. */
 const BLOCK = 200;
@@ -61,6 +61,7 @@ export class Panel {
       ["kind", { free: "moves freely", fixed: "fixed", driven: "its motion is given" }[description.kind]],
       ["mass", `${short(description.mass)} kg`],
       ["time", `${short(n[0], 6)} s`],
+      ...(isThere(three(1)) ? [] : [["now", "not there"]]),
       ["location", written(three(1), "m")],
       ["velocity", written(three(4), "m/s")],
       ["speed", `${short(length(three(4)))} m/s`],

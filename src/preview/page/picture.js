@@ -1,7 +1,7 @@
 // What is seen of a frame.
 
 import { arrow, axes, camera as cameraLines, coil, Lines, trail } from "./lines.js";
-import { length, short, sub, unit } from "./math.js";
+import { isThere, length, short, sub, unit } from "./math.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
 /** All trails together have no more points. */
@@ -34,6 +34,7 @@ function nearestTo(run, at, eye) {
   let nearest = stage?.ground ? Math.abs(eye[1] - stage.ground.height) : Infinity;
   for (const { body, location, scale, plane } of pieces) {
     const place = at(body);
+    if (!isThere(place)) continue;
     const away = Math.hypot(place[0] - eye[0], place[1] - eye[1], place[2] - eye[2]);
     const reach = plane ? 0 : length(location) + 1.8 * Math.max(...scale);
     // Within what may be a long body, only its surface would tell how near it is.
@@ -95,7 +96,7 @@ function triads(run, shown, at) {
   const bodies = run.description.bodies.flatMap(({ axes: length }, body) => {
     if (!length) return [];
     const here = at(body);
-    return [{ location: here.slice(0, 3), turn: here.slice(3), length }];
+    return isThere(here) ? [{ location: here.slice(0, 3), turn: here.slice(3), length }] : [];
   });
   return [...bodies, ...(shown?.axes ?? [])];
 }
@@ -116,7 +117,7 @@ function drawLines(lines, run, shown, at, view) {
 
 /** Four lines around the chosen body, beside it in the picture. */
 function mark(lines, view, [x, y, z], pieces) {
-  if (!pieces.length) return;
+  if (!pieces.length || Number.isNaN(x)) return;
   const reach = 1.25 * Math.max(...pieces.map((piece) => length(piece.location) + Math.max(...piece.scale)));
   for (const axis of [view.right, view.up]) {
     for (const side of [-1, 1]) {
@@ -144,7 +145,7 @@ function strobes(run, position, at) {
   const apart = past.filter(({ body, location, orientation: o }) => {
     const here = at(body);
     const turned = Math.abs(o[0] * here[3] + o[1] * here[4] + o[2] * here[5] + o[3] * here[6]) < 1 - 1e-4;
-    return turned || length(sub(location, here)) > 1e-4 * open.painter.space.size;
+    return !isThere(here) || turned || length(sub(location, here)) > 1e-4 * open.painter.space.size;
   });
   const key = `${run.id} ${past.length} ${apart.map((ghost) => past.indexOf(ghost)).join()}`;
   if (open.strobes !== key) {

@@ -142,9 +142,18 @@ export class Plots {
       context.lineWidth = which ? 1 : 1.6;
       for (const [, color, value] of plot.curves) {
         context.strokeStyle = ink(color);
-        const points = [];
-        for (let i = 0; i < numbers.length; i += stride) points.push([x(numbers[i]), y(value(numbers, i))]);
-        line(context, points);
+        let points = [];
+        for (let i = 0; i < numbers.length; i += stride) {
+          const v = value(numbers, i);
+          if (!Number.isNaN(v)) {
+            points.push([x(numbers[i]), y(v)]);
+          } else if (points.length) {
+            // While a body is not there, it has no curve.
+            line(context, points);
+            points = [];
+          }
+        }
+        if (points.length) line(context, points);
       }
     });
     context.setLineDash([]);

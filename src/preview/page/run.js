@@ -1,5 +1,6 @@
 // A run as the page knows it: what stays the same, and the frames that have been fetched, within a budget of memory.
 
+import { isThere } from "./math.js";
 import { binary, json } from "./server.js";
 
 /** So many bytes of poses are kept. */
@@ -86,6 +87,8 @@ export class Run {
       const [p, q] = [3 * i, turns + 4 * i];
       const here = [from[p], from[p + 1], from[p + 2], from[q], from[q + 1], from[q + 2], from[q + 3]];
       if (!to) return here;
+      // What comes or goes between the two stays as it is until then.
+      if (!isThere(here) || Number.isNaN(to[p])) return here;
       const then = [to[p], to[p + 1], to[p + 2], to[q], to[q + 1], to[q + 2], to[q + 3]];
       const sign = here[3] * then[3] + here[4] * then[4] + here[5] * then[5] + here[6] * then[6] < 0 ? -1 : 1;
       const mixed = here.map((a, k) => a + part * ((k < 3 ? 1 : sign) * then[k] - a));

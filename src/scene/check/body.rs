@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, habits, look, mesh, motion, shape, showing};
+use super::{Context, habits, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -51,9 +51,15 @@ pub(super) fn read(
             let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
             let material = material(name, root, view, &shape, materials, &mut palette, context);
             let mut start = start(name, span, view, &shape, context);
-            let motion = motion::read(name, view, (start.location, start.orientation), simulation, context);
-            if let Some((location, orientation)) = motion.as_ref().map(|motion| motion.place(0.0)) {
+            let place = (start.location, start.orientation);
+            let own = presence::read(name, view, simulation, context);
+            let motion = motion::read(name, view, place, &own, simulation, context);
+            let (motion, presence) =
+                motion.map_or((None, own), |(motion, presence)| (Some(motion), presence));
+            presence::never(name, view, &presence, simulation, context);
+            if let Some(motion) = &motion {
                 // What follows from where bodies begin, rest lengths of springs say, follows from where they really are.
+                let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }
             let look = look::of_body(name, view, &shape, context);
@@ -69,7 +75,7 @@ pub(super) fn read(
                 showing: showing.clone(),
             });
             let motion = motion.map(Arc::new);
-            Body { name: name.clone(), shape, start, motion, material, look, showing }
+            Body { name: name.clone(), shape, start, presence, motion, material, look, showing }
         });
         context.once(before, name, span);
         bodies.push(body);

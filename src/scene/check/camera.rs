@@ -5,18 +5,28 @@ use super::view::View as Keys;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
-use crate::scene::{Blur, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
+use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
 /// What `--view` takes for all views, so no view can have this name.
 const ALL: &str = "all";
 
 /// Reads the main camera.
-pub(super) fn read(root: &Keys<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Camera {
-    camera(&[root.table("camera")], simulation, context)
+pub(super) fn read(
+    root: &Keys<'_>,
+    simulation: &Simulation,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Camera {
+    camera(&[root.table("camera")], simulation, bodies, context)
 }
 
 /// Reads the other cameras, each over the main one.
-pub(super) fn views(root: &Keys<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Vec<View> {
+pub(super) fn views(
+    root: &Keys<'_>,
+    simulation: &Simulation,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Vec<View> {
     let main = root.table("camera");
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
@@ -25,13 +35,18 @@ pub(super) fn views(root: &Keys<'_>, simulation: &Simulation, context: &mut Cont
             let help = format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL}`");
             context.diagnostics.push(Diagnostic::error(Code::BadViewName, message).at(span, "").help(help));
         }
-        View { name: name.to_owned(), camera: camera(&[keys, main], simulation, context) }
+        View { name: name.to_owned(), camera: camera(&[keys, main], simulation, bodies, context) }
     };
     root.named("view").into_iter().map(read).collect()
 }
 
 /// Reads a camera from tables, of which the first that has a key says it.
-fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_>) -> Camera {
+fn camera(
+    tables: &[Keys<'_>],
+    simulation: &Simulation,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
     for key in ["location", "look_at", "angle"] {
@@ -51,6 +66,7 @@ fn camera(tables: &[Keys<'_>], simulation: &Simulation, context: &mut Context<'_
             .find_map(|keys| keys.variant("orbit")?.number("period"))
             .filter(|period| *period != 0.0),
     };
+    nobody(&tables[0], &moving, simulation, bodies, context);
     let (mut location, mut look_at) = (location.map(|v| v.at(0.0)), look_at.map(|v| v.at(0.0)));
     if let Some(keyframes) = movers.iter().find_map(|keys| keys.variant("keyframes")) {
         let [places, aims] = motion::camera_keyframes(&keyframes, look_at, context);
@@ -112,6 +128,23 @@ fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
         distance: follow.number("distance"),
         lag: follow.number("lag").filter(|lag| *lag > 0.0),
     })
+}
+
+/// Warns of a camera that follows a body which is never there. What a view inherits has been said of the main camera.
+fn nobody(
+    keys: &Keys<'_>,
+    motion: &CameraMotion,
+    simulation: &Simulation,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) {
+    let Some(body) = motion.follow.and_then(|follow| bodies.get(follow.body)) else { return };
+    let span = keys.variant("follow").and_then(|follow| follow.span("body"));
+    if let Some(span) = span.filter(|_| !body.presence.meets(0.0, simulation.end())) {
+        let message = format!("the camera follows `{}`, which is never there", body.name);
+        let warning = Diagnostic::warning(Code::NeverThere, message);
+        context.diagnostics.push(warning.at(span, "it looks where the body would come"));
+    }
 }
 
 /// The error of a shutter that is still open when the next image begins.

@@ -16,6 +16,7 @@ mod material;
 mod mesh;
 mod motion;
 mod povray;
+mod presence;
 mod sdl;
 mod shape;
 mod showing;
@@ -40,7 +41,7 @@ use super::source::{self, Table};
 use super::view::{NamedTable, View};
 use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
-use crate::dynamics::Track;
+use crate::dynamics::{Presence, Track};
 
 /// What a scene is made from.
 pub(super) struct Input<'a> {
@@ -85,8 +86,10 @@ struct Context<'a> {
     sources: Sources,
     /// Files with motions, each read once.
     recordings: trajectory::Recordings,
-    /// The tracks of files, which bodies share.
-    tracks: HashMap<motion::Rows, Arc<Track>>,
+    /// The tracks of files, which bodies share, and when these are there.
+    tracks: HashMap<motion::Rows, (Arc<Track>, Presence)>,
+    /// The addresses of the files with motions of which it has been looked whether they are as long as the run.
+    measured: HashSet<usize>,
     /// The table that the last file with motions was named in, and what was read.
     last_recording: Option<(Option<Table>, Option<Arc<trajectory::Recording>>)>,
     /// The addresses of the rows of files that bodies have taken.
@@ -122,6 +125,7 @@ impl Context<'_> {
             sources: Sources::default(),
             recordings: trajectory::Recordings::new(),
             tracks: HashMap::new(),
+            measured: HashSet::new(),
             last_recording: None,
             rows: HashSet::new(),
             places: 0,
@@ -282,14 +286,14 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
-    let camera = camera::read(&root, &simulation, context);
+    let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table("output"));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
     Scene {
         name: input.name.to_owned(),
         title: root.text("title").map(str::to_owned),
         camera,
-        views: camera::views(&root, &simulation, context),
+        views: camera::views(&root, &simulation, &bodies, context),
         lights: look::lights(&root, &simulation, context),
         simulation,
         environment: look::environment(&root, &bodies),

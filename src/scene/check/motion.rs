@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::read::figure;
 use super::trajectory::{self, Columns, Recording};
 use super::view::View;
-use super::{Context, asset, body};
+use super::{Context, asset, body, presence};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Interpolation, Key, Track};
+use crate::dynamics::{Interpolation, Key, Presence, Track};
 use crate::scene::Simulation;
 use crate::scene::expand::in_string;
 use crate::scene::motion::{BodyMotion, TimedOrientation};
@@ -22,26 +21,31 @@ const MAX_PLACES: usize = 2_000_000;
 /// frames are looked at, and the run says what it finds at others.
 pub(super) const MAX_OPERATIONS: u64 = 50_000_000;
 
-/// The motion of a body whose own place is given, if it has one.
+/// The motion of a body whose own place is given, if it has one, and when the body is there. By its own keys it is there when
+/// `presence` says so.
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
     place: (DVec3, DQuat),
+    presence: &Presence,
     simulation: &Simulation,
     context: &mut Context<'_>,
-) -> Option<BodyMotion> {
+) -> Option<(BodyMotion, Presence)> {
     let motion = view.variant("motion")?;
     if let Some(formula) = motion.variant("formula") {
         if formula.has("location") {
             unused_location(name, view, context);
         }
-        return Some(by_formula(name, &formula, place, simulation, context));
+        let motion = by_formula(name, &formula, place, presence, simulation, context);
+        return Some((motion, presence.clone()));
     }
     if let Some(keyframes) = motion.variant("keyframes") {
-        return by_keyframes(name, &keyframes, place, context);
+        return Some((by_keyframes(name, &keyframes, place, context)?, presence.clone()));
     }
     unused_location(name, view, context);
-    by_trajectory(name, &motion.variant("trajectory")?, place.1, simulation, context)
+    let (motion, of_file) =
+        by_trajectory(name, &motion.variant("trajectory")?, place.1, simulation, context)?;
+    Some((motion, of_file.and(presence)))
 }
 
 /// Says that a location has no effect: also the one to which a `repeat` puts a copy.
@@ -55,14 +59,15 @@ fn by_formula(
     name: &str,
     view: &View<'_>,
     place: (DVec3, DQuat),
+    presence: &Presence,
     simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> BodyMotion {
-    finite(view.raw("location"), simulation, context);
+    finite_while(presence, view.raw("location"), simulation, context);
     let orientation = if view.has("orientation") {
         let table = view.table("orientation");
         for node in [view.raw("orientation"), table.raw("euler"), table.raw("angle")] {
-            finite(node, simulation, context);
+            finite_while(presence, node, simulation, context);
         }
         turning(name, view, context)
     } else {
@@ -88,12 +93,24 @@ fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrien
 
 /// Reports the first frame at which a formula, or one of a list, has no value.
 pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut Context<'_>) {
+    finite_while(&Presence::ALWAYS, node, simulation, context);
+}
+
+/// Like [`finite`], of a body that needs its formulas while it is there.
+fn finite_while(
+    presence: &Presence,
+    node: Option<&Node>,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) {
     match node.map(|node| &node.value) {
-        Some(Value::Array(items)) => items.iter().for_each(|item| finite(Some(item), simulation, context)),
+        Some(Value::Array(items)) => {
+            items.iter().for_each(|item| finite_while(presence, Some(item), simulation, context));
+        }
         Some(Value::Formula(formula)) => {
             let span = node.map(|node| node.span);
             let wrong = some_frames(formula, simulation.frames(), context).find_map(|frame| {
-                let t = simulation.time(frame);
+                let t = Some(simulation.time(frame)).filter(|t| presence.at(*t))?;
                 Some((t, formula.explain_non_finite(t)?))
             });
             if let (Some((t, error)), Some(span)) = (wrong, span) {
@@ -230,7 +247,7 @@ fn by_trajectory(
     orientation: DQuat,
     simulation: &Simulation,
     context: &mut Context<'_>,
-) -> Option<BodyMotion> {
+) -> Option<(BodyMotion, Presence)> {
     let span = view.span("file")?;
     let recording = match &context.last_recording {
         Some((last, recording)) if view.is_same(last.as_ref()) => recording.clone(),
@@ -248,15 +265,17 @@ fn by_trajectory(
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));
         return None;
     };
-    stands_still(name, keys, span, simulation, context);
+    if context.measured.insert(Arc::as_ptr(&recording).addr()) {
+        presence::short(view.text("file").unwrap_or_default(), &recording.times, span, simulation, context);
+    }
     let interpolation = interpolation(view);
     let same = Rows {
         address: keys.as_ptr().addr(),
         orientation: (!recording.is_turned).then(|| orientation.to_array().map(f64::to_bits)),
         is_linear: interpolation == Interpolation::Linear,
     };
-    if let Some(track) = context.tracks.get(&same) {
-        return Some(BodyMotion::Track(track.clone()));
+    if let Some((track, presence)) = context.tracks.get(&same) {
+        return Some((BodyMotion::Track(track.clone()), presence.clone()));
     }
     // The size of the file limits its own rows.
     let is_copied = !context.rows.insert(same.address);
@@ -267,9 +286,10 @@ fn by_trajectory(
     if !recording.is_turned {
         keys.iter_mut().for_each(|key| key.orientation = orientation);
     }
-    let track = Arc::new(Track::new(keys, interpolation, false));
-    context.tracks.insert(same, track.clone());
-    Some(BodyMotion::Track(track))
+    let (presence, gaps) = presence::of_rows(&keys, &recording.times, simulation);
+    let track = Arc::new(Track::with_gaps(keys, &gaps, interpolation, false));
+    context.tracks.insert(same, (track.clone(), presence.clone()));
+    Some((BodyMotion::Track(track), presence))
 }
 
 /// What a track of a file is made from.
@@ -289,23 +309,4 @@ fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<A
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
     let columns = Columns::read(&view.table("columns"));
     trajectory::read(&path, node.as_str().unwrap_or_default(), &columns, span, context)
-}
-
-/// Warns of a body that stands still before the first row of its file, or after the last.
-fn stands_still(name: &str, keys: &[Key], span: Span, simulation: &Simulation, context: &mut Context<'_>) {
-    let (Some(first), Some(last)) = (keys.first(), keys.last()) else { return };
-    let end = simulation.time(simulation.frames() - 1);
-    // Less than a frame is not seen.
-    let frame = 1.0 / simulation.frame_rate;
-    let before = (first.time > frame).then(|| format!("until its first row, at {} s", figure(first.time)));
-    let after =
-        (last.time < end - frame).then(|| format!("from its last row on, at {} s", figure(last.time)));
-    let when: Vec<String> = [before, after].into_iter().flatten().collect();
-    if when.is_empty() {
-        return;
-    }
-    let message = format!("`{name}` stands still {}", when.join(", and "));
-    let label = format!("the scene goes from 0 to {} s", figure(end));
-    let help = "let `simulation.duration` end with the file; a body cannot be absent yet";
-    context.diagnostics.push(Diagnostic::warning(Code::ShortTrajectory, message).at(span, label).help(help));
 }

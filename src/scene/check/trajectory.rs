@@ -32,6 +32,8 @@ pub(super) struct Columns {
 #[derive(Default)]
 pub(super) struct Recording {
     pub(super) rows: HashMap<Option<String>, Vec<Key>>,
+    /// The times of all rows, in rising order, s.
+    pub(super) times: Vec<f64>,
     /// Whether the file says how bodies are turned.
     pub(super) is_turned: bool,
 }
@@ -229,6 +231,9 @@ impl Reader<'_> {
             let end = self.text.len();
             self.error(Code::CsvSyntax, "the file has no rows under its header".to_owned(), end..end);
         }
+        recording.times = recording.rows.values().flatten().map(|key| key.time).collect();
+        recording.times.sort_unstable_by(f64::total_cmp);
+        recording.times.dedup();
         self.wrong.is_empty().then_some(recording)
     }
 

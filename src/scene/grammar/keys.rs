@@ -201,6 +201,14 @@ static BODY: TableSpec = TableSpec {
             .unit("rad/s")
             .default("[0, 0, 0]")
             .also(&["spin", "omega"]),
+        Key::new("start", ANY, "When it comes: before, it is not there. Its `location` and `velocity` are those of then")
+            .unit("s")
+            .default("it is there from the beginning")
+            .also(&["birth", "born", "begin", "appears", "t0"]),
+        Key::new("end", ANY, "When it goes: after, it is not there. Nothing acts on what is not there, nor comes from it")
+            .unit("s")
+            .default("it stays")
+            .also(&["death", "dies", "until", "vanishes", "t1"]),
         Key::new("force", VECTOR, "A constant force at its centre, in world axes")
             .unit("N")
             .default("[0, 0, 0]"),

@@ -17,7 +17,7 @@ pub(super) static MOTION: TableSpec = TableSpec {
         Key::new(
             "trajectory",
             Table(&TRAJECTORY),
-            "As a CSV file has it, from another run or another program",
+            "As a CSV file has it, from another run or another program; the body is there while it has rows",
         )
         .also(&["csv", "file", "recording", "data"]),
     ],
@@ -108,7 +108,12 @@ static TRAJECTORY: TableSpec = TableSpec {
     noun: "a motion from a file",
     rule: Rule::Any,
     keys: &[
-        Key::new("file", File, "The CSV file, beside the scene: a row for each time and body")
+        Key::new(
+            "file",
+            File,
+            "The CSV file, beside the scene: a row for each time and body. A body is there from its first row to its last, \
+             but for gaps: there the file has rows of others, and none of it for more than 1.5 times its usual (median) interval",
+        )
             .required()
             .also(&["csv", "path"]),
         Key::new("body", Text, "The name that the body has in the file")

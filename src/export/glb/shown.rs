@@ -1,0 +1,44 @@
+//! When something is there: glTF has no word for that, so what is away has the size 0.
+
+use super::motion::Room;
+use crate::export::ExportError;
+
+/// The times at which something comes or goes, as they are shown (s), and its scale from each on; empty for what is always there.
+#[derive(Default)]
+pub(super) struct Shown {
+    pub(super) times: Vec<f32>,
+    /// Three numbers for each time.
+    pub(super) scales: Vec<f32>,
+}
+
+impl Shown {
+    /// Whether it is there all the time.
+    pub(super) fn is_always(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// Whether it is there in the first frame.
+    pub(super) fn at_first(&self) -> bool {
+        self.scales.first() != Some(&0.0)
+    }
+
+    /// Adds whether it is there in the last of some frames, if a file has room for it.
+    pub(super) fn add(&mut self, is_there: bool, frames: &[f32], room: &mut Room) -> Result<(), ExportError> {
+        let &[first, .., now] = frames else {
+            let first = frames.first().copied().unwrap_or_default();
+            return if is_there { Ok(()) } else { self.set(false, first, room) };
+        };
+        if self.is_always() && !is_there {
+            self.set(true, first, room)?;
+        }
+        let was_there = self.scales.last() != Some(&0.0);
+        if was_there == is_there { Ok(()) } else { self.set(is_there, now, room) }
+    }
+
+    fn set(&mut self, is_there: bool, time: f32, room: &mut Room) -> Result<(), ExportError> {
+        room.take(4)?;
+        self.times.push(time);
+        self.scales.extend([f32::from(u8::from(is_there)); 3]);
+        Ok(())
+    }
+}

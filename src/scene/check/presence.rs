@@ -1,0 +1,116 @@
+//! When a body is there: its `start` and `end`, and the rows of its file.
+
+use super::Context;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::{Key, Presence};
+use crate::scene::Simulation;
+
+/// A body is away between two rows that are more than so many times as far apart as usual.
+const GAP: f64 = 1.5;
+
+/// When a body is there by its own keys.
+pub(super) fn read(
+    name: &str,
+    view: &View<'_>,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) -> Presence {
+    let (start, end) = (view.number("start"), view.number("end"));
+    if let (Some(start), Some(end)) = (start, end)
+        && end <= start
+    {
+        let message = format!("`{name}` starts at {} s and ends at {} s", figure(start), figure(end));
+        let error = Diagnostic::error(Code::EndBeforeStart, message);
+        let spans = [("end", "this must be later"), ("start", "than this")];
+        let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
+        context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
+        return Presence::ALWAYS;
+    }
+    let at = |time: f64| simulation.nearest_frame(time);
+    Presence::during(&[[start.map_or(f64::NEG_INFINITY, at), end.map_or(f64::INFINITY, at)]])
+}
+
+/// Warns of a body that is there at no time of the run.
+pub(super) fn never(
+    name: &str,
+    view: &View<'_>,
+    presence: &Presence,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) {
+    let end = simulation.end();
+    if presence.meets(0.0, end) {
+        return;
+    }
+    let file = view.variant("motion").and_then(|motion| motion.variant("trajectory")?.span("file"));
+    let Some(span) = view.span("start").or(view.span("end")).or(file) else { return };
+    let warning = Diagnostic::warning(Code::NeverThere, format!("`{name}` is never there"));
+    let label = format!("the scene goes from 0 to {} s", figure(end));
+    context.diagnostics.push(warning.at(span, label));
+}
+
+/// When a body is there that has rows of a file: from the first to the last. Also given are the rows that stand behind gaps, by
+/// their numbers.
+///
+/// In a gap, the file has rows of other bodies, and this one lacks them: for more than [`GAP`] times as long as there usually
+/// (in the median) is between two of its rows.
+pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (Presence, Vec<usize>) {
+    let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
+        return (Presence::ALWAYS, Vec::new());
+    };
+    let mut intervals: Vec<f64> = keys.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+    let middle = intervals.len().saturating_sub(1) / 2;
+    let usual = match intervals.is_empty() {
+        true => f64::INFINITY,
+        false => *intervals.select_nth_unstable_by(middle, f64::total_cmp).1,
+    };
+    let place = |time: f64| times.partition_point(|other| *other < time);
+    let is_gap = |i: &usize| {
+        let (from, to) = (keys[i - 1].time, keys[*i].time);
+        to - from > GAP * usual && place(to) > place(from) + 1
+    };
+    let gaps: Vec<usize> = (1..keys.len()).filter(is_gap).collect();
+
+    let [begin, end] = reach([first.time, last.time], simulation);
+    let at = |i: usize| simulation.nearest_frame(keys[i].time);
+    let starts = std::iter::once(begin).chain(gaps.iter().map(|&gap| at(gap)));
+    let ends = gaps.iter().map(|&gap| at(gap - 1)).chain([end]);
+    let intervals: Vec<[f64; 2]> = starts.zip(ends).map(|(start, end)| [start, end]).collect();
+    (Presence::during(&intervals), gaps)
+}
+
+/// What times reach that go from the first to the last: an end of the run that is less than a frame away is reached.
+fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
+    let frame = (1.0 - 1e-6) / simulation.frame_rate;
+    let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };
+    let end = if last > simulation.end() - frame { f64::INFINITY } else { simulation.nearest_frame(last) };
+    [begin, end]
+}
+
+/// Warns of a file whose rows begin later than the run, or end earlier.
+pub(super) fn short(
+    file: &str,
+    times: &[f64],
+    span: Span,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) {
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return };
+    let [begin, end] = reach([first, last], simulation);
+    let before = begin.is_finite().then(|| format!("before {} s", figure(first)));
+    let after = end.is_finite().then(|| format!("after {} s", figure(last)));
+    let help = after.is_some().then_some("let `simulation.duration` end with the file");
+    let when: Vec<String> = [before, after].into_iter().flatten().collect();
+    if when.is_empty() {
+        return;
+    }
+    let message = format!("`{file}` has no rows {}: its bodies are not there then", when.join(", and none "));
+    let label = format!("the scene goes from 0 to {} s", figure(simulation.end()));
+    let warning = Diagnostic::warning(Code::ShortTrajectory, message).at(span, label);
+    context.diagnostics.push(match help {
+        Some(help) => warning.help(help),
+        None => warning,
+    });
+}
