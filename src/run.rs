@@ -5,7 +5,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::not_drawn;
-use crate::picture::{Largest, Plan, number};
+use crate::picture::{Largest, Part, Plan, number};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{
     Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError, Survey,
@@ -180,16 +180,20 @@ fn drift(drift: f64) -> Option<Diagnostic> {
 /// That the largest body is too small to be seen in the picture, or would be in one of the whole run.
 fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let name = &largest.name;
-    let message = match plan.framed_until() {
-        Some(end) => format!(
-            "the camera frames only the first {} s: in a picture of the whole run, the largest body, `{name}`, would \
-             be {:.1} pixels wide",
-            rounded(end),
-            largest.pixels_in_whole,
-        ),
-        None => format!("the largest body, `{name}`, is {:.1} pixels wide in the picture", largest.pixels),
+    let in_whole = |does: String| {
+        let pixels = largest.pixels_in_whole;
+        format!(
+            "the camera {does}: in a picture of the whole run, the largest body, `{name}`, would be {pixels:.1} pixels wide"
+        )
     };
-    let is_followed = scene.camera.motion.follow.is_some();
+    let message = match plan.part() {
+        Part::Start(end) => in_whole(format!("frames only the first {} s", rounded(end))),
+        Part::AroundBody(_) => in_whole(format!("goes along with `{name}`")),
+        Part::Whole => {
+            format!("the largest body, `{name}`, is {:.1} pixels wide in the picture", largest.pixels)
+        }
+    };
+    let is_followed = scene.camera.motion.follow.is_some() || matches!(plan.part(), Part::AroundBody(_));
     let follow = format!("`follow = {{ body = \"{name}\" }}` in [camera] goes along with it");
     let others = "`look.scale` draws it larger, `trail = true` shows its way; or shorten `simulation.duration`, or give \
                   a `[camera]`";

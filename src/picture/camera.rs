@@ -181,6 +181,8 @@ struct Moving {
     camera: Camera,
     /// Of the body that it follows: its number, where it is at the start, and its size, m.
     followed: Option<(usize, DVec3, f64)>,
+    /// The box that what it follows does not leave for it.
+    within: Option<Bounds>,
 }
 
 impl Eye {
@@ -190,8 +192,14 @@ impl Eye {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
-        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed });
+        let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed, within: None });
         Eye { placed: Placed::new(camera, bounds, towards, scene.output), moving }
+    }
+
+    /// The same, which follows a body no farther than to the edges of a box.
+    pub(super) fn within(self, bounds: Bounds) -> Eye {
+        let moving = self.moving.map(|moving| Moving { within: Some(bounds), ..moving });
+        Eye { moving, ..self }
     }
 
     /// The camera before it moves.
@@ -206,14 +214,14 @@ impl Eye {
 
     /// The camera at a time (s), if what it follows were still where it starts.
     pub(super) fn early(&self, time: f64) -> Placed {
-        let Some(Moving { camera, followed }) = &self.moving else { return self.placed };
+        let Some(Moving { camera, followed, .. }) = &self.moving else { return self.placed };
         let (_, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         self.placed.moved(camera, size, time, [start, start])
     }
 
     /// The camera of a frame.
     pub(super) fn at(&self, frame: &Frame) -> Placed {
-        let Some(Moving { camera, followed }) = &self.moving else { return self.placed };
+        let Some(Moving { camera, followed, within }) = &self.moving else { return self.placed };
         let (body, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
         let behind = camera.motion.follow.and_then(|follow| {
             let lag = follow.lag.unwrap_or(0.0);
@@ -223,6 +231,7 @@ impl Eye {
             Some(lagging) => lagging.location,
             None => frame.body(body).map_or(start, |body| body.location),
         };
+        let here = within.map_or(here, |bounds| here.clamp(bounds.min, bounds.max));
         self.placed.moved(camera, size, frame.time, [start, here])
     }
 }

@@ -41,6 +41,7 @@ pub use lights::{Lamp, PlacedLight};
 pub use not_drawn::{Asking, NotDrawn, Why};
 pub(crate) use plan::has_texts;
 pub use plan::{Largest, Plan, Written};
+pub use scope::Part;
 pub use screen::{Screen, Spot};
 pub use stage::{Scenery, Stage, StageGround};
 pub use text::{Text, Vertical};

@@ -1,10 +1,10 @@
-//! How much of a run an automatic camera frames: all of it, or its start where all of it would leave the bodies too
-//! small to be seen.
+//! How much of a run an automatic camera frames: all of it; or, where all of it would leave the bodies too small to be
+//! seen, what is around the only body, or the start.
 
 use super::camera::{Eye, half_width};
-use super::framing::{rounded_outward, towards_camera};
+use super::framing::{Field, rounded_outward, towards_camera};
 use super::plan::reads_ground;
-use crate::scene::{Body, Camera, Scene};
+use crate::scene::{Body, Camera, Follow, Projection, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
 /// The largest body is well seen if it is as wide as this part of the picture: 4 pixels of 1280.
@@ -12,31 +12,105 @@ const LEAST: f64 = 0.0031;
 /// Where the whole run would leave it smaller, so much of the start is framed that it is as wide as this: 12 pixels.
 const GOOD: f64 = 0.0094;
 
+/// A camera that goes along with a body shows it as wide as this part of the picture.
+const ALONG: f64 = 0.05;
+
 /// Where there is nothing to see, this is looked at.
 const NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
 
-/// The part of a run that a camera frames.
+/// What a camera frames of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Scope {
+    /// The camera, which goes along with the only body where it could not show it otherwise.
+    pub(super) camera: Camera,
+    /// The part of the run that is framed.
     pub(super) span: Span,
     /// The box of the whole run.
     pub(super) whole: Bounds,
-    /// Whether this is only the start of the run.
-    pub(super) is_start: bool,
+    pub(super) part: Part,
+}
+
+/// How much of a run a camera frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part {
+    /// All of it, or what the scene says.
+    Whole,
+    /// Its start until this time, s.
+    Start(f64),
+    /// What is around the body of this number: the camera goes along with it.
+    AroundBody(usize),
 }
 
 impl Scope {
     /// What a camera of a scene frames.
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
-        let Some(all) = survey.spans.last() else {
+        let Some((all, starts)) = survey.spans.split_last() else {
             let arrows: [Reach; 3] = Default::default();
             let span = Span { until: 0.0, bounds: NOTHING, moving: NOTHING, seen: NOTHING, arrows };
-            return Scope { span, whole: NOTHING, is_start: false };
+            return Scope { camera: camera.clone(), span, whole: NOTHING, part: Part::Whole };
         };
-        let start = if is_automatic(scene, camera) { start(scene, camera, &survey.spans) } else { None };
-        let is_start = start.is_some();
-        Scope { span: start.unwrap_or(all).clone(), whole: all.bounds, is_start }
+        let scope = |span: &Span, part: Part, camera: Camera| Scope {
+            camera,
+            span: span.clone(),
+            whole: all.bounds,
+            part,
+        };
+        let whole = || scope(all, Part::Whole, camera.clone());
+        let Some(largest) = largest(scene).filter(|_| is_automatic(scene, camera)) else { return whole() };
+        let width = 2.0 * half_width(largest).unwrap_or(0.0);
+        let seen = |span: &Span| {
+            let bounds = rounded_outward(span.seen);
+            let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
+            width / eye.placed().width_of_view(span.bounds)
+        };
+        let in_whole = seen(all);
+        let alone = alone_over_ground(scene).filter(|body| in_whole < least_alone(scene, *body, all));
+        let along = alone.and_then(|body| Some((body, along_with(body, width / ALONG, camera, scene)?)));
+        if let Some((body, camera)) = along {
+            return scope(all, Part::AroundBody(body), camera);
+        }
+        if in_whole >= LEAST {
+            return whole();
+        }
+        let reaching = |least: f64| starts.iter().rev().find(|span| seen(span) >= least);
+        match reaching(GOOD).or_else(|| reaching(LEAST)) {
+            Some(start) => scope(start, Part::Start(start.until), camera.clone()),
+            None => whole(),
+        }
     }
+}
+
+/// The only body but planes, if the ground or a plane shows that it moves.
+fn alone_over_ground(scene: &Scene) -> Option<usize> {
+    let is_plane = |body: &usize| scene.bodies[*body].shape.is_unbounded();
+    let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
+    let (planes, bodies): (Vec<usize>, Vec<usize>) = (0..scene.bodies.len()).partition(is_plane);
+    let [body] = bodies[..] else { return None };
+    (has_ground || !planes.is_empty()).then_some(body)
+}
+
+/// As which part of the picture a body that is alone must be seen, or the camera goes along with it. A picture of a whole
+/// fall is empty beside it, unless ghosts are there.
+fn least_alone(scene: &Scene, body: usize, whole: &Span) -> f64 {
+    let extent = whole.moving.max - whole.moving.min;
+    let is_fall = extent.y > 2.0 * extent.x.max(extent.z);
+    let has_ghosts = scene.bodies[body].showing.ghosts.is_some();
+    if is_fall && !has_ghosts { GOOD } else { LEAST }
+}
+
+/// A camera that goes along with a body and sees a width of `view` (m); none where more is said of it.
+fn along_with(body: usize, view: f64, camera: &Camera, scene: &Scene) -> Option<Camera> {
+    let mut camera = camera.clone();
+    if camera.look_at.is_some() || camera.motion.moves() {
+        return None;
+    }
+    let distance = match &mut camera.projection {
+        Projection::Perspective { angle } => view / (2.0 * Field::new(*angle, scene.output).horizontal),
+        Projection::Orthographic { width: Some(_) } => return None,
+        Projection::Orthographic { width } => *width.insert(view),
+    };
+    camera.motion.follow = Some(Follow { body, distance: Some(distance), lag: None });
+    Some(camera)
 }
 
 /// Whether the whole picture follows from the motion. A trail shows where a body is, however small that is, so with
@@ -45,22 +119,6 @@ fn is_automatic(scene: &Scene, camera: &Camera) -> bool {
     let motion = &camera.motion;
     let is_placed = camera.location.is_some() || motion.location.is_some() || motion.follow.is_some();
     !is_placed && !scene.bodies.iter().any(|body| body.showing.trail.is_some())
-}
-
-/// The start of a run, if all of it would leave the bodies too small, and the start does not.
-fn start<'a>(scene: &Scene, camera: &Camera, spans: &'a [Span]) -> Option<&'a Span> {
-    let largest = largest(scene)?;
-    let part = |span: &Span| {
-        let bounds = rounded_outward(span.seen);
-        let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
-        2.0 * half_width(largest).unwrap_or(0.0) / eye.placed().width_of_view(span.bounds)
-    };
-    let (all, starts) = spans.split_last()?;
-    if part(all) >= LEAST {
-        return None;
-    }
-    let reaching = |least: f64| starts.iter().rev().find(|span| part(span) >= least);
-    reaching(GOOD).or_else(|| reaching(LEAST))
 }
 
 /// The body that is drawn largest; none if there is no body but planes.

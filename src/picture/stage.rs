@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::camera::Placed;
 use super::framing;
+use super::scope::Part;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
 
@@ -62,21 +63,26 @@ pub struct Scenery {
     pub usual_tile: f64,
     /// The distance between the lines of a grid where none is given.
     pub spacing: f64,
-    /// The size of what is seen, m: of the motion, and of the air below it where the camera frames only the start of a
-    /// fall.
+    /// The size of what is seen, m: of the motion, and of the air below it where the camera frames only a part of a fall.
     pub size: f64,
 }
 
 impl Scenery {
     /// What is measured where a camera frames the bounds `framed` and sees a width of `view` (m). The whole run takes
-    /// place within `whole`, of which `framed` may be only the start.
-    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, is_start: bool) -> Scenery {
+    /// place within `whole`, of which `framed` may be only a part.
+    pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, part: Part) -> Scenery {
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
-        let depth = if is_start { two_digits_up((framed.max.y - ground).max(framed_size)) } else { 0.0 };
-        let size = framed_size.max(depth);
+        let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
+        // A camera that goes along with a body is nearly always high above the ground, and looks far.
+        let (depth, far) = match part {
+            Part::Whole => (0.0, 1.0),
+            Part::Start(_) => (deep(), 1.0),
+            Part::AroundBody(_) => (deep(), 2.0),
+        };
+        let size = far * framed_size.max(depth);
         // A camera near to a long motion sees little of it: then tiles are as large as fits its picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));

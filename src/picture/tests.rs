@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Plan, Text};
+use super::{Part, Plan, Text};
 use crate::scene::{Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -65,13 +65,15 @@ fn a_camera_that_stands_still_sees_one_size_and_the_tips_of_all_arrows() {
     assert!((0.05..0.35).contains(&(longest / view)), "{longest} of {view}");
 }
 
+/// A fall of 490 m.
+fn fall(keys: &str) -> (Scene, Plan) {
+    plan(&format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}"))
+}
+
 #[test]
 fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
-    let fall = |keys: &str| {
-        format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}")
-    };
-    let (_, start) = plan(&fall(""));
-    let end = start.framed_until().unwrap();
+    let (_, start) = fall("[body.other]\nshape.sphere.radius = 0.05\nlocation = [1, 0, 0]");
+    let Part::Start(end) = start.part() else { panic!("{:?}", start.part()) };
     assert!((0.5..2.0).contains(&end), "{end}");
     assert!(start.too_small().is_some_and(|largest| largest.name == "ball" && largest.pixels_in_whole < 1.0));
     assert!(start.too_small().unwrap().pixels > 8.0);
@@ -83,9 +85,46 @@ fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
         "[camera]\nlocation = [0, 0, 900]",
         "[camera]\nfollow.body = 'ball'",
     ] {
-        let (_, whole) = plan(&fall(keys));
-        assert_eq!(whole.framed_until(), None, "{keys}");
+        assert_eq!(fall(keys).1.part(), Part::Whole, "{keys}");
     }
+    // Nothing would show that the ball moves.
+    for keys in
+        ["[environment]\npreset = 'space'", "[camera]\norbit.period = 9", "[output]\ntransparent = true"]
+    {
+        assert!(matches!(fall(keys).1.part(), Part::Start(_)), "{keys}");
+    }
+}
+
+#[test]
+fn the_camera_goes_along_with_the_only_body_where_all_of_a_fall_would_leave_a_dot() {
+    for keys in [
+        "",
+        "[camera]\nprojection = 'orthographic'",
+        "[body.floor]\nshape.plane = {}\nlocation = [0, -300, 0]",
+    ] {
+        let (scene, along) = fall(keys);
+        assert_eq!(along.part(), Part::AroundBody(0), "{keys}");
+        let largest = along.too_small().unwrap();
+        assert!(largest.pixels > 60.0 && largest.pixels_in_whole < 1.0, "{largest:?}");
+        for frame in frames(&scene).step_by(25) {
+            let camera = along.camera(&frame);
+            let ball = frame.bodies[0].location;
+            match keys.contains("floor") && ball.y < -300.0 {
+                // It has gone through the floor, at 77 m/s: 3.1 m from frame to frame.
+                true => assert!((-300.2..-296.8).contains(&camera.look_at().y), "{camera:?}"),
+                false => assert_eq!(camera.look_at(), ball),
+            }
+            assert!(along.stage().ground.is_none_or(|ground| camera.location().y > ground.height));
+        }
+    }
+    // The way of a throw fills the picture, and so do ghosts.
+    let part = |keys: &str| {
+        let simulation = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }";
+        let ball = "[body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 100, 0]";
+        plan(&format!("{simulation}\n{ball}\n{keys}")).1.part()
+    };
+    assert_eq!(part(""), Part::AroundBody(0));
+    assert_eq!([part("velocity = [20, 0, 0]"), part("ghosts.every = 0.5")], [Part::Whole; 2]);
 }
 
 /// From where to where a text reaches, across and upward.

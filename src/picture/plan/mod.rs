@@ -17,7 +17,7 @@ use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::not_drawn::{self, NotDrawn};
-use super::scope::{Scope, largest};
+use super::scope::{Part, Scope, largest};
 use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
@@ -48,8 +48,8 @@ pub struct Plan {
     /// The sizes of what is drawn beside the bodies, as the camera sees them at the start.
     sizes: Sizes,
     largest: Option<Largest>,
-    /// The end of what the camera frames, s, if that is only the start of the run.
-    framed_until: Option<f64>,
+    /// How much of the run the camera frames.
+    part: Part,
     not_drawn: Vec<NotDrawn>,
 }
 
@@ -90,13 +90,14 @@ impl Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
         let towards = framing::towards_camera(span.moving, reads_ground(scene));
-        let eye_on = |bounds: Bounds| Eye::new(camera, framing::rounded_outward(bounds), towards, scene);
+        let eye_on =
+            |bounds: Bounds| Eye::new(&scope.camera, framing::rounded_outward(bounds), towards, scene);
         // Arrows and grid are as large as a camera asks for that sees the bodies; then the camera is placed so that it
         // sees their ends, too.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene);
-        let scenery = Scenery::new(scene, span.bounds, whole, view, scope.is_start);
+        let scenery = Scenery::new(scene, span.bounds, whole, view, scope.part);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| Ruler::new(scene, grid, &scenery, part, ink));
         let longest = [0, 1, 2].map(|kind: usize| span.arrows[kind].largest);
@@ -108,7 +109,11 @@ impl Plan {
         if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {
             seen = seen.union(grid.bounds());
         }
-        let eye = eye_on(seen);
+        let eye = match scope.part {
+            // A body that has gone through the ground is not followed below it.
+            Part::AroundBody(_) => eye_on(seen).within(span.bounds),
+            Part::Whole | Part::Start(_) => eye_on(seen),
+        };
         let placed = eye.placed();
         let early = eye.early(0.0).width_of_view(whole);
         let arrows = Arrows::new(scene, longest);
@@ -143,7 +148,7 @@ impl Plan {
             labels: Labels::new(scene, ink),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: largest_seen(scene, camera, survey, &eye),
-            framed_until: scope.is_start.then_some(span.until),
+            part: scope.part,
             sizes,
             stage,
             eye,
@@ -284,10 +289,9 @@ impl Plan {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
     }
 
-    /// The end of what the camera frames, s, if that is only the start of the run: the whole of it would leave the
-    /// bodies too small.
-    pub fn framed_until(&self) -> Option<f64> {
-        self.framed_until
+    /// How much of the run the camera frames.
+    pub fn part(&self) -> Part {
+        self.part
     }
 
     /// What the scene asks for and no picture shows.
@@ -297,7 +301,11 @@ impl Plan {
 
     /// The largest body, if it is too small to be seen, or would be if the camera framed the whole run.
     pub fn too_small(&self) -> Option<&Largest> {
-        let is_small = |largest: &&Largest| largest.pixels < SMALLEST_SEEN || self.framed_until.is_some();
+        let is_small = |largest: &&Largest| match self.part {
+            Part::Whole => largest.pixels < SMALLEST_SEEN,
+            Part::Start(_) => true,
+            Part::AroundBody(_) => largest.pixels_in_whole < SMALLEST_SEEN,
+        };
         self.largest.as_ref().filter(is_small)
     }
 }
