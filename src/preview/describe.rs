@@ -225,8 +225,8 @@ fn placed(scene: &Scene) -> Vec<PieceText> {
                 location: DVec3::to_array(&location),
                 turn: DQuat::to_array(&orientation),
                 color: color.map(|Color(color)| color),
-                plane: matches!(form, Form::Plane),
-                ball: matches!(form, Form::Ball),
+                plane: form == Form::PLANE,
+                ball: form == Form::BALL,
                 radius,
             }
         }));

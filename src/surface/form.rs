@@ -10,42 +10,15 @@ use crate::dynamics::Mesh;
 
 /// A form in a standard size, which many bodies share: each scales it as it needs. What has an axis has it along y.
 ///
-/// Forms are equal, and the same key of a map, where their numbers are so bit for bit; meshes, where they are one and
-/// the same in memory.
+/// Forms are equal, and the same key of a map, where their names and numbers are so bit for bit; meshes, where they are
+/// one and the same in memory.
 #[derive(Clone, Debug)]
-pub enum Form {
-    /// A ball of radius 1.
-    Ball,
-    /// A cube from -1 to 1.
-    Cube,
-    /// A cylinder of radius 1 from y = -1 to 1.
-    Cylinder,
-    /// A cone or a frustum of height 2 about its centre of mass; the larger one of its radii is 1.
-    Cone {
-        /// The radius of the lower end.
-        bottom: f64,
-        /// The radius of the upper end.
-        top: f64,
-    },
-    /// A cylinder of radius 1 with half a ball on either end.
-    Capsule {
-        /// Half the length of the cylinder: the whole reaches from y = -1 - `straight` to 1 + `straight`.
-        straight: f64,
-    },
-    /// A ring around y, the middle of whose tube is at distance 1.
-    Torus {
-        /// The radius of the tube, at most 1.
-        tube: f64,
-    },
-    /// A box with round edges about the origin, whose longest edge is 2.
-    RoundedBox {
-        /// Half its edges.
-        half: DVec3,
-        /// The radius of the edges.
-        rounding: f64,
-    },
-    /// A square from -1 to 1 along x and z, seen from above. Whoever draws it chooses how large.
-    Plane,
+pub struct Form(Kind);
+
+#[derive(Clone, Debug)]
+enum Kind {
+    /// What follows from a few numbers.
+    Made { name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles },
     /// A mesh, in its own units.
     Mesh(Arc<Mesh>),
 }
@@ -71,64 +44,92 @@ impl Detail {
 }
 
 impl Form {
+    /// A ball of radius 1.
+    pub const BALL: Form = Form::made("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
+    /// A cube from -1 to 1.
+    pub const CUBE: Form = Form::made("cube", [0.0; 4], |_, _| straight::cube());
+    /// A cylinder of radius 1 from y = -1 to 1.
+    pub const CYLINDER: Form = Form::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
+    /// A square from -1 to 1 along x and z, seen from above. Whoever draws it chooses how large.
+    pub const PLANE: Form = Form::made("plane", [0.0; 4], |_, _| straight::plane());
+
+    /// A form that follows from some numbers. By its name and these it is known, and the function makes its triangles of
+    /// the numbers and of how many sides a circle has.
+    #[must_use]
+    pub const fn made(name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles) -> Form {
+        Form(Kind::Made { name, numbers, make })
+    }
+
+    /// A cone or a frustum of height 2 about its centre of mass, of the radii of its lower and upper end, of which the larger is 1.
+    #[must_use]
+    pub fn cone(bottom: f64, top: f64) -> Form {
+        Form::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
+            lathe::cone(bottom, top, sides)
+        })
+    }
+
+    /// A cylinder of radius 1 with half a ball on either end; the whole reaches from y = -1 - `straight` to 1 + `straight`.
+    #[must_use]
+    pub fn capsule(straight: f64) -> Form {
+        Form::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
+            lathe::capsule(straight, sides)
+        })
+    }
+
+    /// A ring around y, the middle of whose tube is at distance 1; its tube has the given radius, at most 1.
+    #[must_use]
+    pub fn torus(tube: f64) -> Form {
+        Form::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
+    }
+
+    /// A box with round edges about the origin, of half its edges, the longest of which is 1, and the radius of its edges.
+    #[must_use]
+    pub fn rounded_box(half: DVec3, rounding: f64) -> Form {
+        Form::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
+            straight::rounded_box(DVec3::new(x, y, z), rounding, sides)
+        })
+    }
+
+    /// A mesh, in its own units.
+    #[must_use]
+    pub fn mesh(mesh: Arc<Mesh>) -> Form {
+        Form(Kind::Mesh(mesh))
+    }
+
     /// Its triangles. A mesh has those that it has, however fine they are.
     #[must_use]
     pub fn triangles(&self, detail: Detail) -> Triangles {
-        let sides = detail.sides();
-        match self {
-            Form::Ball => lathe::capsule(0.0, sides),
-            Form::Capsule { straight } => lathe::capsule(*straight, sides),
-            Form::Cylinder => lathe::cone(1.0, 1.0, sides),
-            Form::Cone { bottom, top } => lathe::cone(*bottom, *top, sides),
-            Form::Torus { tube } => lathe::torus(*tube, sides),
-            Form::Cube => straight::cube(),
-            Form::RoundedBox { half, rounding } => straight::rounded_box(*half, *rounding, sides),
-            Form::Plane => straight::plane(),
-            Form::Mesh(mesh) => mesh::triangles(mesh),
+        match &self.0 {
+            Kind::Made { numbers, make, .. } => make(*numbers, detail.sides()),
+            Kind::Mesh(mesh) => mesh::triangles(mesh),
         }
     }
 
     /// Whether it encloses something, so that its inside is never seen.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        match self {
-            Form::Plane => false,
-            Form::Mesh(mesh) => mesh.flaw().is_none(),
-            _ => true,
+        match &self.0 {
+            Kind::Made { .. } => *self != Form::PLANE,
+            Kind::Mesh(mesh) => mesh.flaw().is_none(),
         }
     }
 
     /// A short name of what it is: `ball`; of a mesh, its own.
     #[must_use]
     pub fn name(&self) -> &str {
-        match self {
-            Form::Ball => "ball",
-            Form::Cube => "cube",
-            Form::Cylinder => "cylinder",
-            Form::Cone { .. } => "cone",
-            Form::Capsule { .. } => "capsule",
-            Form::Torus { .. } => "torus",
-            Form::RoundedBox { .. } => "rounded box",
-            Form::Plane => "plane",
-            Form::Mesh(mesh) => mesh.name(),
+        match &self.0 {
+            Kind::Made { name, .. } => name,
+            Kind::Mesh(mesh) => mesh.name(),
         }
     }
 
-    /// What tells it from all others: its kind and its numbers.
-    fn key(&self) -> (u8, [u64; 4]) {
-        let (kind, numbers) = match self {
-            Form::Ball => (0, [0.0; 4]),
-            Form::Cube => (1, [0.0; 4]),
-            Form::Cylinder => (2, [0.0; 4]),
-            Form::Cone { bottom, top } => (3, [*bottom, *top, 0.0, 0.0]),
-            Form::Capsule { straight } => (4, [*straight, 0.0, 0.0, 0.0]),
-            Form::Torus { tube } => (5, [*tube, 0.0, 0.0, 0.0]),
-            Form::RoundedBox { half, rounding } => (6, [half.x, half.y, half.z, *rounding]),
-            Form::Plane => (7, [0.0; 4]),
+    /// What tells it from all others: its name and its numbers.
+    fn key(&self) -> (Option<&'static str>, [u64; 4]) {
+        match &self.0 {
+            Kind::Made { name, numbers, .. } => (Some(name), numbers.map(f64::to_bits)),
             // Two meshes that live at the same time are at different places.
-            Form::Mesh(mesh) => return (8, [Arc::as_ptr(mesh).addr() as u64, 0, 0, 0]),
-        };
-        (kind, numbers.map(f64::to_bits))
+            Kind::Mesh(mesh) => (None, [Arc::as_ptr(mesh).addr() as u64, 0, 0, 0]),
+        }
     }
 }
 

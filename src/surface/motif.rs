@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn parts_make_up_the_whole() {
-        for form in [Form::Ball, Form::Cube, Form::Cylinder, Form::Torus { tube: 0.3 }] {
+        for form in [Form::BALL, Form::CUBE, Form::CYLINDER, Form::torus(0.3)] {
             for motif in [Motif::Checkered, Motif::Striped, Motif::BeachBall, Motif::Ground] {
                 let (whole, parts) = parts(&form, motif);
                 assert!(
@@ -219,14 +219,14 @@ mod tests {
     /// The band around the middle, two on either side of each pole, and so on: Archimedes' zones are as large as they are high.
     #[test]
     fn bands_have_the_heights_that_the_scripts_give_them() {
-        let (whole, parts) = parts(&Form::Ball, Motif::Striped);
+        let (whole, parts) = parts(&Form::BALL, Motif::Striped);
         // The second color from -0.11 to 0.11, from 0.33 to 0.55 and from 0.77 to 0.99, on both sides.
         assert!((parts[1] / whole - 5.0 * 0.22 / 2.0).abs() < 2e-3, "{}", parts[1] / whole);
     }
 
     #[test]
     fn a_beach_ball_has_six_equal_sectors_and_two_poles() {
-        let (whole, parts) = parts(&Form::Ball, Motif::BeachBall);
+        let (whole, parts) = parts(&Form::BALL, Motif::BeachBall);
         assert!((parts[6] / whole - (1.0 - POLE)).abs() < 2e-3, "{parts:?}");
         assert!(parts[..6].iter().all(|part| (part / parts[0] - 1.0).abs() < 1e-3), "{parts:?}");
         let first = Motif::BeachBall.color_at(DVec3::new(0.9, 0.0, -0.1));
@@ -238,13 +238,13 @@ mod tests {
     fn a_cube_of_the_checkered_pattern_is_where_the_scripts_have_it() {
         assert_eq!(Motif::Checkered.color_at(DVec3::splat(0.25)), 1);
         assert_eq!(Motif::Checkered.color_at(DVec3::new(-0.25, 0.25, 0.25)), 0);
-        let (whole, parts) = parts(&Form::Cube, Motif::Checkered);
+        let (whole, parts) = parts(&Form::CUBE, Motif::Checkered);
         assert!((parts[0] / whole - 0.5).abs() < 1e-9);
     }
 
     #[test]
     fn what_is_too_fine_to_be_seen_is_left_whole() {
-        let triangles = Form::Plane.triangles(Detail::Fine);
+        let triangles = Form::PLANE.triangles(Detail::Fine);
         let fine = DAffine3::from_scale(DVec3::splat(1e9));
         assert!(Motif::Ground.split(&triangles, fine).is_none());
         assert!(Motif::None.split(&triangles, DAffine3::IDENTITY).is_none());

@@ -84,7 +84,7 @@ impl Meshes {
 #[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
 fn cut(piece: &Piece, size: f64) -> Cut {
     let scale = piece.scale / size;
-    let place = if piece.form == Form::Plane {
+    let place = if piece.form == Form::PLANE {
         let middle = piece.orientation.conjugate() * piece.location / size;
         DAffine3::from_translation(DVec3::new(middle.x, 0.0, middle.z)) * DAffine3::from_scale(scale)
     } else {

@@ -68,7 +68,7 @@ impl Model<'_> {
         let ball = body.shape.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
         for mut piece in pieces {
             let mut pattern = ball;
-            if piece.form == Form::Plane {
+            if piece.form == Form::PLANE {
                 self.spread(&mut piece, way);
                 let checkered =
                     body.material.is_some_and(|m| self.scene.materials[m].look == Look::Checkered);
@@ -110,7 +110,7 @@ impl Model<'_> {
         let ground = self.sight.stage.ground?;
         let scale = DVec3::splat(self.half_of_ground());
         let (location, orientation) = (self.sight.stage.center.with_y(ground.height), DQuat::IDENTITY);
-        let piece = Piece { form: Form::Plane, scale, location, orientation, color: None };
+        let piece = Piece { form: Form::PLANE, scale, location, orientation, color: None };
         let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(ground.tile));
         let name = "ground".to_owned();
         let place = Pose { location, orientation };
