@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use self::away::Away;
-use super::{Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, State};
+use super::{Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, Shape, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -19,6 +19,7 @@ pub struct Model {
     inertia: Vec<DVec3>,
     inverse_inertia: Vec<DVec3>,
     principal_axes: Sparse<DQuat>,
+    shapes: Vec<Shape>,
     movable: Vec<bool>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
@@ -82,6 +83,12 @@ impl Model {
     #[must_use]
     pub fn principal_axes(&self, body: usize) -> DQuat {
         self.principal_axes.get(body)
+    }
+
+    /// The form of a body, where it has been said: for what happens when bodies touch.
+    #[must_use]
+    pub fn shape(&self, body: usize) -> Option<&Shape> {
+        self.shapes.get(body)
     }
 
     /// Whether each body can be elsewhere at another time: it is not fixed and its mass is positive, or its motion is given.
@@ -229,6 +236,11 @@ impl Model {
 
     pub(super) fn push_force(&mut self, force: Arc<dyn Force>) {
         self.forces.push(force);
+    }
+
+    /// Says the form of the next body of which it has not been said.
+    pub(super) fn push_shape(&mut self, shape: Shape) {
+        self.shapes.push(shape);
     }
 
     pub(super) fn push_constraint(&mut self, constraint: Arc<dyn Constraint>) {

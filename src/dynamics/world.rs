@@ -8,7 +8,7 @@ use super::constraint::Solver;
 use super::presence::Calendar;
 use super::{
     Balance, BodyId, BodySnapshot, Breakdown, Constraint, Dynamics, Effort, EnergyLedger, Force, Integrator,
-    Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Snapshot, State, Step, System,
+    Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State, Step, System,
 };
 
 /// The longest timestep where none is set, s.
@@ -75,6 +75,11 @@ impl World {
         self.about_to_change();
         self.model.push(&body, &mut self.state);
         BodyId::new(self.model.len() - 1)
+    }
+
+    /// Adds bodies' forms, in the order in which the bodies were added.
+    pub fn add_shapes(&mut self, shapes: impl IntoIterator<Item = Shape>) {
+        shapes.into_iter().for_each(|shape| self.model.push_shape(shape));
     }
 
     /// From now on, a body follows a motion that is given; it still acts on others. Its kinetic energy and its momentum
@@ -501,7 +506,7 @@ fn world_from_body(model: &Model, state: &State, body: usize) -> DQuat {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Shape, UniformGravity};
+    use super::super::UniformGravity;
     use super::*;
 
     #[test]

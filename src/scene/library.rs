@@ -19,6 +19,42 @@ pub struct LibraryMaterial {
     pub pattern: Pattern,
     /// How strongly it refracts light; none: it is opaque.
     pub ior: Option<f64>,
+    /// What is left of it where no POV-Ray draws: in the preview and in models.
+    pub plain: PlainLook,
+}
+
+/// A material in the terms of metallic-roughness shading, as glTF has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlainLook {
+    /// Its mean color as a part of that of the material, red, green and blue, in linear light: as measured over a ball that
+    /// POV-Ray draws in even light. Of a material without a color, it is the color.
+    pub tone: [f64; 3],
+    /// How much it covers: 1 where nothing shines through.
+    pub cover: f64,
+    /// Whether it is a metal (1) or not (0).
+    pub metallic: f64,
+    /// How much it scatters what it reflects: from 0, a mirror, to 1, chalk.
+    pub roughness: f64,
+}
+
+/// That of a material of which nothing else is said.
+const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
+
+impl LibraryMaterial {
+    /// The same, with the part of its color that is left as a mean of its shades, as a metal or not, and so rough.
+    const fn seen(self, shade: f64, metallic: f64, roughness: f64) -> LibraryMaterial {
+        self.tinged([shade; 3], metallic, roughness)
+    }
+
+    /// The same where the mean has another hue.
+    const fn tinged(self, tone: [f64; 3], metallic: f64, roughness: f64) -> LibraryMaterial {
+        LibraryMaterial { plain: PlainLook { tone, metallic, roughness, ..PLAIN }, ..self }
+    }
+
+    /// The same, covering so much of what is behind it.
+    const fn covers(self, cover: f64, roughness: f64) -> LibraryMaterial {
+        LibraryMaterial { plain: PlainLook { cover, roughness, ..PLAIN }, ..self }
+    }
 }
 
 /// What the pattern of a material does on a body.
@@ -39,7 +75,7 @@ const fn opaque(
     color: u32,
     meaning: &'static str,
 ) -> LibraryMaterial {
-    LibraryMaterial { name, meaning, color: Some(color), family, pattern, ior: None }
+    LibraryMaterial { name, meaning, color: Some(color), family, pattern, ior: None, plain: PLAIN }
 }
 
 const fn clear(
@@ -49,11 +85,19 @@ const fn clear(
     color: u32,
     meaning: &'static str,
 ) -> LibraryMaterial {
-    LibraryMaterial { name, meaning, color: Some(color), family: "clear", pattern, ior: Some(ior) }
+    LibraryMaterial {
+        name,
+        meaning,
+        color: Some(color),
+        family: "clear",
+        pattern,
+        ior: Some(ior),
+        plain: PLAIN,
+    }
 }
 
 const fn painted(name: &'static str, family: &'static str, meaning: &'static str) -> LibraryMaterial {
-    LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None }
+    LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None, plain: PLAIN }
 }
 
 /// The family of the materials that are a finish and nothing else.
@@ -79,63 +123,90 @@ pub const MATERIALS: &[LibraryMaterial] = &[
         0xff_ff_ff,
         "Shines by itself, evenly; lets lamps inside shine out",
     ),
-    opaque("brass", "metals", Pattern::None, 0xd8_ae_55, "Yellow, polished"),
-    opaque("bronze", "metals", Pattern::None, 0x9c_66_36, "Brown, dully polished"),
-    opaque("copper", "metals", Pattern::None, 0xda_82_5c, "Red, polished"),
-    opaque("gold", "metals", Pattern::None, 0xff_c8_4a, "Deep yellow, bright"),
-    opaque("silver", "metals", Pattern::None, 0xf1_ed_e4, "White and warm, bright"),
-    opaque("chrome", "metals", Pattern::None, 0xe6_ec_f2, "White and cool, almost a mirror"),
-    opaque("steel", "metals", Pattern::Centred, 0xb4_ba_c0, "Gray, brushed around its axis"),
-    opaque("iron", "metals", Pattern::Cut, 0x4a_4a_4d, "Dark, cast: rough and hardly shining"),
-    clear("glass", Pattern::None, 1.5, 0xf6_ff_fb, "Clear window glass"),
-    clear("tinted_glass", Pattern::None, 1.5, 0x2f_9c_78, "Glass of a color: bottle green"),
-    clear("water", Pattern::Cut, 1.33, 0xb4_e4_ee, "Clear, with a hint of blue and a moving surface"),
-    clear("ice", Pattern::Cut, 1.31, 0xd8_f0_fa, "Half clear, with clouds and an uneven surface"),
-    clear("bubble", Pattern::None, 1.0, 0xff_ff_ff, "A film of soap: hollow, with the colors of the rainbow"),
-    opaque("plastic", "smooth", Pattern::None, 0x1f_6f_d2, "Evenly colored, with a broad white highlight"),
-    opaque("rubber", "smooth", Pattern::None, 0x2c_2c_2f, "Almost black, with a dull sheen"),
-    opaque("porcelain", "smooth", Pattern::None, 0xf4_f1_e8, "Glazed: a clear reflection over a milky white"),
-    opaque("car_paint", "smooth", Pattern::None, 0xa8_0f_1e, "Metallic paint below a clear coat"),
+    opaque("brass", "metals", Pattern::None, 0xd8_ae_55, "Yellow, polished").seen(1.0, 1.0, 0.25),
+    opaque("bronze", "metals", Pattern::None, 0x9c_66_36, "Brown, dully polished").seen(1.0, 1.0, 0.35),
+    opaque("copper", "metals", Pattern::None, 0xda_82_5c, "Red, polished").seen(1.0, 1.0, 0.25),
+    opaque("gold", "metals", Pattern::None, 0xff_c8_4a, "Deep yellow, bright").seen(1.0, 1.0, 0.2),
+    opaque("silver", "metals", Pattern::None, 0xf1_ed_e4, "White and warm, bright").seen(1.0, 1.0, 0.2),
+    opaque("chrome", "metals", Pattern::None, 0xe6_ec_f2, "White and cool, almost a mirror")
+        .seen(1.0, 1.0, 0.05),
+    opaque("steel", "metals", Pattern::Centred, 0xb4_ba_c0, "Gray, brushed around its axis")
+        .seen(1.0, 1.0, 0.4),
+    opaque("iron", "metals", Pattern::Cut, 0x4a_4a_4d, "Dark, cast: rough and hardly shining")
+        .seen(0.96, 1.0, 0.65),
+    clear("glass", Pattern::None, 1.5, 0xf6_ff_fb, "Clear window glass").covers(0.35, 0.02),
+    clear("tinted_glass", Pattern::None, 1.5, 0x2f_9c_78, "Glass of a color: bottle green").covers(0.5, 0.02),
+    clear("water", Pattern::Cut, 1.33, 0xb4_e4_ee, "Clear, with a hint of blue and a moving surface")
+        .covers(0.45, 0.05),
+    clear("ice", Pattern::Cut, 1.31, 0xd8_f0_fa, "Half clear, with clouds and an uneven surface")
+        .covers(0.7, 0.3),
+    clear("bubble", Pattern::None, 1.0, 0xff_ff_ff, "A film of soap: hollow, with the colors of the rainbow")
+        .covers(0.15, 0.02),
+    opaque("plastic", "smooth", Pattern::None, 0x1f_6f_d2, "Evenly colored, with a broad white highlight")
+        .seen(1.0, 0.0, 0.35),
+    opaque("rubber", "smooth", Pattern::None, 0x2c_2c_2f, "Almost black, with a dull sheen")
+        .seen(1.0, 0.0, 0.8),
+    opaque("porcelain", "smooth", Pattern::None, 0xf4_f1_e8, "Glazed: a clear reflection over a milky white")
+        .seen(1.0, 0.0, 0.1),
+    opaque("car_paint", "smooth", Pattern::None, 0xa8_0f_1e, "Metallic paint below a clear coat")
+        .seen(0.8, 0.3, 0.2),
     opaque(
         "neon",
         "smooth",
         Pattern::None,
         0xff_2f_7a,
         "A lit tube: white where it is thick, colored at the rim",
-    ),
-    opaque("velvet", "soft", Pattern::None, 0x86_10_3a, "Deep, and brighter at the rim"),
-    opaque("felt", "soft", Pattern::Cut, 0x2c_82_4a, "Fibers, like the cloth of a billiard table"),
-    opaque("paper", "soft", Pattern::Cut, 0xf5_f1_e6, "Off-white, with a fine grain"),
-    opaque("chalk", "soft", Pattern::Cut, 0xee_ec_e6, "White, dry and dusty"),
-    opaque("cork", "soft", Pattern::Cut, 0xc8_97_62, "Light brown grains with dark gaps"),
-    opaque("clay", "earths", Pattern::Cut, 0xb0_8c_70, "Gray brown, shaped by hand"),
-    opaque("terracotta", "earths", Pattern::Cut, 0xc0_66_3c, "Baked clay, orange, with paler clouds"),
-    opaque("concrete", "earths", Pattern::Cut, 0xa6_a4_9e, "Gray, with pores"),
-    opaque("sandstone", "earths", Pattern::Cut, 0xd9_b3_80, "Layers of sand"),
-    opaque("marble", "stones", Pattern::Cut, 0xf2_f0_ec, "White and polished, with gray veins"),
-    opaque("granite", "stones", Pattern::Cut, 0xb8_a4_9c, "Polished grains, from black to nearly white"),
-    opaque("jade", "stones", Pattern::Cut, 0x3f_8f_66, "Green and polished, with clouds"),
-    opaque("wood", "woods", Pattern::Cut, 0xc0_8a_52, "Oak: rings and fibers along x, oiled"),
-    opaque("dark_wood", "woods", Pattern::Cut, 0x74_44_28, "Walnut, polished"),
+    )
+    .seen(1.0, 0.0, 1.0),
+    opaque("velvet", "soft", Pattern::None, 0x86_10_3a, "Deep, and brighter at the rim").seen(0.66, 0.0, 1.0),
+    opaque("felt", "soft", Pattern::Cut, 0x2c_82_4a, "Fibers, like the cloth of a billiard table")
+        .seen(0.88, 0.0, 1.0),
+    opaque("paper", "soft", Pattern::Cut, 0xf5_f1_e6, "Off-white, with a fine grain").seen(0.96, 0.0, 0.95),
+    opaque("chalk", "soft", Pattern::Cut, 0xee_ec_e6, "White, dry and dusty").seen(0.97, 0.0, 1.0),
+    opaque("cork", "soft", Pattern::Cut, 0xc8_97_62, "Light brown grains with dark gaps")
+        .seen(1.0, 0.0, 0.95),
+    opaque("clay", "earths", Pattern::Cut, 0xb0_8c_70, "Gray brown, shaped by hand").seen(0.97, 0.0, 0.95),
+    opaque("terracotta", "earths", Pattern::Cut, 0xc0_66_3c, "Baked clay, orange, with paler clouds")
+        .seen(1.0, 0.0, 0.95),
+    opaque("concrete", "earths", Pattern::Cut, 0xa6_a4_9e, "Gray, with pores").seen(0.93, 0.0, 0.95),
+    opaque("sandstone", "earths", Pattern::Cut, 0xd9_b3_80, "Layers of sand").seen(0.96, 0.0, 0.95),
+    opaque("marble", "stones", Pattern::Cut, 0xf2_f0_ec, "White and polished, with gray veins")
+        .seen(0.87, 0.0, 0.2),
+    opaque("granite", "stones", Pattern::Cut, 0xb8_a4_9c, "Polished grains, from black to nearly white")
+        .seen(0.85, 0.0, 0.15),
+    opaque("jade", "stones", Pattern::Cut, 0x3f_8f_66, "Green and polished, with clouds")
+        .seen(0.95, 0.0, 0.2),
+    opaque("wood", "woods", Pattern::Cut, 0xc0_8a_52, "Oak: rings and fibers along x, oiled")
+        .seen(0.87, 0.0, 0.5),
+    opaque("dark_wood", "woods", Pattern::Cut, 0x74_44_28, "Walnut, polished").seen(0.85, 0.0, 0.25),
     opaque(
         "checkered",
         "toys",
         Pattern::Centred,
         0xd0_2c_2c,
         "White and colored cubes: shows how a body turns",
+    )
+    .seen(1.0, 0.0, 0.3),
+    opaque("striped", "toys", Pattern::Centred, 0x1f_6f_b8, "White and colored bands around the axis")
+        .seen(1.0, 0.0, 0.3),
+    painted("beach_ball", "toys", "Six colors between two white poles").seen(1.0, 0.0, 0.3),
+    opaque("moon", "planets", Pattern::Cut, 0xb9_b5_ad, "Gray, with dark seas and craters")
+        .seen(0.85, 0.0, 1.0),
+    painted("earth", "planets", "Oceans, land, ice at the poles, clouds").tinged(
+        [0.306_999_318_927_516_36, 0.342_391_639_592_603_44, 0.393_123_130_226_722_2],
+        0.0,
+        0.7,
     ),
-    opaque("striped", "toys", Pattern::Centred, 0x1f_6f_b8, "White and colored bands around the axis"),
-    painted("beach_ball", "toys", "Six colors between two white poles"),
-    opaque("moon", "planets", Pattern::Cut, 0xb9_b5_ad, "Gray, with dark seas and craters"),
-    painted("earth", "planets", "Oceans, land, ice at the poles, clouds"),
     opaque(
         "gas_giant",
         "planets",
         Pattern::Centred,
         0xdc_b4_86,
         "Bands of cloud around the axis, as on Jupiter",
-    ),
-    opaque("sun", "planets", Pattern::Cut, 0xff_b4_2e, "Shines by itself, grained, darker at the rim"),
+    )
+    .seen(0.9, 0.0, 1.0),
+    opaque("sun", "planets", Pattern::Cut, 0xff_b4_2e, "Shines by itself, grained, darker at the rim")
+        .tinged([0.98, 0.83, 0.67], 0.0, 1.0),
 ];
 
 impl LibraryMaterial {

@@ -38,7 +38,7 @@ pub use label::{
     BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
     Side,
 };
-pub use library::{LibraryMaterial, MATERIALS, Pattern};
+pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
     Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,

@@ -2,8 +2,16 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{UniformGravity, World};
+use crate::dynamics::{Dynamics, Effort, UniformGravity, World};
 use crate::scene::{Body, Scene};
+
+/// What advances a scene, chosen by what the scene says; the interactions of pairs are counted meanwhile. An engine with steppers
+/// of its own is made here, beside the world.
+pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
+    let mut world = world(scene);
+    world.watch(effort);
+    Box::new(world)
+}
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
 /// is the same in both.
@@ -15,6 +23,7 @@ pub fn world(scene: &Scene) -> World {
     world.set_step(if is_given { f64::INFINITY } else { scene.simulation.step });
     world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
+    world.add_shapes(scene.bodies.iter().map(|body| body.shape.clone()));
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }

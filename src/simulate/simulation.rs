@@ -1,6 +1,7 @@
 //! A run that is being computed.
 
-use super::{Moments, SimulateError, world};
+use super::build::dynamics;
+use super::{Moments, SimulateError};
 use crate::dynamics::{Breakdown, Dynamics, Effort, Snapshot};
 use crate::scene::Scene;
 
@@ -24,9 +25,7 @@ pub(super) struct Simulation<'a> {
 impl<'a> Simulation<'a> {
     /// One that has not begun; the interactions of pairs are counted meanwhile.
     pub(super) fn new(scene: &'a Scene, moments: Moments, effort: &Effort) -> Simulation<'a> {
-        let mut world = world(scene);
-        world.watch(effort);
-        Simulation::of(scene, moments, Box::new(world))
+        Simulation::of(scene, moments, dynamics(scene, effort))
     }
 
     /// That of somebody else's dynamics, at time 0.

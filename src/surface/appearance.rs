@@ -1,6 +1,6 @@
 //! What is left of materials for a renderer that knows no POV-Ray.
 
-use crate::scene::{Color, Finish, LibraryMaterial, Look, Preset};
+use crate::scene::{Color, Finish, LibraryMaterial, Look, PlainLook, Preset};
 
 /// What a material looks like to a renderer that knows no POV-Ray, in the terms of metallic-roughness shading, as glTF
 /// has it. Colors are linear light from 0 to 1.
@@ -114,61 +114,21 @@ fn plain(color: Color, finish: Finish) -> Appearance {
     }
 }
 
-/// A material of the library whose color is given, if it takes one. Where its pattern has shades of that color, the
-/// color is their mean, as measured over a ball that POV-Ray draws in even light.
+/// A material of the library whose color is given, if it takes one.
 fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
+    let PlainLook { tone, cover, metallic, roughness } = material.plain;
     let tint = tint.linear();
-    let opaque = |shade: f64, metallic: f64, roughness: f64| {
-        Appearance::new(tint.map(|part| shade * part), metallic, roughness)
-    };
-    let clear = |cover: f64, roughness: f64| {
-        let [red, green, blue] = tint;
-        Appearance { color: [red, green, blue, cover], ..Appearance::new(tint, 0.0, roughness) }
-    };
+    let look = Appearance::new(std::array::from_fn(|i| tone[i] * tint[i]), metallic, roughness);
     let look = match material.name {
-        "brass" | "copper" => opaque(1.0, 1.0, 0.25),
-        "bronze" => opaque(1.0, 1.0, 0.35),
-        "gold" | "silver" => opaque(1.0, 1.0, 0.2),
-        "chrome" => opaque(1.0, 1.0, 0.05),
-        "steel" => opaque(1.0, 1.0, 0.4),
-        "iron" => opaque(0.96, 1.0, 0.65),
-        "glass" => clear(0.35, 0.02),
-        "tinted_glass" => clear(0.5, 0.02),
-        "water" => clear(0.45, 0.05),
-        "ice" => clear(0.7, 0.3),
-        "bubble" => clear(0.15, 0.02),
-        "plastic" => opaque(1.0, 0.0, 0.35),
-        "rubber" => opaque(1.0, 0.0, 0.8),
-        "porcelain" => opaque(1.0, 0.0, 0.1),
-        "car_paint" => opaque(0.8, 0.3, 0.2),
-        "neon" => opaque(1.0, 0.0, 1.0),
-        "velvet" => opaque(0.66, 0.0, 1.0),
-        "felt" => opaque(0.88, 0.0, 1.0),
-        "paper" => opaque(0.96, 0.0, 0.95),
-        "chalk" => opaque(0.97, 0.0, 1.0),
-        "cork" => opaque(1.0, 0.0, 0.95),
-        "clay" => opaque(0.97, 0.0, 0.95),
-        "terracotta" => opaque(1.0, 0.0, 0.95),
-        "concrete" => opaque(0.93, 0.0, 0.95),
-        "sandstone" => opaque(0.96, 0.0, 0.95),
-        "marble" => opaque(0.87, 0.0, 0.2),
-        "granite" => opaque(0.85, 0.0, 0.15),
-        "jade" => opaque(0.95, 0.0, 0.2),
-        "wood" => opaque(0.87, 0.0, 0.5),
-        "dark_wood" => opaque(0.85, 0.0, 0.25),
-        "checkered" => opaque(1.0, 0.0, 0.3).patterned(Motif::Checkered, WHITE),
-        "striped" => opaque(1.0, 0.0, 0.3).patterned(Motif::Striped, WHITE),
-        "beach_ball" => Appearance::new(mean(&BEACH_BALL), 0.0, 0.3).patterned(Motif::BeachBall, WHITE),
-        "moon" => opaque(0.85, 0.0, 1.0),
-        "earth" => Appearance::new(Color([0.59, 0.62, 0.66]).linear(), 0.0, 0.7),
-        "gas_giant" => opaque(0.9, 0.0, 1.0),
-        "sun" => {
-            let [red, green, blue] = tint;
-            Appearance::new([red * 0.98, green * 0.83, blue * 0.67], 0.0, 1.0)
+        "checkered" => look.patterned(Motif::Checkered, WHITE),
+        "striped" => look.patterned(Motif::Striped, WHITE),
+        "beach_ball" => {
+            Appearance::new(mean(&BEACH_BALL), metallic, roughness).patterned(Motif::BeachBall, WHITE)
         }
-        _ => opaque(1.0, 0.0, 0.5),
+        _ => look,
     };
-    Appearance { emissive: material.glows(), ..look }
+    let [red, green, blue, _] = look.color;
+    Appearance { color: [red, green, blue, cover], emissive: material.glows(), ..look }
 }
 
 /// The mean of some colors, which is one of light.

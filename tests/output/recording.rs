@@ -19,8 +19,15 @@ use crate::support::{self, contents, stderr};
 static STEPS: AtomicU64 = AtomicU64::new(0);
 
 /// The default method, which counts its steps.
-static COUNTED: Method =
-    Method { name: "counted", order: 1, symplectic: true, summary: "", create: || Box::new(Counted::new()) };
+static COUNTED: Method = Method {
+    name: "counted",
+    order: 1,
+    symplectic: true,
+    adaptive: false,
+    constraints: true,
+    summary: "",
+    create: || Box::new(Counted::new()),
+};
 
 struct Counted(Box<dyn Integrator>);
 

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::{Loads, State, System};
+use super::super::{Loads, Model, State, System};
 use super::rotation;
 
 /// The derivative of a [`State`] with respect to time. The slopes of angular momentum and of work are the torque and
@@ -18,8 +18,17 @@ pub(super) struct Slope {
 impl Slope {
     /// Measures the slope at `state`: the right-hand side of the equations of motion.
     pub(super) fn measure(&mut self, system: &mut System<'_>, t: f64, state: &State) {
-        let model = system.model();
         system.evaluate(t, state, &mut self.loads);
+        self.read(system.model(), state);
+    }
+
+    /// The same at a later time, at which bodies whose motion is given are elsewhere.
+    pub(super) fn arrive(&mut self, system: &mut System<'_>, t: f64, state: &mut State) {
+        system.arrive(t, state, &mut self.loads);
+        self.read(system.model(), state);
+    }
+
+    fn read(&mut self, model: &Model, state: &State) {
         self.location.clone_from(&state.velocity);
         self.velocity.clear();
         self.velocity.extend(
@@ -30,12 +39,6 @@ impl Slope {
             let angular_velocity = model.angular_velocity(i, state);
             rotation::rate(state.orientation[i], angular_velocity)
         }));
-    }
-
-    /// The same at a later time, at which bodies whose motion is given are elsewhere.
-    pub(super) fn arrive(&mut self, system: &mut System<'_>, t: f64, state: &mut State) {
-        system.model().place(t, state);
-        self.measure(system, t, state);
     }
 }
 
