@@ -4,6 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use super::OutputError;
 use super::edited::SetAside;
@@ -199,11 +200,15 @@ fn lock(folder: &Path) -> Result<File, OutputError> {
     }
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
     let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(OutputError::Locked(folder.to_owned())),
-        Err(TryLockError::Error(error)) => Err(OutputError::Io(path, error)),
+    // A program that is just being started has copies of all open files until it runs, also of a lock that was let go.
+    for _ in 0..20 {
+        match file.try_lock() {
+            Ok(()) => return Ok(file),
+            Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(10)),
+            Err(TryLockError::Error(error)) => return Err(OutputError::Io(path, error)),
+        }
     }
+    Err(OutputError::Locked(folder.to_owned()))
 }
 
 #[cfg(test)]

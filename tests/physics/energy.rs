@@ -72,7 +72,7 @@ fn rk4_loses_energy_slowly() {
     assert!((measured - loss).abs() < 1e-3 * loss, "{measured:e} {loss:e}");
 }
 
-/// Where forces without a potential do work, the drift is still only the method's error, and goes to 0 with its order.
+/// Where forces without a potential do work, the drift is still only the method's error, and goes to 0 with its order, or faster.
 /// Tolerance of the slope as in `order`; not booking the work would leave a drift of order 0.
 fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
     for method in METHODS {
@@ -86,8 +86,13 @@ fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
         let (coarse, fine) = (run(128), run(256));
         assert!(fine.accounts.work.abs() > 0.5, "{}: {}", method.name, fine.accounts.work);
         let slope = libm::log2(coarse.drift / fine.drift);
-        let off = (slope - f64::from(method.order)).abs();
-        assert!(off < 0.1, "{}: order {slope}, drifts {:e}, {:e}", method.name, coarse.drift, fine.drift);
+        assert!(
+            slope > f64::from(method.order) - 0.1,
+            "{}: order {slope}, drifts {:e}, {:e}",
+            method.name,
+            coarse.drift,
+            fine.drift
+        );
     }
 }
 
