@@ -37,6 +37,9 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
             kind => writeln!(text, "{kind:?}")?,
         }
     }
+    for joint in &scene.joints {
+        writeln!(text, "{:?}", joint.kind)?;
+    }
     Ok(())
 }
 

@@ -51,7 +51,7 @@ impl OutputError {
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
             OutputError::Diverged(_) => Code::Diverged,
-            OutputError::Broken(_) => Code::Diverged,
+            OutputError::Broken(_) => Code::BrokenJoint,
             OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
             OutputError::Emit(_) => Code::CannotEmit,

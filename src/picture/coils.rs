@@ -1,9 +1,9 @@
-//! Springs, as coils between the surfaces of what they are fastened to.
+//! Springs, as coils between the surfaces of what they are fastened to; joints, as rods and pins.
 
 use glam::{DQuat, DVec3};
 
 use crate::dynamics::{Anchor, Shape, Spring};
-use crate::scene::{self, Body, Color, ForceKind, Scene};
+use crate::scene::{self, Body, Color, ForceKind, Joint, JointLook, Scene};
 use crate::simulate::{Frame, surface};
 
 /// The usual color of the wire.
@@ -11,10 +11,10 @@ const STEEL: Color = Color([0.62, 0.64, 0.67]);
 /// The radius of the wire, as part of that of the coil.
 const WIRE: f64 = 0.14;
 
-/// A spring that is drawn.
+/// A spring or a joint that is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coil<'a> {
-    /// The name of its force in the scene.
+    /// The name of its force or its joint in the scene.
     pub name: &'a str,
     /// Where the coil begins and ends, m; none where bodies that touch leave no room for it.
     pub span: Option<[DVec3; 2]>,
@@ -26,7 +26,7 @@ pub struct Coil<'a> {
     pub radius: f64,
     /// The radius of the wire, m.
     pub wire: f64,
-    /// The number of its turns.
+    /// The number of its turns; 0 for a straight rod.
     pub turns: u32,
     /// The color of the wire.
     pub color: Color,
@@ -50,6 +50,8 @@ struct Planned {
     /// The radius of the coil, m.
     radius: f64,
     turns: u32,
+    /// Whether it is a pin at one place, and reaches from nowhere to nowhere.
+    is_pin: bool,
     color: Color,
     name: String,
 }
@@ -60,6 +62,9 @@ impl Coils {
         for force in &scene.forces {
             let ForceKind::Spring { links, coil: Some(coil) } = &force.kind else { continue };
             coils.extend(links.iter().map(|link| plan(scene, &force.name, link, coil)));
+        }
+        for joint in &scene.joints {
+            coils.extend(joint.look.map(|look| plan_joint(scene, joint, look)));
         }
         let bodies = if coils.is_empty() { &[] } else { scene.bodies.as_slice() };
         let shapes = bodies.iter().map(Body::drawn).collect();
@@ -106,6 +111,9 @@ impl Coils {
         let [Some(one), Some(other)] = coil.between.map(turned) else { return None };
         let place = |end: Anchor, pose| self.drawn(end).place(|_| pose);
         let (from, to) = (place(coil.between[0], one), place(coil.between[1], other));
+        if coil.is_pin {
+            return Some(coil.drawn(None, [Some(from), None]));
+        }
         let along = (to - from).normalize_or_zero();
         let reach = |end: Anchor, orientation: DQuat, direction: DVec3| match end {
             // A little below the surface, so that no gap is seen where that is not flat.
@@ -120,19 +128,25 @@ impl Coils {
             Anchor::Body { .. } => None,
             Anchor::Point(point) => Some(point),
         };
-        let wire = WIRE * coil.radius;
         // Bodies that touch leave no room for a spring.
-        let is_room = (end - begin).dot(along) > room_for(coil.radius);
-        Some(Coil {
-            name: &coil.name,
-            span: is_room.then_some([begin, end]),
-            fixed: coil.between.map(fixed),
-            knob: 0.6 * coil.radius,
-            radius: coil.radius,
-            wire,
-            turns: coil.turns,
-            color: coil.color,
-        })
+        let is_room = (end - begin).dot(along) > if coil.turns > 0 { room_for(coil.radius) } else { 0.0 };
+        Some(coil.drawn(is_room.then_some([begin, end]), coil.between.map(fixed)))
+    }
+}
+
+impl Planned {
+    fn drawn(&self, span: Option<[DVec3; 2]>, fixed: [Option<DVec3>; 2]) -> Coil<'_> {
+        let is_coil = self.turns > 0;
+        Coil {
+            name: &self.name,
+            span,
+            fixed,
+            knob: if is_coil { 0.6 * self.radius } else { 1.6 * self.radius },
+            radius: self.radius,
+            wire: if is_coil { WIRE * self.radius } else { self.radius },
+            turns: self.turns,
+            color: self.color,
+        }
     }
 }
 
@@ -176,8 +190,36 @@ fn plan(scene: &Scene, name: &str, link: &Spring, coil: &scene::Coil) -> Planned
         between: link.between,
         radius,
         turns: coil.turns.unwrap_or_else(|| turns(free / (1.5 * radius))),
+        is_pin: false,
         color: coil.color.unwrap_or(STEEL),
         name: name.to_owned(),
+    }
+}
+
+/// How a joint looks: a rod is a fifth as thick as the smaller of the bodies at its ends, and never thicker than a
+/// thirtieth of its length; a pin is as thick as a part of them.
+fn plan_joint(scene: &Scene, joint: &Joint, look: JointLook) -> Planned {
+    let between = joint.kind.between();
+    let thickness = |end: Anchor| {
+        let body = &scene.bodies[end.body()?.index()];
+        body.drawn().half_thickness()
+    };
+    let smallest = between.into_iter().filter_map(thickness).fold(f64::MAX, f64::min);
+    let [from, to] = between.map(|end| {
+        end.place(|id| {
+            let start = &scene.bodies[id.index()].start;
+            (start.location, start.orientation)
+        })
+    });
+    let is_long = joint.kind.is_long();
+    let usual = if is_long { (0.2 * smallest).min(from.distance(to) / 30.0) } else { 0.35 * smallest };
+    Planned {
+        between,
+        radius: look.radius.unwrap_or(usual),
+        turns: 0,
+        is_pin: !is_long,
+        color: look.color.unwrap_or(STEEL),
+        name: joint.name.clone(),
     }
 }
 

@@ -278,6 +278,7 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         .bodies
         .iter()
         .any(|body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some));
+    let joints = scene.joints.iter().any(|joint| joint.look.is_some());
     let springs = scene
         .forces
         .iter()
@@ -285,7 +286,12 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
     let trails = scene.bodies.iter().any(|body| body.showing.trail.is_some());
     let texts = !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some();
     let moves = |plan: &Plan| plan.camera_moves() || plan.lights_move();
-    bodies || springs || trails || texts || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
+    bodies
+        || springs
+        || joints
+        || trails
+        || texts
+        || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
 }
 
 fn lights(lights: &[PlacedLight]) -> Vec<super::shown::Light> {

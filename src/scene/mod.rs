@@ -12,6 +12,7 @@ mod expand;
 pub mod expression;
 mod force;
 pub mod grammar;
+mod joint;
 mod label;
 mod library;
 mod look;
@@ -34,6 +35,7 @@ use std::path::{Path, PathBuf};
 pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use force::{Force, ForceKind};
+pub use joint::{Joint, JointKind, JointLook};
 pub use label::{
     BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
     Side,
@@ -71,6 +73,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The forces that are not a single body's own, in the order of the file.
     pub forces: Vec<Force>,
+    /// What holds bodies together, in the order of the file.
+    pub joints: Vec<Joint>,
     /// The materials of the file in its order, then those of bodies' own, the library and the palette.
     pub materials: Vec<Material>,
     /// From where the scene is seen.

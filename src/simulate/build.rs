@@ -28,6 +28,7 @@ pub fn world(scene: &Scene) -> World {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
     scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
+    scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
     world
 }
 

@@ -95,7 +95,8 @@ impl SimulateError {
                 SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
             }
             Breakdown::Broken { constraint, time, missing } => {
-                SimulateError::Broken(Broken { joint: constraint.to_string(), time, missing })
+                let joint = scene.joints[constraint].name.clone();
+                SimulateError::Broken(Broken { joint, time, missing })
             }
         }
     }

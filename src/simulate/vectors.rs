@@ -36,13 +36,14 @@ pub fn axis(body: &Body) -> Option<f64> {
     Some(axes.length.unwrap_or(2.0 * reach))
 }
 
-/// The fixed points of the springs that are drawn, m.
+/// The fixed points of the springs and joints that are drawn, m.
 pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, coil: Some(_) } => Some(links),
         _ => None,
     });
-    links.flatten().flat_map(|link| link.between).filter_map(|end| match end {
+    let joints = scene.joints.iter().filter(|joint| joint.look.is_some()).map(|joint| joint.kind.between());
+    links.flatten().map(|link| link.between).chain(joints).flatten().filter_map(|end| match end {
         Anchor::Point(point) => Some(point),
         Anchor::Body { .. } => None,
     })

@@ -23,7 +23,6 @@ static COUNTED: Method = Method {
     name: "counted",
     order: 1,
     symplectic: true,
-    adaptive: false,
     constraints: true,
     summary: "",
     create: || Box::new(Counted::new()),

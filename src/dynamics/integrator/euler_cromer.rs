@@ -11,7 +11,6 @@ pub(super) const METHOD: Method = Method {
     name: "euler-cromer",
     order: 1,
     symplectic: true,
-    adaptive: false,
     constraints: true,
     summary: "first order, symplectic: cheap, and the energy error stays bounded",
     create: || Box::new(EulerCromer::default()),

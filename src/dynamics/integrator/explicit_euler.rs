@@ -11,7 +11,6 @@ pub(super) const METHOD: Method = Method {
     name: "explicit-euler",
     order: 1,
     symplectic: false,
-    adaptive: false,
     constraints: true,
     summary: "first order: gains energy without bound, for comparison only",
     create: || Box::new(ExplicitEuler::default()),

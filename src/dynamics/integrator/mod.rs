@@ -52,8 +52,6 @@ pub struct Method {
     pub order: u32,
     /// Whether it is symplectic: then the error of the energy stays bounded over any time.
     pub symplectic: bool,
-    /// Whether it chooses its steps itself, by a tolerance.
-    pub adaptive: bool,
     /// Whether it can keep constraints; a scene with joints is refused where it cannot.
     pub constraints: bool,
     /// One line for a list of methods.

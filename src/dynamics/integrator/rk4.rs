@@ -10,7 +10,6 @@ pub(super) const METHOD: Method = Method {
     name: "rk4",
     order: 4,
     symplectic: false,
-    adaptive: false,
     constraints: true,
     summary: "fourth order: accurate over short times, loses energy slowly over long ones",
     create: || Box::new(Rk4::default()),

@@ -14,7 +14,6 @@ pub(super) const METHOD: Method = Method {
     name: "velocity-verlet",
     order: 2,
     symplectic: true,
-    adaptive: false,
     constraints: true,
     summary: "second order, symplectic: one evaluation of forces a step",
     create: || Box::new(VelocityVerlet::default()),

@@ -1,4 +1,4 @@
-//! Springs, as coils between the surfaces of what they are fastened to.
+//! Springs, as coils between the surfaces of what they are fastened to; joints, as rods and pins.
 
 use glam::DVec3;
 
@@ -26,6 +26,16 @@ fn coil(out: &mut String, coil: &Coil<'_>, style: Style) {
     let Some([begin, end]) = coil.span.filter(|[begin, end]| is_wound && style.can_tell(*begin, *end)) else {
         return;
     };
+    if coil.turns == 0 {
+        out.push_str("cylinder { ");
+        style.point(out, begin);
+        out.push_str(", ");
+        style.point(out, end);
+        out.push_str(", ");
+        style.length(out, coil.radius);
+        out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}\n"));
+        return;
+    }
     out.push_str("Coil(");
     style.point(out, begin);
     out.push_str(", ");

@@ -40,11 +40,12 @@ export function arrow(lines, { from, to, radius, color }) {
   lines.add(neck, to, 3.2 * shaft, color, 0);
 }
 
-/** A spring, as in the templates. */
+/** A spring, as in the templates; without turns, a rod. */
 export function coil(lines, { span, fixed, knob, radius, wire, turns, color }) {
   for (const point of fixed) lines.add(sub(point, [0, knob, 0]), add(point, [0, knob, 0]), knob, color);
   if (!span) return;
   const [a, b] = span;
+  if (turns === 0) return lines.add(a, b, radius, color);
   const axis = sub(b, a);
   const sideways = unit(cross(axis, Math.abs(unit(axis)[2]) < 0.98 ? [0, 0, 1] : [1, 0, 0]), [1, 0, 0]);
   const across = times(sideways, radius);

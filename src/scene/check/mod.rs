@@ -7,9 +7,11 @@ mod camera;
 mod consequence;
 mod counts;
 mod effect;
+mod end;
 mod force;
 mod geometry;
 mod habits;
+mod joint;
 mod label;
 mod look;
 mod material;
@@ -279,6 +281,7 @@ fn build(
     if !context.forces_are_wrong {
         effect::check(&root, &bodies, &forces, context);
     }
+    let joints = joint::read(&root, &bodies, simulation.method, context);
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
@@ -304,6 +307,7 @@ fn build(
         digest: digest(input, options, included, &povray, context),
         bodies,
         forces,
+        joints,
         materials,
         povray,
         places: Places {

@@ -132,7 +132,7 @@ static SPRING: TableSpec = TableSpec {
     ],
 };
 
-/// An end of a spring at a point of a body.
+/// An end of a spring or a joint at a point of a body.
 pub(in crate::scene) static END: TableSpec = TableSpec {
     noun: "a point of a body",
     rule: Rule::Any,

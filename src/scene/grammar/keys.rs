@@ -8,6 +8,7 @@ use super::Kind::{
 };
 use super::camera::CAMERA;
 use super::forces::FORCE;
+use super::joints::JOINT;
 use super::labels;
 use super::lights::LIGHT;
 use super::motion::MOTION;
@@ -77,6 +78,11 @@ pub static SCENE: TableSpec = TableSpec {
         ),
         Key::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
         Key::new("force", Named(&FORCE), "The forces that are not a single body's own").also(&["forces"]),
+        Key::new("joint", Named(&JOINT), "What holds bodies together").also(&[
+            "joints",
+            "constraint",
+            "constraints",
+        ]),
         Key::new("material", Named(&MATERIAL), "What bodies look like").also(&["materials", "texture"]),
         Key::new("camera", Table(&CAMERA), "From where the scene is seen"),
         Key::new(

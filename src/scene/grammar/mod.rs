@@ -6,6 +6,7 @@
 
 mod camera;
 mod forces;
+mod joints;
 mod keys;
 mod kind;
 mod labels;

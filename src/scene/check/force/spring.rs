@@ -1,15 +1,12 @@
 //! `[force.NAME.spring]`.
 
-use glam::DVec3;
-
-use super::super::read;
+use super::super::end;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Anchor, BodyId, Spring};
+use crate::dynamics::{Anchor, Spring};
 use crate::scene::ForceKind;
-use crate::scene::grammar::{Bound, END};
-use crate::scene::source::{Node, Value};
+use crate::scene::source::Node;
 
 impl Reader<'_, '_> {
     /// A spring from each end to the next.
@@ -22,9 +19,13 @@ impl Reader<'_, '_> {
         let mut links = Vec::with_capacity(nodes.len());
         for neighbours in nodes.windows(2) {
             let [first, second] = neighbours else { continue };
-            let (Some(from), Some(to)) = (self.end(first), self.end(second)) else { continue };
+            let (Some(from), Some(to)) =
+                (end::anchor(first, self.context), end::anchor(second, self.context))
+            else {
+                continue;
+            };
             self.link(first, second, [from, to]);
-            let length = || self.place(from).distance(self.place(to));
+            let length = || end::place(from, self.bodies).distance(end::place(to, self.bodies));
             let rest_length = rest_length.unwrap_or_else(length);
             links.push(Spring { between: [from, to], stiffness, damping, rest_length });
         }
@@ -77,25 +78,5 @@ impl Reader<'_, '_> {
             };
             self.say(Code::SpringEnds, first.span, error);
         }
-    }
-
-    fn end(&self, node: &Node) -> Option<Anchor> {
-        match node.value {
-            Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
-            Value::Table(ref table) => {
-                let view = View::new(&END, Some(table));
-                let id = BodyId::new(self.body(view.raw("body")?)?);
-                Some(Anchor::Body { id, at: view.vector("at").unwrap_or(DVec3::ZERO) })
-            }
-            _ => self.body(node).map(|body| Anchor::centre(BodyId::new(body))),
-        }
-    }
-
-    /// Where an end is at the start.
-    fn place(&self, end: Anchor) -> DVec3 {
-        end.place(|id| {
-            let start = &self.bodies[id.index()].start;
-            (start.location, start.orientation)
-        })
     }
 }

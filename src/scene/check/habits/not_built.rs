@@ -61,11 +61,34 @@ static NOT_BUILT: &[NotBuilt] = &[
         can_go: true,
     },
     NotBuilt {
-        of: "a scene",
-        words: &["joint", "joints", "hinge", "constraint", "constraints", "rod", "rope", "motor"],
-        help: "there are no joints yet: a stiff spring, `[force.NAME.spring]`, holds two bodies together, \
-               and `motion` in a body moves it as you say",
+        of: "a joint",
+        words: &[
+            "rope",
+            "string",
+            "cable",
+            "gear",
+            "gears",
+            "pulley",
+            "universal",
+            "cylindrical",
+            "screw",
+            "spring",
+            "motor",
+        ],
+        help: "there are `ball`, `hinge`, `slider`, `fixed` and `rod`; springs are forces, `[force.NAME.spring]`",
         can_go: false,
+    },
+    NotBuilt {
+        of: "a hinge",
+        words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
+        help: "joints move freely yet, without limits and motors; leave the line out",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "a slider",
+        words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
+        help: "joints move freely yet, without limits and motors; leave the line out",
+        can_go: true,
     },
     NotBuilt {
         of: "a scene",

@@ -74,6 +74,7 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             vector::list(node, key, unit_of_key(key).unwrap_or(""), *count, context)
         }
         (Kind::Table(spec), _) => table::as_table(spec, node, key, context),
+        (Kind::List { min: 2, .. }, Value::Array(items)) if key == "between" && items.len() > 2 => None,
         (Kind::List { min: 2, .. }, _) if key == "between" => ends::with_other_end(node, context),
         (Kind::Number(_) | Kind::Timed(_), Value::Array(items)) => match items.as_slice() {
             [only] => {

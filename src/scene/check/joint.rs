@@ -1,0 +1,218 @@
+//! `[joint.NAME]`.
+
+use glam::DVec3;
+
+use super::Context;
+use super::end;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::{Anchor, Ball, Fixed, Hinge, Method, Rod, Slider};
+use crate::scene::source::Node;
+use crate::scene::{Body, Joint, JointKind, JointLook};
+
+/// Ends that are so far apart at the start, as a part of the joint's size, have been written with few digits.
+const NEARLY: f64 = 1e-9;
+
+/// Farther apart they do not fit.
+const TOO_FAR: f64 = 1e-3;
+
+pub(super) fn read(
+    root: &View<'_>,
+    bodies: &[Body],
+    method: &Method,
+    context: &mut Context<'_>,
+) -> Vec<Joint> {
+    let mut joints = Vec::new();
+    for (name, span, view) in root.named("joint") {
+        let mut reader = Reader { name, span, bodies, context };
+        let Some(kind) = reader.kind(&view) else { continue };
+        if !method.constraints {
+            let message = format!("the integrator `{}` keeps no joints", method.name);
+            let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
+            context.diagnostics.push(error.help("take another one: `simulation.integrator = \"rk4\"`"));
+        }
+        joints.push(Joint { name: name.to_owned(), look: look(&view), kind });
+    }
+    joints
+}
+
+/// A length with as many digits as people read.
+fn about(length: f64) -> String {
+    figure(format!("{length:.3e}").parse().unwrap_or(length))
+}
+
+/// How the joint is drawn, if it is.
+fn look(view: &View<'_>) -> Option<JointLook> {
+    let kind = ["ball", "hinge", "slider", "fixed", "rod"].into_iter().find_map(|kind| view.variant(kind))?;
+    let look = kind.table("look");
+    (kind.text("look") != Some("none"))
+        .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })
+}
+
+/// What a joint is read with.
+struct Reader<'a, 'c> {
+    name: &'a str,
+    span: Span,
+    bodies: &'a [Body],
+    context: &'a mut Context<'c>,
+}
+
+impl Reader<'_, '_> {
+    fn kind(&mut self, view: &View<'_>) -> Option<JointKind> {
+        if let Some(rod) = view.variant("rod") {
+            return self.rod(&rod).map(JointKind::Rod);
+        }
+        if let Some(ball) = view.variant("ball") {
+            let (between, _) = self.joined(&ball, true)?;
+            return Some(JointKind::Ball(Ball { between }));
+        }
+        if let Some(hinge) = view.variant("hinge") {
+            let (between, _) = self.joined(&hinge, true)?;
+            let axis = DVec3::from(hinge.direction("axis")?).normalize();
+            return Some(JointKind::Hinge(Hinge {
+                between,
+                axis: between.map(|end| self.in_axes_of(end, axis)),
+            }));
+        }
+        if let Some(slider) = view.variant("slider") {
+            let (between, _) = self.joined(&slider, false)?;
+            let axis = DVec3::from(slider.direction("axis")?).normalize();
+            let axis = self.in_axes_of(between[0], axis);
+            return Some(JointKind::Slider(Slider { between, axis, turned: self.turned(between) }));
+        }
+        let (between, _) = self.joined(&view.variant("fixed")?, false)?;
+        Some(JointKind::Fixed(Fixed { between, turned: self.turned(between) }))
+    }
+
+    fn rod(&mut self, view: &View<'_>) -> Option<Rod> {
+        let (between, nodes) = self.ends(view)?;
+        let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
+        let distance = from.distance(to);
+        let length = view.number("length").unwrap_or(distance);
+        if distance == 0.0 {
+            let message = format!("the ends of the rod `{}` are at the same place", self.name);
+            let error =
+                Diagnostic::error(Code::BadJoint, message).at(nodes[1].span, "where the other end is");
+            self.context.diagnostics.push(error.help("a joint without length is a `ball`"));
+            return None;
+        }
+        let missing = (distance - length).abs();
+        let span = view.span("length").unwrap_or(self.span);
+        let what = format!(
+            "its ends are {} m apart at the start",
+            figure(format!("{distance:.9}").parse().unwrap_or(distance))
+        );
+        self.fits(missing, length, span, &what);
+        Some(Rod { between, length })
+    }
+
+    /// The ends of a joint that joins them at one place. Where neither says it, `at` does; what needs no place takes the centre
+    /// of the second.
+    fn joined(&mut self, view: &View<'_>, needs_place: bool) -> Option<([Anchor; 2], DVec3)> {
+        let (mut between, nodes) = self.ends(view)?;
+        let bodies = self.bodies;
+        let says: [bool; 2] =
+            std::array::from_fn(|i| matches!(between[i], Anchor::Point(_)) || end::says_point(nodes[i]));
+        let places = between.map(|anchor| end::place(anchor, bodies));
+        let at = view.vector("at");
+        let point = match (at, says) {
+            (Some(at), _) => at,
+            (None, [true, _]) => places[0],
+            (None, [false, true]) => places[1],
+            (None, [false, false]) if needs_place => {
+                let [a, b] = places;
+                let message = format!("the joint `{}` does not say where it is", self.name);
+                let error = Diagnostic::error(Code::MissingKey, message).at(self.span, "needs `at`");
+                let [x, y, z] = ((a + b) / 2.0).to_array().map(about);
+                let help =
+                    format!("a point of the world at the start, such as `at = [{x}, {y}, {z}]`, half-way");
+                self.context.diagnostics.push(error.help(help));
+                return None;
+            }
+            (None, [false, false]) => places[1],
+        };
+        for i in 0..2 {
+            if !says[i] {
+                between[i] = self.on(between[i], point);
+                continue;
+            }
+            let missing = places[i].distance(point);
+            let other = if at.is_some() { "`at`" } else { "the other end" };
+            let what = format!("this end is {} m from {other} at the start", about(missing));
+            let arm =
+                |anchor: Anchor| anchor.body().map_or(0.0, |id| end::pose(id, bodies).0.distance(point));
+            let size = between.map(arm).into_iter().fold(missing, f64::max);
+            self.fits(missing, size, nodes[i].span, &what);
+        }
+        Some((between, point))
+    }
+
+    /// Says it where the ends of a joint are not where they must be.
+    fn fits(&mut self, missing: f64, size: f64, span: Span, what: &str) {
+        let name = self.name;
+        if missing > TOO_FAR * size {
+            let message =
+                format!("the joint `{name}` does not hold at the start: {} m are missing", about(missing));
+            let error = Diagnostic::error(Code::JointApart, message).at(span, what);
+            self.context.diagnostics.push(error);
+        } else if missing > NEARLY * size {
+            let message = format!(
+                "the joint `{name}` holds only nearly at the start: {} m are missing",
+                about(missing)
+            );
+            let warning = Diagnostic::warning(Code::JointApart, message).at(span, what);
+            self.context
+                .diagnostics
+                .push(warning.help("its bodies are moved the shortest way to where it holds"));
+        }
+    }
+
+    fn ends<'n>(&mut self, view: &View<'n>) -> Option<([Anchor; 2], [&'n Node; 2])> {
+        let [first, second] = view.list("between")? else { return None };
+        let between = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
+        let moves = |end: &Anchor| {
+            end.body().is_some_and(|id| {
+                let body = &self.bodies[id.index()];
+                !body.start.fixed && body.motion.is_none()
+            })
+        };
+        let mut wrong = |span: Span, why: &str, help: &str| {
+            let message = format!("the joint `{}` cannot hold anything", self.name);
+            self.context
+                .diagnostics
+                .push(Diagnostic::error(Code::BadJoint, message).at(span, why).help(help));
+        };
+        if between[0].body().is_some() && between[0].body() == between[1].body() {
+            wrong(second.span, "the same body as the end before it", "a joint has two different ends");
+            return None;
+        }
+        if !between.iter().any(moves) {
+            wrong(first.span, "neither end can move", "one end at least must be a body that forces can move");
+            return None;
+        }
+        Some((between, [first, second]))
+    }
+
+    /// The point of a body that is at a point of the world at the start.
+    fn on(&self, end: Anchor, point: DVec3) -> Anchor {
+        match end {
+            Anchor::Body { id, .. } => {
+                let (location, orientation) = end::pose(id, self.bodies);
+                Anchor::Body { id, at: orientation.conjugate() * (point - location) }
+            }
+            Anchor::Point(_) => Anchor::Point(point),
+        }
+    }
+
+    /// A direction in the world at the start, in the axes of an end.
+    fn in_axes_of(&self, end: Anchor, direction: DVec3) -> DVec3 {
+        end.body().map_or(direction, |id| end::pose(id, self.bodies).1.conjugate() * direction)
+    }
+
+    /// The rotation that takes the axes of the first end to those of the second, as they are at the start.
+    fn turned(&self, between: [Anchor; 2]) -> glam::DQuat {
+        let turn = |end: Anchor| end.body().map_or(glam::DQuat::IDENTITY, |id| end::pose(id, self.bodies).1);
+        turn(between[1]).conjugate() * turn(between[0])
+    }
+}
