@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use jabuka::Run;
@@ -231,6 +231,58 @@ fn a_killed_run_leaves_nothing_that_matters_and_two_at_once_do_not_disturb_each_
     }
     assert!(kept.compile("out", &[]) == right);
     assert_eq!((kept.files("run").len(), kept.files("part").len()), (1, 0));
+}
+
+/// Runs a command with a cache folder on a disk of 2 MB, in a world of its own: none where that is not allowed.
+fn on_a_small_disk(kept: &Kept, command: &Command) -> Option<Output> {
+    fs::create_dir_all(kept.cache()).unwrap();
+    let mut small = Command::new("unshare");
+    small.args(["--user", "--map-root-user", "--mount", "sh", "-c"]);
+    small.arg("mount -t tmpfs -o size=2m none \"$0\" || exit 77; exec \"$@\"").arg(kept.cache());
+    let output = like(small, command).output().ok()?;
+    let is_refused = output.status.code() == Some(77) || stderr(&output).starts_with("unshare: ");
+    (!is_refused).then_some(output)
+}
+
+/// Runs a command that can write no file of more than 100 kB.
+fn with_small_files(command: &Command) -> Output {
+    let mut small = Command::new("sh");
+    // Without the trap, the signal would end it.
+    small.args(["-c", "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\""]);
+    like(small, command).output().unwrap()
+}
+
+/// The outer command, which runs another one.
+fn like(mut outer: Command, command: &Command) -> Command {
+    outer.arg(command.get_program()).args(command.get_args());
+    outer.current_dir(command.get_current_dir().unwrap());
+    outer.envs(command.get_envs().filter_map(|(name, value)| Some((name, value?))));
+    outer
+}
+
+/// The recording has 2 MB, of which one is in memory.
+#[test]
+fn a_full_disk_keeps_nothing_and_the_next_command_gives_the_right_bytes() {
+    let kept = Kept::new();
+    let long = ["--set", "simulation.duration=8", "--set", "simulation.step=0.02"];
+    let right = kept.compile("right", &[&long[..], &["--no-cache"]].concat());
+    let command = |out: &str| {
+        let mut command = kept.command(out);
+        command.args(long);
+        command
+    };
+    // There is room in the folder for temporary files.
+    if let Some(output) = on_a_small_disk(&kept, &command("small")) {
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(contents(&kept.folder.path().join("small")) == right);
+    }
+    let output = with_small_files(&command("none"));
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_eq!(kept.files("run").len(), 0, "{}", stderr(&output));
+    for (out, runs) in [("again", 1), ("kept", 1)] {
+        assert!(kept.compile(out, &long) == right);
+        assert_eq!((kept.files("run").len(), kept.files("part").len()), (runs, 0));
+    }
 }
 
 #[test]
