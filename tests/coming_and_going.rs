@@ -386,3 +386,39 @@ fn stills_show_who_is_there() {
     // At 0.305, 0.315, 0.325, 0.335 and 0.345 s.
     assert_eq!(seen, [1, 1, 1, 2, 2]);
 }
+
+/// Where the whole run would leave bodies too small to be seen, a start of it is framed: one by which all have come.
+#[test]
+fn no_body_comes_outside_of_what_an_automatic_camera_frames() {
+    let scene = scene(
+        "simulation = { duration = 10, frame_rate = 5 }
+        [body.near]
+        shape.sphere.radius = 0.1
+        [body.far]
+        shape.sphere.radius = 0.1
+        location = [200, 0, 0]
+        start = 3
+        [body.alone]
+        shape.sphere.radius = 0.1
+        location = [0, 9, 0]
+        velocity = [500, 0, 0]
+        end = 1
+        ",
+    );
+    let run = Run::new(&scene).unwrap();
+    for frame in run.frames().map(Result::unwrap) {
+        let screen = run.emitter().plan().camera(&frame).screen();
+        for body in &frame.bodies {
+            let spot = screen.spot(body.location).unwrap();
+            assert!(spot.x.abs() <= 1.0, "{} at {} s", body.id, frame.time);
+        }
+    }
+    let only = |keys: &str| {
+        self::scene(&format!(
+            "simulation = {{ duration = 30, gravity = [0, -9.81, 0] }}\n[body.ball]\nshape.sphere.radius = 0.1\n\
+             velocity = [30, 90, 0]\n{keys}"
+        ))
+    };
+    let moves = |keys: &str| Run::new(&only(keys)).unwrap().emitter().plan().camera_moves();
+    assert!(moves("") && !moves("end = 9"), "a camera goes along with a body that is there");
+}

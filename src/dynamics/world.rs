@@ -114,7 +114,7 @@ impl World {
         if !self.calendar.note(i, presence, self.time) {
             self.model.take_away(i, &mut self.state);
         } else if !self.model.is_present(i) {
-            self.model.let_come_and_go(&[(i, true)], self.time, &mut self.state);
+            self.model.let_come_and_go(&[(i, true)], &mut self.state);
         }
     }
 
@@ -285,7 +285,7 @@ impl World {
     fn change(&mut self, due: &[(usize, bool)]) {
         if !due.is_empty() {
             self.about_to_change();
-            self.model.let_come_and_go(due, self.time, &mut self.state);
+            self.model.let_come_and_go(due, &mut self.state);
         }
     }
 
@@ -302,10 +302,12 @@ impl World {
         let steps = self.steps_within(interval);
         let dt = interval / f64::from(steps);
         let mut left = moments;
+        let mut reached = start;
         for k in 0..steps {
             // Not start + dt + dt + …: rounding errors would add up.
             let begin = start + f64::from(k) * dt;
             let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
+            reached = begin + dt;
             let (within, later) = left.split_at(left.partition_point(|&moment| moment <= end));
             left = later;
             if within.is_empty() {
@@ -318,7 +320,9 @@ impl World {
         }
         self.time = t;
         // Exactly there, and not where the sum of the steps has it.
-        self.model.place(t, &mut self.state);
+        if reached.to_bits() != t.to_bits() {
+            self.model.place(t, &mut self.state);
+        }
     }
 
     /// Looks at some moments of the step that was made last.

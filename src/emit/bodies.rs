@@ -14,9 +14,9 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use super::{shapes, text};
-use crate::dynamics::Shape;
+use crate::dynamics::{BodySnapshot, Shape};
 use crate::scene::{Body, Scene};
-use crate::simulate::{BodyFrame, Frame};
+use crate::simulate::Frame;
 
 /// The block of all bodies, but for their places.
 pub(super) struct Block {
@@ -117,14 +117,14 @@ impl Block {
     }
 
     /// Appends the single body of a block at a place of its own.
-    pub(super) fn write_single(&self, out: &mut String, body: &BodyFrame) {
+    pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
             // What cannot be written is left out: where a body has been is no reason to have no picture.
             let _ = self.item(out, item, body);
         }
     }
 
-    fn item(&self, out: &mut String, item: &Item, body: &BodyFrame) -> Result<(), usize> {
+    fn item(&self, out: &mut String, item: &Item, body: &BodySnapshot) -> Result<(), usize> {
         if !self.style.can_write(body.location) {
             return Err(item.id);
         }
@@ -137,7 +137,7 @@ impl Block {
         Ok(())
     }
 
-    fn place(&self, out: &mut String, place: &Place, body: &BodyFrame) {
+    fn place(&self, out: &mut String, place: &Place, body: &BodySnapshot) {
         match place {
             Place::Centre => self.style.point(out, body.location),
             Place::Matrix(turn) => self.style.matrix(out, body.orientation * *turn, body.location),

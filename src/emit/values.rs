@@ -10,10 +10,10 @@ use super::names;
 use super::sdl::Style;
 use super::showing::Shows;
 use super::stage::{self, CameraText, StageText};
-use crate::dynamics::Shape;
+use crate::dynamics::{BodySnapshot, Shape};
 use crate::picture::Plan;
 use crate::scene::{Body, Include, Layout, Scene};
-use crate::simulate::{BodyFrame, Frame};
+use crate::simulate::Frame;
 
 /// The values of `common.inc`.
 pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText]) -> Value {
@@ -147,7 +147,7 @@ impl FrameConstants {
         }
     }
 
-    fn body<'a>(&self, constants: &'a BodyConstants, body: &BodyFrame) -> BodyValues<'a> {
+    fn body<'a>(&self, constants: &'a BodyConstants, body: &BodySnapshot) -> BodyValues<'a> {
         let mut matrix = String::new();
         self.style.matrix(&mut matrix, body.orientation, body.location);
         BodyValues {

@@ -4,8 +4,9 @@ use glam::{DQuat, DVec3};
 
 use super::beside;
 use super::camera::Placed;
+use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Color, Quantity, Scene};
-use crate::simulate::{BodyFrame, Frame, axis, root, shown};
+use crate::simulate::{Frame, axis, root, shown};
 
 /// The colors of arrows, in the order of [`Quantity::ALL`]: those of no usual body, and far apart for any eye.
 const COLORS: [Color; 3] = [Color([0.03, 0.30, 0.70]), Color([0.93, 0.50, 0.04]), Color([0.76, 0.08, 0.48])];
@@ -152,7 +153,7 @@ impl Arrows {
     }
 
     /// The arrows of a body as it was, if its ghosts have any, as a camera sees them.
-    pub(super) fn of_ghost(&self, ghost: &BodyFrame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+    pub(super) fn of_ghost(&self, ghost: &BodySnapshot, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let Ok(of) = self.bodies.binary_search_by_key(&ghost.id, |(number, _)| *number) else {
             return Vec::new();
         };
@@ -164,7 +165,7 @@ impl Arrows {
     }
 
     /// The arrows of one body, side by side where they point the same way.
-    fn of_body(&self, its: &[Planned], at: &BodyFrame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+    fn of_body(&self, its: &[Planned], at: &BodySnapshot, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let mut arrows: Vec<Arrow> = its.iter().filter_map(|arrow| self.arrow(arrow, at, sizes)).collect();
         if arrows.len() > 1 {
             beside::apart(&mut arrows, &self.bodies[its[0].of].1, at, camera);
@@ -172,7 +173,7 @@ impl Arrows {
         arrows
     }
 
-    fn arrow(&self, arrow: &Planned, at: &BodyFrame, sizes: ArrowSizes) -> Option<Arrow> {
+    fn arrow(&self, arrow: &Planned, at: &BodySnapshot, sizes: ArrowSizes) -> Option<Arrow> {
         let (number, body) = &self.bodies[arrow.of];
         let vector = shown(arrow.quantity, body, at);
         let from = root(body, at, vector);

@@ -4,8 +4,9 @@ use glam::DMat3;
 
 use super::arrows::{Arrow, HEAD};
 use super::camera::Placed;
+use crate::dynamics::BodySnapshot;
 use crate::scene::Body;
-use crate::simulate::{BodyFrame, surface};
+use crate::simulate::surface;
 
 /// The distance between arrows that stand side by side, in radii of a head.
 const APART: f64 = 2.2;
@@ -15,7 +16,7 @@ const ANGLES: [f64; 2] = [0.12, 0.35];
 
 /// Moves arrows of a body sideways, in a picture that a camera sees, where they would lie on each other. They move
 /// smoothly with their directions and lengths.
-pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodyFrame, camera: &Placed) {
+pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera: &Placed) {
     let plain: Vec<Arrow> = arrows.to_vec();
     for (number, arrow) in arrows.iter_mut().enumerate() {
         let steps: f64 = plain

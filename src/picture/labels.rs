@@ -7,11 +7,11 @@ use super::room::Room;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
-use crate::dynamics::{Balance, find};
+use crate::dynamics::{Balance, BodySnapshot, find};
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
-use crate::simulate::{BodyFrame, Frame, Ghost};
+use crate::simulate::{Frame, Ghost};
 
 /// The usual height of a line, as part of the picture's height.
 const SIZE: f64 = 0.055;
@@ -45,7 +45,7 @@ struct Moment<'a> {
     time: f64,
     frame: usize,
     balance: Option<&'a Balance>,
-    bodies: &'a [BodyFrame],
+    bodies: &'a [BodySnapshot],
 }
 
 impl<'a> Moment<'a> {
@@ -149,7 +149,7 @@ impl Labels {
     fn beside<'a>(
         &'a self,
         planned: &'a Planned,
-        (at, side): (&BodyFrame, Side),
+        (at, side): (&BodySnapshot, Side),
         moment: &Moment<'_>,
         screen: &Screen,
         room: &mut Room,
@@ -318,7 +318,7 @@ fn inset_without_overlap(taken: &mut Vec<Taken>, corner: Corner, [wide, height]:
     }
 }
 
-fn of_body(body: &Body, at: &BodyFrame, measure: BodyMeasure) -> f64 {
+fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
     let acceleration = crate::simulate::shown(crate::scene::Quantity::Acceleration, body, at);
     let mass = body.start.mass;
     match measure {

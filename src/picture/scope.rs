@@ -72,7 +72,9 @@ impl Scope {
         if in_whole >= LEAST {
             return whole();
         }
-        let reaching = |least: f64| starts.iter().rev().find(|span| seen(span) >= least);
+        let come = all_have_come(scene);
+        let reaching =
+            |least: f64| starts.iter().rev().find(|span| span.until >= come && seen(span) >= least);
         match reaching(GOOD).or_else(|| reaching(LEAST)) {
             Some(start) => scope(start, Part::Start(start.until), camera.clone()),
             None => whole(),
@@ -80,12 +82,21 @@ impl Scope {
     }
 }
 
-/// The only body but planes, if the ground or a plane shows that it moves.
+/// The time by which all bodies have come that do in the run, s: a start that is framed is not over before.
+fn all_have_come(scene: &Scene) -> f64 {
+    let come = scene.bodies.iter().filter_map(|body| body.presence.first_from(0.0));
+    come.filter(|time| *time <= scene.simulation.end()).fold(0.0, f64::max)
+}
+
+/// The only body but planes, if the ground or a plane shows that it moves, and it is always there.
 fn alone_over_ground(scene: &Scene) -> Option<usize> {
     let is_plane = |body: &usize| scene.bodies[*body].shape.is_unbounded();
     let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
     let (planes, bodies): (Vec<usize>, Vec<usize>) = (0..scene.bodies.len()).partition(is_plane);
     let [body] = bodies[..] else { return None };
+    if !scene.bodies[body].presence.is_always() {
+        return None;
+    }
     (has_ground || !planes.is_empty()).then_some(body)
 }
 

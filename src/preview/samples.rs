@@ -6,8 +6,7 @@ use glam::DVec3;
 
 use super::numbers::{put, put_balance};
 use super::run::Simulation;
-use crate::dynamics::RigidBody;
-use crate::simulate::BodyFrame;
+use crate::dynamics::{BodySnapshot, RigidBody};
 
 /// Of each frame what is said of all bodies together, as [`put_balance`] writes it.
 pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
@@ -46,7 +45,7 @@ pub(super) fn of_body(
 }
 
 /// The kinetic energy of a body, translation and rotation, J.
-fn kinetic(body: &RigidBody, at: &BodyFrame) -> f64 {
+fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
     if body.fixed || body.mass <= 0.0 {
         return 0.0;
     }

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
+use super::Frame;
 use super::vectors::{root, shown, surface};
-use super::{BodyFrame, Frame};
-use crate::dynamics::{Anchor, Shape};
+use crate::dynamics::{Anchor, BodySnapshot, Shape};
 use crate::scene::{Body, ForceKind, Quantity, Scene};
 
 /// How large what is asked for gets in a run.
@@ -116,7 +116,7 @@ impl Asked {
 }
 
 impl AskedArrow {
-    fn see(&mut self, body: &Body, frame: &BodyFrame, time: f64) {
+    fn see(&mut self, body: &Body, frame: &BodySnapshot, time: f64) {
         let vector = shown(self.quantity, body, frame);
         let scale = body.showing.arrows.iter().zip(Quantity::ALL).find(|(_, kind)| *kind == self.quantity);
         let scale = scale.and_then(|(arrow, _)| arrow.as_ref()?.scale).unwrap_or(1.0);

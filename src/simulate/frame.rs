@@ -3,8 +3,6 @@
 use super::Past;
 use crate::dynamics::{Balance, BodySnapshot, Snapshot, find};
 
-pub use crate::dynamics::BodySnapshot as BodyFrame;
-
 /// What can be seen at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 const SCRIPT: u64 = 100;
 
 /// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
-/// count. Where there are none, nothing takes long within a frame.
+/// count, if all bodies are there all the time; where some come and go, about as many. Where there are none, nothing takes long within a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Labour {
     first: u64,

@@ -40,7 +40,7 @@ use crate::scene::Scene;
 pub use asked::{Asked, AskedArrow, AskedSpring, AskedTrail};
 pub use build::world;
 pub use exposure::Exposure;
-pub use frame::{BodyFrame, Frame};
+pub use frame::Frame;
 pub use frames::{Frames, within};
 pub use labour::Labour;
 pub use lag::Lagging;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{BodyFrame, Frame, Lagging, Moments};
-use crate::dynamics::Snapshot;
+use super::{Frame, Lagging, Moments};
+use crate::dynamics::{BodySnapshot, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
 /// The most points of a trail; where frames are more, every second, fourth, … is kept.
@@ -55,7 +55,7 @@ pub struct Ghost {
     /// When, s.
     pub time: f64,
     /// How it was.
-    pub body: BodyFrame,
+    pub body: BodySnapshot,
 }
 
 impl Passed {
@@ -179,7 +179,7 @@ impl History {
 }
 
 impl Passed {
-    fn of(time: f64, body: &BodyFrame) -> Passed {
+    fn of(time: f64, body: &BodySnapshot) -> Passed {
         Passed { time, location: body.location, velocity: body.velocity, frame: None }
     }
 }

@@ -2,8 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
+use super::Reach;
 use super::vectors::{anchors, axis, root, shown};
-use super::{BodyFrame, Reach};
+use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
 
 /// A span is kept whenever the place that the run takes has grown by this factor.
@@ -43,7 +44,12 @@ pub(super) struct Spans {
 
 impl Spans {
     /// Adds a frame at a time (s), with the bodies that still count.
-    pub(super) fn see<'a>(&mut self, scene: &Scene, time: f64, bodies: impl Iterator<Item = &'a BodyFrame>) {
+    pub(super) fn see<'a>(
+        &mut self,
+        scene: &Scene,
+        time: f64,
+        bodies: impl Iterator<Item = &'a BodySnapshot>,
+    ) {
         for frame in bodies {
             let body = &scene.bodies[frame.id];
             let Some(here) = Bounds::of(body, frame) else { continue };
@@ -89,7 +95,7 @@ impl Spans {
 
 impl Span {
     /// Adds a body, what is drawn on it, and its arrows.
-    fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodyFrame) {
+    fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) {
         let mut seen = self.seen.union(here);
         for ((quantity, arrow), reach) in
             Quantity::ALL.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
@@ -113,7 +119,7 @@ impl Span {
 
 impl Bounds {
     /// The box around a body as it is drawn; none for a plane, which has no bounds.
-    fn of(body: &Body, frame: &BodyFrame) -> Option<Bounds> {
+    fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
         let (shape, factor) = (&body.shape, body.look.scale);
         let reach =
             |direction: DVec3| shape.support(frame.orientation, direction).map(|reach| reach * factor);

@@ -2,12 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
-use super::BodyFrame;
-use crate::dynamics::{Anchor, Shape};
+use crate::dynamics::{Anchor, BodySnapshot, Shape};
 use crate::scene::{Body, ForceKind, Quantity, Scene};
 
 /// What an arrow of a body shows, in SI units.
-pub fn shown(quantity: Quantity, body: &Body, frame: &BodyFrame) -> DVec3 {
+pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
     match quantity {
         Quantity::Velocity => frame.velocity,
         Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
@@ -23,7 +22,7 @@ pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
 }
 
 /// Where an arrow for a vector begins, m: at the surface of the body, so that all of it is seen.
-pub fn root(body: &Body, frame: &BodyFrame, vector: DVec3) -> DVec3 {
+pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     let along = vector.normalize_or_zero();
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
 }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { poses, seek, tests, until } from "./browser.mjs";
-import { box, click, place } from "./picture.mjs";
+import { box, click, color, isRed, place, projected } from "./picture.mjs";
 
 /** The rows of the panel, once they are those of a time. */
 async function values(page, time) {
@@ -35,6 +35,23 @@ await tests({
     assert.equal(then.mass, "1 kg");
     await seek(page, 200);
     assert.equal((await values(page, 8)).velocity, "2, 2, 0 m/s", "the values go with the time");
+  },
+
+  async a_body_is_seen_while_it_is_there({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await page.locator("#body-name").fill("comes");
+    await page.keyboard.press("Enter");
+    await until(page, (jabuka) => jabuka.selected === "comes");
+    for (const [frame, there, y] of [[0, false, 0], [3, false, 0], [4, true, 0], [8, true, 1], [9, false, 1], [12, false, 1]]) {
+      await seek(page, frame);
+      assert.ok(isRed(await color(page, await place(page, "stays"))), `the other ball in frame ${frame}`);
+      // Beside the trail, which stays.
+      const spot = await projected(page, [2.6, y, 0]);
+      assert.equal(isRed(await color(page, spot)), there, `frame ${frame}`);
+      const rows = await values(page, frame / 4);
+      assert.equal(rows.now, there ? undefined : "not there", `frame ${frame}`);
+    }
   },
 
   async a_click_beside_all_bodies_chooses_none_and_names_can_be_typed({ open }) {

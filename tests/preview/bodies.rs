@@ -14,6 +14,32 @@ in_the_browser! { Scene::gallery("parabola"), "bodies.mjs":
     a_click_beside_all_bodies_chooses_none_and_names_can_be_typed,
 }
 
+/// One of two balls is there from 1 s to 2 s; the picture is seen from in front.
+const COMING: &str = "
+    simulation = { duration = 3, frame_rate = 4 }
+    environment = 'blackboard'
+    [body.stays]
+    shape.sphere.radius = 1
+    location = [-2, 0, 0]
+    fixed = true
+    material = { color = 'red', finish = 'luminous' }
+    [body.comes]
+    shape.sphere.radius = 1
+    location = [2, 0, 0]
+    velocity = [0, 1, 0]
+    material = { color = 'red', finish = 'luminous' }
+    trail = true
+    start = 1
+    end = 2
+    [camera]
+    location = [0, 0, 12]
+    look_at = [0, 0, 0]
+    ";
+
+in_the_browser! { Scene::of(COMING), "bodies.mjs":
+    a_body_is_seen_while_it_is_there,
+}
+
 /// What the page holds.
 #[derive(Deserialize)]
 struct Held {

@@ -44,16 +44,15 @@ impl Model {
         bodies.iter().copied().filter(|body| self.is_present(body.index())).collect()
     }
 
-    /// Lets bodies come (true) or go (false) at time `t`, s; one that comes is as it was when it went, but where its motion is
-    /// given.
-    pub(in super::super) fn let_come_and_go(&mut self, changes: &[(usize, bool)], t: f64, state: &mut State) {
+    /// Lets bodies come (true) or go (false). One that comes is as it was when it went; if its motion is given, it must be
+    /// [placed](Model::place) afterwards.
+    pub(in super::super) fn let_come_and_go(&mut self, changes: &[(usize, bool)], state: &mut State) {
         for &(body, comes) in changes {
             if comes { self.bring(body, state) } else { self.take_away(body, state) }
         }
         let inverse = &self.inverse_mass;
         self.unmoved.clear();
         self.unmoved.extend((0..inverse.len()).filter(|&i| inverse[i] == 0.0));
-        self.place(t, state);
     }
 
     /// A body goes, if it is there.

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::super::{sdl::Style, text};
 use super::color;
+use crate::dynamics::BodySnapshot;
 use crate::picture::{Arrow, Axes, Plan};
-use crate::simulate::{BodyFrame, Frame};
+use crate::simulate::Frame;
 
 /// Appends the arrows and axes of all bodies, whose names are given; those of a body stand together.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>], style: Style) {
@@ -24,7 +25,7 @@ pub(super) fn write_ghost(
     out: &mut String,
     plan: &Plan,
     frame: &Frame,
-    ghost: &BodyFrame,
+    ghost: &BodySnapshot,
     names: &[Arc<str>],
     style: Style,
 ) {

@@ -1,9 +1,10 @@
 //! Arrows in front of what would hide them.
 
 use super::Plan;
+use crate::dynamics::BodySnapshot;
 use crate::picture::arrows::Arrow;
 use crate::picture::in_front::lift_from_coil;
-use crate::simulate::{BodyFrame, Frame};
+use crate::simulate::Frame;
 
 impl Plan {
     /// The arrows of a frame; those that the ground or a spring would hide are nearer to the camera, which sees them as they
@@ -23,7 +24,7 @@ impl Plan {
     }
 
     /// The arrows of a body as it was, in front of the ground.
-    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
+    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodySnapshot) -> Vec<Arrow> {
         let mut arrows = self.ghost_arrows(frame, ghost);
         let camera = self.eye.at(frame);
         arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));

@@ -22,8 +22,9 @@ use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
+use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Camera, GridPlane, Scene};
-use crate::simulate::{BodyFrame, Bounds, Frame, Ghost, Survey};
+use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// What all frames of a run, seen by one camera, have in common; made once.
 #[derive(Clone, Debug)]
@@ -234,7 +235,7 @@ impl Plan {
     }
 
     /// The arrows of a body as it was, in the picture of a frame, if its ghosts have any.
-    pub fn ghost_arrows(&self, frame: &Frame, ghost: &BodyFrame) -> Vec<Arrow> {
+    pub fn ghost_arrows(&self, frame: &Frame, ghost: &BodySnapshot) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
