@@ -422,3 +422,28 @@ fn no_body_comes_outside_of_what_an_automatic_camera_frames() {
     let moves = |keys: &str| Run::new(&only(keys)).unwrap().emitter().plan().camera_moves();
     assert!(moves("") && !moves("end = 9"), "a camera goes along with a body that is there");
 }
+
+/// A ball on a rod flies off when the hook is gone: from then on, gravity alone changes its velocity.
+#[test]
+fn a_joint_holds_while_both_of_its_ends_are_there() {
+    let scene = scene(&format!(
+        "{SPARKS}
+        [body.hook]
+        shape.sphere.radius = 0.05
+        fixed = true
+        end = 0.5
+        [body.ball]
+        shape.sphere.radius = 0.1
+        location = [1, 0, 0]
+        [joint.string.rod]
+        between = ['hook', 'ball']
+        "
+    ));
+    let balls: Vec<_> = frames(&scene).iter().map(|frame| *frame.body(1).unwrap()).collect();
+    assert!(balls[..=5].iter().all(|ball| (ball.location.length() - 1.0).abs() < 1e-9));
+    for pair in balls[5..].windows(2) {
+        let change = pair[1].velocity - pair[0].velocity;
+        assert!(change.abs_diff_eq(DVec3::NEG_Y, 1e-12), "{change}");
+    }
+    assert!(balls[10].location.length() > 1.1);
+}
