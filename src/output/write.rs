@@ -1,8 +1,10 @@
 //! All selected scripts of a run into a folder.
 
+use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io::Write;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -79,8 +81,7 @@ pub fn write(
     let written = Written { scripts, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
     entries.extend(kept_trails);
-    // First what belongs to the sequence as a whole, then the scripts in their order.
-    entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
+    entries.sort_by(in_order);
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
     Ok(written)
 }
@@ -100,22 +101,33 @@ fn scripts(
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Entry>, OutputError> {
     let frames = run.scene().simulation.frames();
-    let put = |exposed| -> Result<Vec<Entry>, OutputError> {
+    // One list for all: a list of each frame would take more memory than what is in it.
+    let per_frame = if run.shutter().is_some() { 2 } else { 1 };
+    let entries = Mutex::new(Vec::with_capacity(selection.count_within(frames) * per_frame));
+    let list = |entry| entries.lock().unwrap_or_else(PoisonError::into_inner).push(entry);
+    let put = |exposed| -> Result<(), OutputError> {
         let exposure: Exposure = exposed?;
         let frame = &exposure.frame;
         let text = run.script(frame)?;
         trails.put(run, folder, frame)?;
         let name = frame_name(frame.index, frames);
         folder.write(&name, text.as_bytes())?;
-        let mut entries = vec![Entry::of(Some(frame.index), name, text.as_bytes())];
+        list(Entry::of(Some(frame.index), name, text.as_bytes()));
         if let Some(shutter) = run.shutter() {
-            entries.push(put_blurred(run, folder, &exposure, shutter, trails)?);
+            list(put_blurred(run, folder, &exposure, shutter, trails)?);
         }
         done();
-        Ok(entries)
+        Ok(())
     };
-    let entries: Result<Vec<_>, _> = run.selected(selection).par_bridge().map(put).collect();
-    Ok(entries?.into_iter().flatten().collect())
+    run.selected(selection).par_bridge().try_for_each(put)?;
+    let mut entries = entries.into_inner().unwrap_or_else(PoisonError::into_inner);
+    entries.sort_unstable_by(in_order);
+    Ok(entries)
+}
+
+/// First what belongs to the sequence as a whole, then the scripts in their order.
+fn in_order(a: &Entry, b: &Entry) -> Ordering {
+    (a.frame, &a.name).cmp(&(b.frame, &b.name))
 }
 
 /// Writes the script of an image with motion blur, moment by moment.
