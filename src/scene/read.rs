@@ -157,12 +157,14 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     match &node.value {
         Value::String(text) => Color::parse(text).ok_or_else(|| {
             let names = crate::scene::color_names::NAMES.iter().map(|(name, _)| *name);
-            let message = format!("`{text}` is not a color");
-            let label = match nearest(text, names) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "expected \"#rrggbb\", \"#rgb\" or a name of CSS".to_owned(),
-            };
-            vec![Diagnostic::error(Code::UnknownColor, message).at(node.span, label)]
+            let error = Diagnostic::error(Code::UnknownColor, format!("`{text}` is not a color"));
+            vec![match nearest(text, names) {
+                Some(near) => error
+                    .at(node.span, format!("did you mean `{near}`?"))
+                    .fix(node.span, format!("\"{near}\""))
+                    .fix_is_said(),
+                None => error.at(node.span, "expected \"#rrggbb\", \"#rgb\" or a name of CSS"),
+            }]
         }),
         Value::Array(items) => {
             let bytes = bytes(items);
@@ -170,7 +172,8 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
                 Some([r, g, b]) => {
                     let message = "the numbers of a color go from 0 to 1, not to 255";
                     let help = format!("write \"#{r:02x}{g:02x}{b:02x}\", or divide by 255");
-                    vec![Diagnostic::error(Code::OutOfRange, message).at(node.span, "").help(help)]
+                    let error = Diagnostic::error(Code::OutOfRange, message).at(node.span, "").help(help);
+                    vec![error.fix(node.span, format!("\"#{r:02x}{g:02x}{b:02x}\"")).fix_is_said()]
                 }
                 None => errors,
             })

@@ -100,6 +100,12 @@ pub(super) fn is_unit(word: &str) -> bool {
     UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "J" | "W" | "Pa" | "K" | "V" | "A")
 }
 
+/// How many of the scene language's unit a unit is whose name can hardly be that of a variable.
+pub(super) fn of_several_letters(name: &str) -> Option<f64> {
+    let is_it = |unit: &&Unit| unit.names.contains(&name);
+    if name.len() < 2 { None } else { UNITS.iter().find(is_it).map(|unit| unit.factor) }
+}
+
 /// How the units of a quantity are usually written, its own first.
 pub(super) fn usual(of: &str) -> Vec<&'static str> {
     UNITS.iter().filter(|unit| unit.of == of).map(|unit| unit.names[0]).collect()

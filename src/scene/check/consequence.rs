@@ -5,8 +5,14 @@ use std::collections::HashSet;
 use crate::diagnostic::{Code, Diagnostic, Severity, Sources};
 
 /// What the lack of something that could not be read may lead to.
-const OF_LACK: [Code; 5] =
-    [Code::MissingKey, Code::UnknownName, Code::UndeclaredTexture, Code::NoBodies, Code::NoEffect];
+const OF_LACK: [Code; 6] = [
+    Code::MissingKey,
+    Code::UnknownName,
+    Code::UndeclaredTexture,
+    Code::NoBodies,
+    Code::NoEffect,
+    Code::SamePlace,
+];
 
 /// Drops, of what was found in a tree, what only follows from that the text could not be read in full.
 pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {

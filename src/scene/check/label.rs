@@ -1,5 +1,7 @@
 //! `[label.NAME]`, `[scale_bar]` and `[grid]`.
 
+mod words;
+
 use std::ops::Range;
 
 use super::Context;
@@ -135,7 +137,16 @@ impl Reader<'_, '_, '_> {
             let here = range.start + begin..range.start + begin + length + 1;
             let message = "what stands in braces is shown as it is";
             let warning = Diagnostic::warning(Code::LabelSyntax, message);
-            self.report(warning, here.clone(), &format!("did you mean `${}`?", &self.text[here]));
+            let meant = format!("${}", &self.text[here.clone()]);
+            let at = self.at(&here);
+            let warning = warning.at(at, format!("did you mean `{meant}`?"));
+            // A place in a text that is escaped is all of it.
+            let is_piece = at.end - at.start == length + 1;
+            self.context.diagnostics.push(if is_piece {
+                warning.fix(at, meant).fix_is_said()
+            } else {
+                warning
+            });
         }
         (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
     }
@@ -202,11 +213,22 @@ impl Reader<'_, '_, '_> {
             let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
                 let names = BodyMeasure::ALL.map(|(name, ..)| name);
                 let message = format!("a body has no `{measure}` that a label could show");
+                let rest = formula[end..].strip_prefix('.');
+                let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
+                let other = words::of_body(measure, axis);
+                let end = match (&other, axis) {
+                    (Some(_), Some(axis @ ("x" | "y" | "z"))) => end + 1 + axis.len(),
+                    _ => end,
+                };
                 let here = self.at(&(start + at + 1..start + end));
                 let error = Diagnostic::error(Code::UnknownName, message);
                 let known = format!("there are {}", crate::scene::grammar::quoted(&names));
-                self.context.diagnostics.push(match crate::diagnostic::nearest(measure, names) {
-                    Some(near) => error.at(here, format!("did you mean `{near}`?")).help(known),
+                let near = || crate::diagnostic::nearest(measure, names).map(str::to_owned);
+                self.context.diagnostics.push(match other.or_else(near) {
+                    Some(near) => {
+                        let error = error.at(here, format!("did you mean `{near}`?")).help(known);
+                        self.mended(error, here, &near, end - at - 1)
+                    }
                     None => error.at(here, "").help(known),
                 });
                 return None;
@@ -226,6 +248,11 @@ impl Reader<'_, '_, '_> {
             dotted.push((joined, measure));
         }
         Some((plain, dotted))
+    }
+
+    /// An error with the word that belongs at its place, unless that is all of an escaped text.
+    fn mended(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
+        if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
     }
 
     /// The variables of the scene that have values.
@@ -277,6 +304,13 @@ impl Reader<'_, '_, '_> {
             // What is said of variables is not all that there is here.
             let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
             let diagnostic = Diagnostic::error(error.code, error.message);
+            let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
+            if let Some(other) = words::of_run(word).filter(|_| own) {
+                let diagnostic = diagnostic.at(at, format!("did you mean `{other}`?"));
+                let diagnostic = self.mended(diagnostic, at, other, word.len());
+                self.context.diagnostics.push(diagnostic);
+                continue;
+            }
             self.context.diagnostics.push(if own {
                 let known = "`t`, `ball.speed` and their kin: see «Labels» in docs/scene-language.md";
                 diagnostic.at(at, "not known to this label").help(known)

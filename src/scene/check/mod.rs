@@ -70,6 +70,10 @@ struct Context<'a> {
     groups: Groups,
     /// Whether a force is wrong, so that none can be said to be missing.
     forces_are_wrong: bool,
+    /// Whether a body is wrong, which may only seem to be where it is.
+    bodies_are_wrong: bool,
+    /// The names of the forces that are wrong.
+    wrong_forces: HashSet<Arc<str>>,
     /// Whether what is looked at is a part of a table, which needs none of its keys.
     is_partial: bool,
     /// What has been said of things that may have it from one and the same text: code and place.
@@ -116,6 +120,8 @@ impl Context<'_> {
             tables: HashMap::new(),
             groups: Groups::default(),
             forces_are_wrong: false,
+            bodies_are_wrong: false,
+            wrong_forces: HashSet::new(),
             is_partial: false,
             told: HashSet::new(),
             wrong_copies: HashMap::new(),
@@ -243,6 +249,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         sources,
         ..Context::silent()
     };
+    context.bodies_are_wrong = context.has_errors(0);
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &included, &mut context);
     let (mut found, sources) = (context.diagnostics, context.sources);

@@ -19,21 +19,22 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     let before = context.diagnostics.len();
     let kind = habits::meant_kind(table, spec, path);
     meant.extend(kind.iter().filter(|kind| kind.word.is_some()).map(|kind| kind.way[0]));
-    let pair = habits::mend_ends(table, spec, kind.as_ref(), path, context)
-        .or_else(|| habits::mend_launch(table, spec, path, context));
-    let said = pair.map_or_else(Vec::new, |(error, spans, key)| {
-        context.diagnostics.push(error);
-        meant.push(key);
-        spans
-    });
+    let mut said = Vec::new();
+    for together in habits::together(table, spec, kind.as_ref(), path, context) {
+        context.diagnostics.push(together.error);
+        meant.push(together.key);
+        said.extend(together.spans);
+    }
     let mut is_something_else = false;
-    for entry in &table.entries {
+    for entry in table.entries.iter().filter(|entry| !said.contains(&entry.name.span)) {
         if let Some(key) = spec.key(&entry.name.text) {
             let before = context.diagnostics.len();
             value(&entry.node, &key.kind, Some(entry), path, context);
-            context.forces_are_wrong |=
-                path == "the scene" && key.name == "force" && context.has_errors(before);
-        } else if !said.contains(&entry.name.span) {
+            if path == "the scene" && context.has_errors(before) {
+                context.forces_are_wrong |= key.name == "force";
+                context.bodies_are_wrong |= matches!(key.name, "body" | "defaults" | "variables");
+            }
+        } else {
             let nameless = if path == "the scene" { habits::nameless(entry, context) } else { None };
             let (error, key) = match nameless {
                 Some((error, key)) => (error, Some(key)),
@@ -118,21 +119,13 @@ fn rule(
 
 fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
-    let message = format!("{} exclude each other in {path}", all_of(&names));
+    let message = format!("{} exclude each other in {path}", habits::quoted_and(&names));
     let error = Diagnostic::error(Code::ExclusiveKeys, message);
     // The first is right as far as anyone can tell; the later ones are too many.
     let (first, rest) = (entries[0], &entries[1..]);
     let error =
         rest.iter().fold(error, |error, entry| error.at(entry.name.span, "only one of them can hold"));
     error.at(first.name.span, "the other is here")
-}
-
-/// Words in backquotes: `a`, `b` and `c`.
-fn all_of(words: &[&str]) -> String {
-    match words {
-        [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first)),
-        words => quoted(words),
-    }
 }
 
 fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, context: &mut Context<'_>) {
@@ -267,6 +260,9 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
             Some(inner) if context.is_hopeless(&entry.name.text) || is_known(inner, context) => {}
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);
+                if word == "force" && context.has_errors(before) {
+                    context.wrong_forces.insert(entry.name.text.clone());
+                }
                 context.once(before, &entry.name.text, entry.name.span);
             }
             None if matches!(entry.node.value, Value::Invalid) => {}
@@ -312,8 +308,13 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
             let noun = entry.map_or("word", |entry| &*entry.name.text);
             let error = Diagnostic::error(Code::UnknownName, format!("unknown {noun} `{word}`"));
             let known = format!("there are {}", quoted(words));
-            context.diagnostics.push(match suggest::nearest(word, words.iter().copied()) {
-                Some(near) => error.at(node.span, format!("did you mean `{near}`?")).help(known),
+            let other = habits::other_word(word, words);
+            context.diagnostics.push(match other.or_else(|| suggest::nearest(word, words.iter().copied())) {
+                Some(near) => error
+                    .at(node.span, format!("did you mean `{near}`?"))
+                    .help(known)
+                    .fix(node.span, format!("\"{near}\""))
+                    .fix_is_said(),
                 None => error.at(node.span, known),
             });
         }
@@ -353,11 +354,16 @@ fn reference(
         suggest::label(word, &known, &library, noun, collection.plural())
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
+    let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
+    // Of one letter, any other would be near.
+    let is_word = word.chars().nth(1).is_some() && !label.contains(['"', '\\']);
+    let near = near.map(|near| format!("\"{near}\"")).filter(|_| is_word);
     let is_near = label.starts_with("did you mean");
     let error = error.at(node.span, label);
-    let error = match library.is_empty() || is_near {
-        true => error,
-        false => error.help(format!("names of the library need no table: {}", quoted(&library))),
+    let error = match near {
+        Some(near) => error.fix(node.span, near).fix_is_said(),
+        None if library.is_empty() || is_near => error,
+        None => error.help(format!("names of the library need no table: {}", quoted(&library))),
     };
     context.diagnostics.push(match collection {
         Collection::Body => error,

@@ -66,6 +66,24 @@ impl Expander<'_> {
         self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
+    /// Where a formula of the time stands in the place of a body at the start: the key of that, and the key of a motion.
+    pub(super) fn motion_meant(&self, name: &str, span: Span) -> Option<(Span, &'static str)> {
+        let path = self.path.strip_prefix("body.").filter(|_| name == "t")?;
+        let (key, motion) =
+            [("location", "motion.formula.location"), ("orientation", "motion.formula.orientation")]
+                .into_iter()
+                .find(|(key, _)| {
+                    path.split_once('[').is_some_and(|(way, _)| way.ends_with(&format!(".{key}")))
+                })?;
+        let text = &self.sources.get(span.source).text;
+        let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+        let begin = text[start..span.start].find(key).map(|at| start + at)?;
+        let is_key =
+            text[start..begin].chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | ' '));
+        let at = Span { start: begin, end: begin + key.len(), ..span };
+        (is_key && text[at.end..span.start].trim_start().starts_with('=')).then_some((at, motion))
+    }
+
     /// Keeps a formula that asks where bodies are, to be reported when the places of all bodies are known; whether it is
     /// one.
     pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {

@@ -386,11 +386,17 @@ impl Expander<'_> {
         }
         for error in errors {
             let place = place::in_string(self.raw(span), text, &error.range, span);
+            let is_said = error.label.starts_with("did you mean");
             let mut diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
-            if let Some(number) = habits::without_decimal_comma(text) {
+            if let Some((key, motion)) = self.motion_meant(&text[error.range.clone()], span) {
+                diagnostic = diagnostic.fix(key, motion);
+            } else if let Some(number) = habits::without_decimal_comma(text) {
                 diagnostic = diagnostic.fix(span, number);
             } else if let Some(fix) = error.fix.filter(|_| place != span) {
                 diagnostic = diagnostic.fix(place, fix);
+                if is_said {
+                    diagnostic = diagnostic.fix_is_said();
+                }
             }
             self.diagnostics.push(match error.help {
                 Some(help) => diagnostic.help(help),

@@ -4,7 +4,7 @@ use super::error::{ExpressionError, syntax};
 
 /// What stands at the start of a text and is no word of a formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
-    const SYMBOLS: [(&str, &str); 24] = [
+    const SYMBOLS: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
         ("<>", "write `!=` for «is not»"),
         ("&&", "write `and`"),
@@ -18,7 +18,6 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
         ("[", "write parentheses; a list is written outside of formulas"),
         ("{", "write parentheses"),
         (";", "write `,` between the values of a function"),
-        ("°", "write `rad(90)` for 90 degrees in radians"),
         ("²", "write `^2`"),
         ("³", "write `^3`"),
         ("√", "write `sqrt(x)`"),
@@ -62,6 +61,18 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     let error =
         syntax(start..start + word.len(), format!("`{}` is no part of a formula", word.escape_debug()));
     if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
+}
+
+/// The sign of degrees, with the number before it.
+pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
+    let before = text[..at].trim_end();
+    let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let (begin, end) = (number.len(), at + '°'.len_utf8());
+    let error = |range| syntax(range, "`°` is no part of a formula");
+    match &before[begin..] {
+        "" => error(at..end).label("write `rad(90)` for 90 degrees in radians"),
+        angle => error(begin..end).label("the functions take radians").fix(format!("rad({angle})")),
+    }
 }
 
 /// What a function of another program is called here.

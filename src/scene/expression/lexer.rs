@@ -73,6 +73,7 @@ impl<'a> Lexer<'a> {
             (Some(b'('), _) => (Token::Open, 1),
             (Some(b')'), _) => (Token::Close, 1),
             (Some(b','), _) => (Token::Comma, 1),
+            _ if rest.starts_with('°') => return Err(habits::degrees(self.text, start)),
             _ => return Err(habits::symbol(rest, start)),
         };
         self.place = start + length;

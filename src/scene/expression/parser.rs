@@ -310,8 +310,14 @@ fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
     let error = error(Code::UnknownName, name, format!("there is no function `{word}`"));
     let folded = word.to_lowercase();
     match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
-        (Some(habit), _) => error.label(habit),
-        (None, Some(near)) => error.label(format!("did you mean `{near}`?")),
+        (Some(habit), _) => {
+            // Where another name is all that it takes.
+            let name = habit.strip_prefix("write `").and_then(|rest| rest.strip_suffix('`'));
+            let name = name.filter(|name| FUNCTIONS.iter().any(|function| function.name == *name));
+            let error = error.label(habit);
+            name.into_iter().fold(error, ExpressionError::fix)
+        }
+        (None, Some(near)) => error.label(format!("did you mean `{near}`?")).fix(near),
         (None, None) => {
             let names: Vec<&str> = FUNCTIONS.iter().map(|function| function.name).collect();
             let help = format!("there are {}; a product is written `{word}*(…)`", names.join(", "));

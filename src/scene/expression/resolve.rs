@@ -9,6 +9,7 @@ use super::function::{Function, Work};
 use super::operation::{Binary, Ternary, Unary};
 use super::parser::{Formula, Id, Part};
 use super::scope::{Binding, Scope};
+use crate::scene::units;
 
 /// A random number that a formula asks for with `uniform` or `normal`.
 ///
@@ -227,11 +228,16 @@ fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
         "inf" | "nan" => error.label("the numbers of a scene are finite"),
         _ => {
             let label = scope.suggest(name);
-            let is_near = label.starts_with("did you mean");
+            let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
+            let near = near.map(str::to_owned);
+            if let (None, Some(factor)) = (&near, units::of_several_letters(name)) {
+                let number = units::written(factor);
+                return error.label(format!("a unit is a number: {number} in SI units")).fix(number);
+            }
             let error = error.label(label);
-            match is_near {
-                true => error,
-                false => error
+            match near {
+                Some(near) => error.fix(near),
+                None => error
                     .help("where a number stands, a string is a formula, with the names of `[variables]`"),
             }
         }

@@ -59,7 +59,7 @@ pub(super) static FORCE: TableSpec =
                 Table(&LORENTZ),
                 "Uniform electric and magnetic fields, which act on charged bodies",
             )
-            .also(&["field", "electromagnetic"]),
+            .also(&["field", "electromagnetic", "magnetic", "electric"]),
         ],
     };
 

@@ -140,7 +140,18 @@ static SIMULATION: TableSpec = TableSpec {
         )
         .unit("s")
         .default("10")
-        .also(&["time", "length", "end"]),
+        .also(&[
+            "time",
+            "length",
+            "end",
+            "t_end",
+            "end_time",
+            "stop",
+            "t_max",
+            "tmax",
+            "total_time",
+            "runtime",
+        ]),
         Key::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
             .unit("frames/s")
             .default("25")

@@ -61,7 +61,8 @@ static LABEL_TABLE: TableSpec = TableSpec {
             Number(Bound::From(0.01, 0.5)),
             "The height of its lines, as part of the picture's height",
         )
-        .default("0.055, and 13 pixels at least"),
+        .default("0.055, and 13 pixels at least")
+        .also(&["font_size", "fontsize", "text_size", "height"]),
         Key::new("color", Color, "Its color")
             .default("dark, or light before a dark background")
             .also(&["colour"]),

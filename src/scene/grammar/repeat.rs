@@ -62,7 +62,10 @@ static RING: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("radius", POSITIVE, "The radius of the circle, from centre to centre").unit("m").required(),
+        Key::new("radius", POSITIVE, "The radius of the circle, from centre to centre")
+            .unit("m")
+            .required()
+            .also(&["r", "diameter"]),
         Key::new(
             "axis",
             AXIS,

@@ -29,7 +29,15 @@ struct Reader<'a, 'c> {
 pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Force> {
     let tables = root.named("force");
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let kind = Reader { name, span, bodies, told: HashSet::new(), context }.kind(&view)?;
+        let before = context.diagnostics.len();
+        let kind = Reader { name, span, bodies, told: HashSet::new(), context }.kind(&view);
+        if context.wrong_forces.contains(name) {
+            // What is wrong about it may be what it lacks.
+            let mut said = context.diagnostics.split_off(before);
+            said.retain(|it| it.code != Code::NoEffect || it.span() != Some(span));
+            context.diagnostics.append(&mut said);
+        }
+        let kind = kind?;
         Some(Force { name: name.to_owned(), kind })
     };
     tables.into_iter().filter_map(read).collect()

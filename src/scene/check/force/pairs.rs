@@ -117,6 +117,9 @@ impl Reader<'_, '_> {
 
     /// Two bodies at the same place are an error, unless both stay there. Of several groups, those of different ones.
     fn apart(&mut self, groups: &[&[Member]]) {
+        if self.context.bodies_are_wrong {
+            return;
+        }
         let bodies = self.bodies;
         let mut places: HashMap<[u64; 3], (usize, usize)> = HashMap::new();
         let mut said: HashSet<[&str; 2]> = HashSet::new();

@@ -1,9 +1,10 @@
 //! The two ends of a spring, which other programs name by two keys.
 
 use super::super::Context;
+use super::key_of;
 use super::kind::MeantKind;
-use super::text::{raw, removal, whole};
-use crate::diagnostic::{Code, Diagnostic, Span};
+use super::text::raw;
+use super::together::{Together, joined};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
@@ -45,14 +46,19 @@ const ENDS: [&str; 34] = [
     "target",
 ];
 
+/// Whether a key is what other programs call an end.
+pub(super) fn is_end(entry: &Entry) -> bool {
+    ENDS.contains(&entry.name.text.to_lowercase().as_str())
+}
+
 /// What is said of keys that name the ends, where `between` should, and where they stand.
-pub(in crate::scene::check) fn mend_ends(
+pub(super) fn mend_ends(
     table: &Table,
     spec: &'static TableSpec,
     meant: Option<&MeantKind>,
     path: &str,
     context: &Context<'_>,
-) -> Option<(Diagnostic, Vec<Span>, &'static str)> {
+) -> Option<Together> {
     let (way, inner) = match meant {
         Some(meant) => (meant.way.as_slice(), meant.spec),
         None => (&[][..], spec),
@@ -62,11 +68,15 @@ pub(in crate::scene::check) fn mend_ends(
         return None;
     }
     let is_end = |entry: &&Entry| {
-        let word = entry.name.text.to_lowercase();
-        ENDS.contains(&word.as_str()) && spec.key(&word).is_none() && inner.key(&word).is_none()
+        let word = &entry.name.text;
+        self::is_end(entry) && spec.key(word).is_none() && inner.key(word).is_none()
     };
     let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
     entries.sort_by_key(|entry| entry.name.span);
+    if entries.len() > 2 {
+        // What else the table has a key for is that: the `anchor` of a hinge.
+        entries.retain(|entry| key_of(&entry.name.text, inner).is_none_or(|key| key.name == between.name));
+    }
     let (first, second) = match entries.as_slice() {
         [only] => (*only, None),
         [first, second] => (*first, Some(*second)),
@@ -79,19 +89,10 @@ pub(in crate::scene::check) fn mend_ends(
         None => with_other_end(&first.node, context)?,
     };
     let key = way.iter().copied().chain([between.name]).collect::<Vec<_>>().join(".");
-    let names: Vec<String> =
-        [Some(first), second].into_iter().flatten().map(|entry| format!("`{}`", entry.name.text)).collect();
-    let s = if second.is_some() { "s" } else { "" };
-    let message = format!("unknown key{s} {} in {path}", names.join(" and "));
-    let error = Diagnostic::error(Code::UnknownKey, message);
-    let error = error.at(first.name.span, "`between` lists both ends");
-    let mut spans = vec![first.name.span];
-    let mut error = error.fix(whole(first), format!("{key} = {list}"));
-    if let Some(second) = second {
-        spans.push(second.name.span);
-        error = error.at(second.name.span, "").fix(removal(whole(second), context)?, "");
-    }
-    Some((error, spans, way.first().copied().unwrap_or(between.name)))
+    let line = format!("{key} = {list}");
+    let entries: Vec<&Entry> = std::iter::once(first).chain(second).collect();
+    let meant = way.first().copied().unwrap_or(between.name);
+    joined(&entries, meant, "`between` lists both ends", line, path, context)
 }
 
 /// An end as it stands in `between`: of a list of one name, the name.

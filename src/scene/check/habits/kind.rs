@@ -1,6 +1,7 @@
 //! Which of several kinds a table was meant to be, where its keys do not stand below one of them.
 
 use super::super::Context;
+use super::ends::is_end;
 use super::key_of;
 use super::text::{removal, whole};
 use crate::diagnostic::{Diagnostic, Span};
@@ -85,6 +86,9 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         None => Some(table),
     };
     let is_there = |name: &str| present.is_some_and(|table| table.get(name).is_some());
+    // A second kind would exclude the one that is there.
+    let is_table = |name: &str| kinds.key(name).is_some_and(|key| key.kind.table().is_some());
+    let is_full = names.iter().any(|name| is_there(name) && is_table(name));
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
     let is_named = |key: &Key| key_of(name, kinds).is_some_and(|named| named.name == key.name);
     // A key by its own name counts more than one by another program's.
@@ -100,10 +104,24 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         .filter_map(|key| Some((key, key.kind.table()?)))
         .map(|(key, inner)| ((is_there(key.name), fits(inner), is_named(key)), key, inner))
         .filter(|((_, fits, _), ..)| *fits > 0)
+        // One of the keys that it needs says more than any other.
+        .filter(|((is_there, _, is_named), _, inner)| {
+            *is_there || !is_full && (*is_named || is_begun(inner, table))
+        })
         .rev()
         .max_by_key(|(worth, ..)| *worth)?;
     let has_keys = true;
     Some(MeantKind { way: way.into_iter().chain([key.name]).collect(), spec, word: None, has_keys })
+}
+
+/// Whether one of the keys that a kind needs is in a table, if it needs any.
+pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
+    let mut required = spec.keys.iter().filter(|key| key.required).peekable();
+    let is_it =
+        |entry: &Entry, key: &Key| key_of(&entry.name.text, spec).is_some_and(|it| it.name == key.name);
+    let is_said = |key: &Key| table.entries.iter().any(|entry| is_it(entry, key));
+    let has_ends = spec.key("between").is_some_and(|key| key.required) && table.entries.iter().any(is_end);
+    required.peek().is_none() || has_ends || required.any(is_said)
 }
 
 /// Adds what belongs in the place of the word that names a kind, to what has been said since there were `before`

@@ -83,6 +83,7 @@ pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
         (Kind::Numbers(3, _), "to") => "[4, 0, 0]",
         (Kind::TimedNumbers(3, _), "location") => "[3, 5, 4]",
         (Kind::Direction(3), "direction") => "[-1, -2, -1]",
+        (Kind::Direction(3), "axis") => "[0, 0, 1]",
         (Kind::Text, "text") => "\"t = ${t:.2} s\"",
         _ => return None,
     };

@@ -8,26 +8,37 @@ mod nameless;
 mod not_built;
 mod table;
 mod text;
+mod together;
 mod unknown;
 mod value;
 mod vector;
+mod way;
+mod word;
 
-pub(super) use self::ends::mend_ends;
 pub(super) use self::kind::{meant_kind, mend_word};
-pub(super) use self::launch::mend_launch;
 pub(super) use self::missing::{insertion, mend_kind, mend_missing};
 pub(super) use self::nameless::{mend_array, mend_unnamed, nameless};
 
 pub(super) use self::text::{before, is_file};
+pub(super) use self::together::together;
 pub(super) use self::unknown::{known_keys, unknown};
 pub(super) use self::value::{color_for_material, mend_value};
+pub(super) use self::word::other_word;
 
 use self::not_built::not_built;
-use crate::scene::grammar::{Key, TableSpec};
+use crate::scene::grammar::{Key, TableSpec, quoted};
 
 /// The key of a table that is called so, here or in other programs.
 fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static Key> {
     let folded = word.to_lowercase();
     let is_it = |key: &&Key| key.name == folded || key.also.contains(&folded.as_str());
     spec.keys.iter().find(is_it)
+}
+
+/// Words in backquotes: `a`, `b` and `c`.
+pub(super) fn quoted_and(words: &[&str]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first)),
+        words => quoted(words),
+    }
 }

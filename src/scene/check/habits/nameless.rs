@@ -3,7 +3,9 @@
 use super::super::validate::as_key;
 use super::super::{Context, suggest};
 use super::key_of;
+use super::kind::is_begun;
 use super::text::{header_end, raw, removal, whole};
+use super::way::key_at;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
@@ -36,14 +38,7 @@ pub(in crate::scene::check) fn nameless(
     Some((if is_said { error.fix_is_said() } else { error }, kind))
 }
 
-/// The key that a way leads to.
-pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static Key> {
-    let (first, rest) = way.split_first()?;
-    let key = spec.key(first)?;
-    if rest.is_empty() { Some(key) } else { key_at(rest, key.kind.table()?) }
-}
-
-type Edits = Vec<(Span, String)>;
+pub(super) type Edits = Vec<(Span, String)>;
 
 /// The tables with names of a scene: their key and what each holds.
 fn collections() -> impl DoubleEndedIterator<Item = (&'static str, &'static TableSpec)> {
@@ -57,30 +52,47 @@ fn collection(name: &str) -> Option<&'static TableSpec> {
     collections().find(|(key, _)| *key == name).map(|(_, spec)| spec)
 }
 
-/// A table that is called after a kind of force or of shape: `[drag]`, `[spring.left]`, `[sphere.ball]`.
+/// A table that is called after a kind of thing or of shape: `[drag]`, `[spring.left]`, `[sphere.ball]`.
 fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let (word, table) = (&*entry.name.text, entry.node.as_table()?);
-    let force = collection("force")?;
-    let (kind, is_force) = match force.keys.iter().find(|key| key.name == word) {
-        Some(key) => (key, true),
-        None => match &collection("body")?.key("shape")?.kind {
-            Kind::Table(shapes) => (shapes.keys.iter().find(|key| key.name == word)?, false),
-            _ => return None,
-        },
+    let things = collections().filter(|(_, spec)| matches!(spec.rule, Rule::ExactlyOne(_)));
+    for (name, spec) in things {
+        let Some(inner) = spec.key(word).and_then(|key| key.kind.table()) else { continue };
+        let is_one = |entry: &Entry| {
+            let is_key = key_of(&entry.name.text, inner).is_some();
+            !is_key && entry.node.as_table().is_some_and(|table| is_begun(inner, table))
+        };
+        if !table.entries.is_empty() && table.entries.iter().all(is_one) {
+            return Some((name, renamed(entry, table, name, Some(word), context)));
+        }
+        if is_begun(inner, table) {
+            return Some((name, vec![(entry.name.span, format!("{name}.{word}.{word}"))]));
+        }
+    }
+    let inner = collection("body")?.key("shape")?.kind.table()?.key(word)?.kind.table()?;
+    let is_one = |entry: &Entry| entry.node.as_table().is_some() && key_of(&entry.name.text, inner).is_none();
+    let are_named = !table.entries.is_empty() && table.entries.iter().all(is_one);
+    let edits = match are_named {
+        true => renamed(entry, table, "body", None, context),
+        false => vec![(entry.name.span, format!("body.{word}"))],
     };
-    let inner = kind.kind.table()?;
-    let are_named = !table.entries.is_empty()
-        && table
-            .entries
-            .iter()
-            .all(|entry| entry.node.as_table().is_some() && key_of(&entry.name.text, inner).is_none());
-    let name = if is_force { "force" } else { "body" };
-    let edits = match (are_named, is_force) {
-        (true, _) => renamed(entry, table, name, is_force.then_some(word), context),
-        (false, true) => vec![(entry.name.span, format!("force.{word}.{word}"))],
-        (false, false) => vec![(entry.name.span, format!("body.{word}"))],
-    };
-    Some((name, edits))
+    Some(("body", edits))
+}
+
+/// The header of a camera with a name, `[camera.top]`, as that of a view; the main camera needs none.
+pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Option<Edits> {
+    let camera = SCENE.key("camera")?.kind.table()?;
+    let table = entry.node.as_table().filter(|_| spec.noun == camera.noun)?;
+    let is_camera = |entry: &Entry| key_of(&entry.name.text, camera).is_some();
+    if !table.entries.iter().all(is_camera) {
+        return None;
+    }
+    let span = entry.name.span;
+    let before = context.sources.get(span.source).text[..span.start].strip_suffix("[camera.")?;
+    let place = Span { start: before.len() + 1, ..span };
+    let is_main = matches!(&*entry.name.text, "main" | "default" | "primary");
+    let text = if is_main { "camera".to_owned() } else { format!("view.{}", as_key(&entry.name.text)) };
+    Some(vec![(place, text)])
 }
 
 /// Puts another word in front of the names in headers, and a kind behind them.

@@ -1,8 +1,8 @@
-//! What people look for, and what jabuka does not do yet.
+//! What people look for in vain: what jabuka does not do yet, or does in another way.
 
-use crate::scene::grammar::TableSpec;
+use crate::scene::grammar::{SCENE, TableSpec};
 
-/// Something that is not built yet.
+/// Something that a table has no key for.
 pub(in crate::scene::check) struct NotBuilt {
     /// The table that it is looked for in, by the noun of its description.
     of: &'static str,
@@ -10,6 +10,8 @@ pub(in crate::scene::check) struct NotBuilt {
     words: &'static [&'static str],
     /// What holds today, and what to write instead.
     pub(super) help: &'static str,
+    /// The key by which the language will have it, of the table or of the scene; empty where it will not.
+    pub(super) comes_with: &'static str,
     /// Whether the scene is right without the line.
     pub(super) can_go: bool,
 }
@@ -18,7 +20,8 @@ pub(in crate::scene::check) struct NotBuilt {
 pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option<&'static NotBuilt> {
     let folded = word.to_lowercase();
     let is_it = |thing: &&NotBuilt| thing.of == spec.noun && thing.words.contains(&folded.as_str());
-    if spec.key(word).is_some() { None } else { NOT_BUILT.iter().find(is_it) }
+    let is_built = |key: &str| !key.is_empty() && (spec.key(key).is_some() || SCENE.key(key).is_some());
+    NOT_BUILT.iter().find(is_it).filter(|thing| !is_built(thing.comes_with))
 }
 
 static NOT_BUILT: &[NotBuilt] = &[
@@ -40,24 +43,28 @@ static NOT_BUILT: &[NotBuilt] = &[
             "contacts",
         ],
         help: "bodies do not touch each other yet: nothing bounces or rubs; leave the line out",
+        comes_with: "restitution",
         can_go: true,
     },
     NotBuilt {
         of: "a body",
         words: &["start", "end", "lifetime", "birth", "death", "appears", "spawn"],
         help: "bodies are there from the first frame to the last; leave the line out",
+        comes_with: "start",
         can_go: true,
     },
     NotBuilt {
         of: "the simulation",
         words: &["contacts", "contact", "collisions", "collision", "collide"],
         help: "bodies do not touch each other yet: nothing bounces or rubs; leave the line out",
+        comes_with: "contacts",
         can_go: true,
     },
     NotBuilt {
         of: "the simulation",
         words: &["tolerance", "tol", "rtol", "atol", "adaptive"],
         help: "no integrator chooses its own steps yet: `step` is the longest one; leave the line out",
+        comes_with: "tolerance",
         can_go: true,
     },
     NotBuilt {
@@ -76,24 +83,28 @@ static NOT_BUILT: &[NotBuilt] = &[
             "motor",
         ],
         help: "there are `ball`, `hinge`, `slider`, `fixed` and `rod`; springs are forces, `[force.NAME.spring]`",
+        comes_with: "rope",
         can_go: false,
     },
     NotBuilt {
         of: "a hinge",
         words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
         help: "joints move freely yet, without limits and motors; leave the line out",
+        comes_with: "limits",
         can_go: true,
     },
     NotBuilt {
         of: "a slider",
         words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
         help: "joints move freely yet, without limits and motors; leave the line out",
+        comes_with: "limits",
         can_go: true,
     },
     NotBuilt {
         of: "a scene",
         words: &["emitter", "emitters", "particles", "particle_system", "fountain"],
         help: "there are no emitters yet: `repeat` in a body makes many of it, all there from the start",
+        comes_with: "emitter",
         can_go: false,
     },
     NotBuilt {
@@ -101,12 +112,14 @@ static NOT_BUILT: &[NotBuilt] = &[
         words: &["plot", "plots", "graph", "graphs", "chart", "diagram"],
         help: "there are no plots in pictures yet: `[label.NAME]` shows numbers, `jabuka preview` has plots, \
                and `jabuka export` writes tables",
+        comes_with: "plot",
         can_go: false,
     },
     NotBuilt {
         of: "a scene",
         words: &["contact", "contacts", "collision", "collisions"],
         help: "bodies do not touch each other yet: nothing bounces or rubs; leave it out",
+        comes_with: "contacts",
         can_go: false,
     },
     NotBuilt {
@@ -114,6 +127,7 @@ static NOT_BUILT: &[NotBuilt] = &[
         words: &["formula", "custom", "expression", "central", "potential", "field_formula"],
         help: "forces by formulas are not built yet; there are `constant`, `drag`, `spring`, `gravitation`, \
                `coulomb` and `lorentz`",
+        comes_with: "formula",
         can_go: false,
     },
     NotBuilt {
@@ -130,18 +144,107 @@ static NOT_BUILT: &[NotBuilt] = &[
         ],
         help: "this force is not built yet; there are `constant`, `drag`, `spring`, `gravitation`, `coulomb` \
                and `lorentz`",
+        comes_with: "lennard_jones",
         can_go: false,
     },
     NotBuilt {
         of: "a spring",
         words: &["line", "style"],
         help: "a spring is drawn as a coil, or not at all with `coil = false`; leave the line out",
+        comes_with: "line",
         can_go: true,
     },
     NotBuilt {
         of: "a trail",
         words: &["at", "point", "offset"],
         help: "a trail is that of the centre of mass; leave the line out",
+        comes_with: "at",
         can_go: true,
+    },
+    NotBuilt {
+        of: "a scene",
+        words: &["units", "unit", "unit_system"],
+        help: "all numbers are in SI units: metres, kilograms, seconds; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "a body",
+        words: &["emissive", "emission", "glow", "glowing", "luminous", "emits"],
+        help: "`material = \"sun\"` glows, and `[light.NAME]` with `point.location` lights other bodies; leave the \
+               line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "a body",
+        words: &["opacity", "alpha", "transparency", "transparent"],
+        help: "`material = \"glass\"` is transparent; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "a body",
+        words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
+        help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
+        comes_with: "",
+        can_go: false,
+    },
+    NotBuilt {
+        of: "the simulation",
+        words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
+        help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
+        comes_with: "",
+        can_go: false,
+    },
+    NotBuilt {
+        of: "the environment",
+        words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
+        help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
+        comes_with: "",
+        can_go: false,
+    },
+    NotBuilt {
+        of: "the camera",
+        words: &["zoom"],
+        help: "a smaller `angle` shows things larger: it is 40 degrees without it; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "the camera",
+        words: &["up", "roll", "sky", "right"],
+        help: "the camera stays upright; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "the output",
+        words: &["video", "film", "file", "filename", "format", "fps_video"],
+        help: "`jabuka render SCENE --video FILE.mp4` makes a film; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "the output",
+        words: &["quality", "antialias", "antialiasing"],
+        help: "`jabuka render` takes `--quality`; leave the line out",
+        comes_with: "",
+        can_go: true,
+    },
+    NotBuilt {
+        of: "a body",
+        words: &["pivot", "hinge", "joint", "attached_to", "parent", "constraint"],
+        help: "what holds a body is a table of its own: `[joint.NAME.hinge]`, `ball`, `slider`, `rod` or `fixed`",
+        comes_with: "",
+        can_go: false,
+    },
+    NotBuilt {
+        of: "a scene",
+        words: &["rope", "string", "cable", "motor", "gear", "pulley"],
+        help: "there are `ball`, `hinge`, `slider`, `fixed` and `rod`, each as `[joint.NAME.rod]`; a soft spring is a \
+               force, `[force.NAME.spring]`",
+        comes_with: "rope",
+        can_go: false,
     },
 ];

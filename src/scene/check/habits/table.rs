@@ -22,6 +22,11 @@ pub(super) fn as_table(
         return None;
     }
     match (required.as_slice(), &node.value) {
+        ([count, rest @ ..], Value::Integer(_)) if count.name == "count" && count.kind.takes(&node.value) => {
+            let example = |key: &&Key| Some(format!(", {} = {}", key.name, example_of(key, context)?));
+            let rest = rest.iter().map(example).collect::<Option<Vec<_>>>()?.concat();
+            Some(format!("{{ count = {raw}{rest} }}"))
+        }
         ([_, _, ..], _) => None,
         ([only], Value::String(text)) if matches!(only.kind, Kind::Number(_)) => {
             let (number, unit) = units::quantity(text)?;
@@ -39,6 +44,12 @@ pub(super) fn as_table(
         ([], Value::String(word)) => {
             let text = by_word(spec, word)?;
             Some(format!("{{ {text} }}"))
+        }
+        ([], Value::Array(items))
+            if items.len() == 3 && !matches!(items[0].value, Value::String(_)) || name == "formula" =>
+        {
+            let is_vector = |key: &&Key| matches!(key.kind, Kind::Numbers(3, _) | Kind::TimedNumbers(3, _));
+            entry(spec.keys.iter().find(is_vector)?, raw)
         }
         ([], Value::Array(items)) => {
             let switches = items.iter().map(|item| Some(format!("{} = true", switch(spec, item.as_str()?)?)));

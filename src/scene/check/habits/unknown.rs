@@ -1,14 +1,15 @@
 //! Keys that a table does not know.
 
-use super::super::{Context, suggest};
+use super::super::Context;
 use super::kind::MeantKind;
-use super::missing::insertion;
-use super::nameless::key_at;
+use super::nameless::view;
+use super::not_built;
 use super::text::{header_end, raw, removal, whole, whole_line};
-use super::{key_of, not_built};
+use super::way::{elsewhere, way};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::{Key, Rule, SCENE, TableSpec, quoted};
-use crate::scene::source::{Entry, Table, Value};
+use crate::scene::grammar::{Rule, TableSpec, quoted};
+use crate::scene::source::{Entry, Node, Table, Value};
+use crate::scene::units;
 
 /// What is said of an unknown key, with the text that belongs in its place if that can be told; and the key of the table
 /// that was meant.
@@ -23,11 +24,20 @@ pub(in crate::scene::check) fn unknown(
     let word = &*entry.name.text;
     let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{word}` in {path}"));
     if let Some(thing) = not_built(word, spec) {
-        let error = error.at(entry.name.span, "not built yet").help(thing.help);
+        let label = if thing.comes_with.is_empty() {
+            format!("not a key of {}", spec.noun)
+        } else {
+            "not built yet".to_owned()
+        };
+        let error = error.at(entry.name.span, label).help(thing.help);
         let line = removal(whole(entry), context).filter(|_| thing.can_go);
         return (line.into_iter().fold(error, |error, line| error.fix(line, "")), None);
     }
-    let Some(way) = way(word, meant, spec) else {
+    if let Some(edits) = view(entry, spec, context) {
+        let error = error.at(entry.name.span, "cameras with names are views");
+        return (edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text)), None);
+    }
+    let Some(way) = way(entry, meant, table, spec) else {
         let error = match elsewhere(entry, context) {
             Some((way, fix)) if path.starts_with('[') => {
                 let error = error.at(entry.name.span, format!("did you mean `{way}`?"));
@@ -39,6 +49,7 @@ pub(in crate::scene::check) fn unknown(
     };
     let error = error.at(entry.name.span, format!("did you mean `{}`?", way.join(".")));
     let error = mended(error, entry, &way, table, context);
+    let error = rescaled(error, entry);
     (beside(error, meant, &way, table, spec), Some(way[0]))
 }
 
@@ -47,27 +58,6 @@ pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
     let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
     let s = if names.len() == 1 { "" } else { "s" };
     format!("the key{s} of {}: {}", spec.noun, quoted(&names))
-}
-
-/// The way from a table to the key that was meant.
-fn way(word: &str, meant: Option<&MeantKind>, spec: &'static TableSpec) -> Option<Vec<&'static str>> {
-    if let Some(way) = meant.and_then(|meant| meant.way_to(word)) {
-        return Some(way);
-    }
-    // Of another kind than the one that was meant, it would be wrong beside the others.
-    let fits = |way: &Vec<&'static str>| match meant {
-        Some(MeantKind { way: kind, .. }) => !way.starts_with(&kind[..kind.len() - 1]) || kind.len() == 1,
-        None => true,
-    };
-    // The keys of the simulation belong there, though a body's trail has a duration, too.
-    if spec.key("shape").is_some() && key_of(word, spec).is_none() && of_simulation(word).is_some() {
-        return None;
-    }
-    let own = || key_of(word, spec).map(|key| vec![key.name]);
-    own()
-        .or_else(|| suggest::deeper(word, spec).filter(fits))
-        .or_else(|| suggest::key(word, spec).map(|near| vec![near]))
-        .or_else(|| suggest::deeper_also(word, spec).filter(fits))
 }
 
 /// The text that belongs in the place of a key, or of its line.
@@ -106,6 +96,37 @@ fn mended(
     }
 }
 
+/// Where a word is another measure of the same thing, the value changes as well: a diameter is two radii.
+fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
+    let factor = match &*entry.name.text {
+        "diameter" => "0.5",
+        "half_extents" | "half_size" => "2",
+        _ => return error,
+    };
+    let is_one = error.fix.as_ref().is_some_and(|fix| fix.edits.len() == 1);
+    let times = |node: &Node| {
+        let formula = node.as_str().map(str::to_owned).filter(|text| units::quantity(text).is_none());
+        match node.as_number() {
+            Some(number) => Some(units::written(number * factor.parse::<f64>().ok()?)),
+            None => Some(format!("\"{factor}*({})\"", formula?)),
+        }
+    };
+    let value = match &entry.node.value {
+        Value::Array(items) => {
+            items.iter().map(times).collect::<Option<Vec<_>>>().map(|items| format!("[{}]", items.join(", ")))
+        }
+        _ => times(&entry.node),
+    };
+    match value.filter(|_| is_one) {
+        Some(value) => {
+            let mut error = error.fix(entry.node.span, value);
+            error.fix.iter_mut().for_each(|fix| fix.is_said = false);
+            error
+        }
+        None => Diagnostic { fix: None, ..error },
+    }
+}
+
 /// Beside a key of a kind, a key of the table that is a kind by itself belongs to that kind as well: the `count` of a ring.
 fn beside(
     error: Diagnostic,
@@ -124,34 +145,4 @@ fn beside(
         error.fix.iter_mut().for_each(|fix| fix.is_said = false);
         error
     })
-}
-
-/// A key that stands in a table which has no such key, and where it belongs: its path, and the pieces of text that move it.
-fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String, Vec<(Span, String)>)> {
-    let word = &*entry.name.text;
-    let way = of_simulation(word).map(|key| vec!["simulation", key.name]);
-    let way = way.or_else(|| suggest::deeper(word, &SCENE))?;
-    let [table @ ("simulation" | "camera" | "environment" | "output"), key] = way.as_slice() else {
-        return None;
-    };
-    key_at(&way, &SCENE).filter(|key| key.kind.takes(&entry.node.value))?;
-    let path = way.join(".");
-    let line = removal(whole(entry), context);
-    let value = raw(entry.node.span, context);
-    let place = match context.tables.get(*table) {
-        Some(at) if at.source == entry.name.span.source => {
-            insertion(*at, &format!("{key} = {value}"), context)
-        }
-        Some(_) => None,
-        None => Some((Span { start: 0, end: 0, ..entry.name.span }, format!("{path} = {value}\n"))),
-    };
-    let fix = line.zip(place).map_or(Vec::new(), |(line, place)| vec![(line, String::new()), place]);
-    Some((path, fix))
-}
-
-/// A key of the simulation that is unlikely to be one of anything else, as « length » and « rate » may be.
-fn of_simulation(word: &str) -> Option<&'static Key> {
-    const PLAIN: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
-    let key = key_of(word, SCENE.key("simulation")?.kind.table()?)?;
-    (key.name == word || PLAIN.contains(&word)).then_some(key)
 }

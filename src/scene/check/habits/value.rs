@@ -5,7 +5,7 @@ use super::text::{raw, whole};
 use super::{ends, table, vector};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::Color;
-use crate::scene::grammar::{Collection, Kind, unit_of_key};
+use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
 /// Adds what belongs in the place of values of a wrong type or length, to what has been said since there were `before`
@@ -26,7 +26,9 @@ pub(in crate::scene::check) fn mend_value(
         }
         let fix = better(node, kind, entry.map_or("", |entry| &entry.name.text), context)
             .map(|text| (node.span, text))
-            .or_else(|| numbers_of_a_color(node, kind, entry?, context));
+            .or_else(|| numbers_of_a_color(node, kind, entry?, context))
+            .or_else(|| body_to_look_at(node, entry?, context))
+            .or_else(|| file_of_a_motion(node, entry?, context));
         if let Some((span, text)) = fix {
             context.diagnostics[at] = context.diagnostics[at].clone().fix(span, text);
         }
@@ -43,6 +45,31 @@ fn numbers_of_a_color(
     let Value::Array(items) = &node.value else { return None };
     let is_material = kind.names(Collection::Material) && items.len() == 3;
     is_material.then(|| (whole(entry), format!("{}.color = {}", entry.name.text, raw(node.span, context))))
+}
+
+/// The line that lets a camera go with the body that stands in the place of a point.
+fn body_to_look_at(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
+    let name = node.as_str().filter(|name| context.names.bodies.contains_key(*name))?;
+    let is_it = &*entry.name.text == "look_at" && !name.contains(['"', '\\']);
+    is_it.then(|| (whole(entry), format!("follow.body = \"{name}\"")))
+}
+
+/// The line by which a body moves as a file says that stands in the place of its motion.
+fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
+    let is_file = |name: &str| {
+        let name = name.to_lowercase();
+        [".csv", ".txt", ".dat"].iter().any(|end| name.ends_with(end))
+    };
+    let is_it = &*entry.name.text == "motion" && node.as_str().is_some_and(is_file);
+    is_it.then(|| (whole(entry), format!("motion.trajectory.file = {}", raw(node.span, context))))
+}
+
+/// The numbers of `1920x1080`.
+fn numbers_of(text: &str, count: usize) -> Option<String> {
+    let numbers = text.split(['x', 'X', '×', '*', ',', ';', ' ', ':']).map(str::trim);
+    let numbers: Vec<&str> = numbers.filter(|number| !number.is_empty()).collect();
+    let are_whole = numbers.iter().all(|number| number.parse::<u32>().is_ok());
+    (are_whole && numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
 /// That a color stands where a material should.
@@ -70,12 +97,26 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             others.chain(switches).find_map(|kind| better(node, kind, key, context))
         }
         (Kind::Either(kinds), _) => kinds.iter().find_map(|kind| better(node, kind, key, context)),
+        (Kind::Numbers(3, Bound::Positive), Value::Integer(_) | Value::Float(_)) => {
+            Some(format!("[{raw}, {raw}, {raw}]"))
+        }
+        (Kind::Numbers(3, Bound::Positive), Value::Array(items)) if items.len() < 3 => match items.as_slice()
+        {
+            [only] if only.as_number().is_some() => {
+                let only = super::text::raw(only.span, context);
+                Some(format!("[{only}, {only}, {only}]"))
+            }
+            _ => None,
+        },
         (Kind::Numbers(count, _) | Kind::TimedNumbers(count, _) | Kind::Direction(count), _) => {
             vector::list(node, key, unit_of_key(key).unwrap_or(""), *count, context)
         }
         (Kind::Table(spec), _) => table::as_table(spec, node, key, context),
         (Kind::List { min: 2, .. }, Value::Array(items)) if key == "between" && items.len() > 2 => None,
         (Kind::List { min: 2, .. }, _) if key == "between" => ends::with_other_end(node, context),
+        (Kind::List { of: Kind::Integer(..), min, max }, Value::String(text)) if min == max => {
+            numbers_of(text, *min)
+        }
         (Kind::Number(_) | Kind::Timed(_), Value::Array(items)) => match items.as_slice() {
             [only] => {
                 Some(raw.get(only.span.start - node.span.start..only.span.end - node.span.start)?.to_owned())

@@ -28,14 +28,18 @@ pub(super) fn list(
             };
             listed(inner, key, count).or_else(|| if count == 3 { number() } else { None })
         }
-        Value::Array(items) if items.len() + 1 == count && count == 3 => {
-            Some(format!("{}, 0]", raw.strip_suffix(']')?.trim_end().trim_end_matches(',')))
+        Value::Array(items) if items.len() == 1 && matches!(items[0].value, Value::Array(_)) => {
+            Some(super::text::raw(items[0].span, context).to_owned())
+        }
+        Value::Array(items) if matches!(items.len(), 1 | 2) && count == 3 => {
+            let zeros = if items.len() == 1 { ", 0, 0" } else { ", 0" };
+            Some(format!("{}{zeros}]", raw.strip_suffix(']')?.trim_end().trim_end_matches(',')))
         }
         Value::Array(_) => listed(raw.strip_prefix('[')?.strip_suffix(']')?, key, count),
         // A table with a header of its own is not replaced where it stands.
-        Value::Table(table) if count == 3 && raw.starts_with('{') => {
-            by_component(table, context).or_else(|| launch::by_angle(table, context))
-        }
+        Value::Table(table) if count == 3 && raw.starts_with('{') => by_component(table, context)
+            .or_else(|| launch::by_angle(table, context))
+            .or_else(|| by_axis(table, unit)),
         _ => None,
     }
 }
@@ -45,7 +49,6 @@ pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     match key {
         "gravity" if number > 0.0 => format!("[0, -{raw}, 0]"),
         "gravity" | "angular_velocity" | "torque" => format!("[0, {raw}, 0]"),
-        "size" => format!("[{raw}, {raw}, {raw}]"),
         "orientation" | "euler" => format!("[0, 0, {raw}]"),
         _ => format!("[{raw}, 0, 0]"),
     }
@@ -64,6 +67,31 @@ fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
         *parts.get_mut(place(&entry.name.text)?)? = raw(entry.node.span, context);
     }
     (!table.entries.is_empty()).then(|| format!("[{}]", parts.join(", ")))
+}
+
+/// `{ axis = [0, 1, 0], rate = 100 }`
+fn by_axis(table: &Table, unit: &str) -> Option<String> {
+    const SIZES: [&str; 8] = ["rate", "speed", "omega", "magnitude", "value", "size", "w", "strength"];
+    let [one, two] = table.entries.as_slice() else { return None };
+    let (axis, size) = if &*one.name.text == "axis" { (one, two) } else { (two, one) };
+    if !matches!(&*axis.name.text, "axis" | "direction") || !SIZES.contains(&&*size.name.text) {
+        return None;
+    }
+    let size = match size.node.as_str() {
+        Some(text) => {
+            let (number, of) = units::quantity(text)?;
+            units::converted(number, of, unit)?.parse().ok()?
+        }
+        None => size.node.as_number()?,
+    };
+    let axis = match &axis.node.value {
+        Value::Array(items) => items.iter().map(Node::as_number).collect::<Option<Vec<f64>>>()?,
+        _ => return None,
+    };
+    let length = axis.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let is_direction = axis.len() == 3 && length > 0.0 && length.is_finite();
+    let parts = axis.iter().map(|part| units::written(part / length * size));
+    is_direction.then(|| format!("[{}]", parts.collect::<Vec<_>>().join(", ")))
 }
 
 /// So many numbers of a text, whatever stands between them.

@@ -1,0 +1,189 @@
+//! Keys that together say what one key of the language does.
+
+use super::super::Context;
+use super::kind::MeantKind;
+use super::launch::{ANGLES, SPEEDS, by_angle, find};
+use super::text::{operand, removal, whole};
+use super::{ends, key_of, quoted_and};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::{Key, Rule, TableSpec};
+use crate::scene::source::{Entry, Table};
+use crate::scene::units;
+
+/// Keys that belong together.
+pub(in crate::scene::check) struct Together {
+    /// What is said of them.
+    pub(in crate::scene::check) error: Diagnostic,
+    /// Where they stand.
+    pub(in crate::scene::check) spans: Vec<Span>,
+    /// The key that was meant.
+    pub(in crate::scene::check) key: &'static str,
+}
+
+/// The keys of a table that together say what one key of the language does.
+pub(in crate::scene::check) fn together(
+    table: &Table,
+    spec: &'static TableSpec,
+    meant: Option<&MeantKind>,
+    path: &str,
+    context: &Context<'_>,
+) -> Vec<Together> {
+    let ends = ends::mend_ends(table, spec, meant, path, context);
+    let launch = launch(table, spec, path, context);
+    let drag = drag(table, spec, path, context);
+    let parts = [("location", ["x", "y", "z"]), ("velocity", ["vx", "vy", "vz"])];
+    let parts =
+        parts.into_iter().filter_map(|(key, names)| components(table, spec, key, &names, path, context));
+    let counted = counted(table, spec, path);
+    let size = size(table, spec, path, context);
+    let rates = rates(table, spec, path, context);
+    ends.into_iter().chain(size).chain(rates).chain(counted).chain(launch).chain(drag).chain(parts).collect()
+}
+
+/// An error whose mending puts a line in the place of the first of some entries, and leaves the others out.
+pub(super) fn joined(
+    entries: &[&Entry],
+    key: &'static str,
+    label: &str,
+    line: String,
+    path: &str,
+    context: &Context<'_>,
+) -> Option<Together> {
+    let (first, rest) = entries.split_first()?;
+    let s = if rest.is_empty() { "" } else { "s" };
+    let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
+    let message = format!("unknown key{s} {} in {path}", quoted_and(&names));
+    let error = Diagnostic::error(Code::UnknownKey, message).at(first.name.span, label);
+    let mut error = error.fix(whole(first), line);
+    for entry in rest {
+        error = error.at(entry.name.span, "").fix(removal(whole(entry), context)?, "");
+    }
+    Some(Together { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
+}
+
+/// A speed and an angle for the velocity of a body.
+fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+    let key = spec.key("velocity").filter(|_| spec.key("angular_velocity").is_some())?.name;
+    if table.get(key).is_some() {
+        return None;
+    }
+    let (speed, angle) = (find(table, &SPEEDS)?, find(table, &ANGLES)?);
+    let line = format!("{key} = {}", by_angle(table, context)?);
+    joined(&[speed, angle], key, "`velocity` is a vector", line, path, context)
+}
+
+/// Coordinates one by one.
+fn components(
+    table: &Table,
+    spec: &TableSpec,
+    key: &str,
+    names: &[&str; 3],
+    path: &str,
+    context: &Context<'_>,
+) -> Option<Together> {
+    let key = spec.key(key)?.name;
+    if table.get(key).is_some() || names.iter().any(|name| spec.key(name).is_some()) {
+        return None;
+    }
+    let entries: Vec<&Entry> =
+        table.entries.iter().filter(|entry| names.contains(&&*entry.name.text)).collect();
+    let part = |name: &str| match table.get(name) {
+        Some(entry) => value(entry, context),
+        None => Some("0".to_owned()),
+    };
+    let parts = names.iter().map(|name| part(name)).collect::<Option<Vec<_>>>()?;
+    let line = format!("{key} = [{}]", parts.join(", "));
+    joined(&entries, key, &format!("`{key}` is a list"), line, path, context)
+}
+
+/// The width and the height of images.
+fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+    let key = spec.key("size").filter(|_| spec.key("layout").is_some())?.name;
+    let (width, height) = (table.get("width")?, table.get("height")?);
+    let line = format!("{key} = [{}, {}]", value(width, context)?, value(height, context)?);
+    joined(&[width, height], key, "`size` is width and height", line, path, context)
+}
+
+/// A number of steps or of frames, which follows from the duration.
+fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+    const STEPS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
+    const FRAMES: [&str; 5] = ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
+    let duration = spec.key("duration").filter(|_| spec.key("integrator").is_some())?.name;
+    let number = |entry: &Entry| entry.node.as_number().filter(|number| *number > 0.0);
+    let duration = match table
+        .entries
+        .iter()
+        .find(|it| key_of(&it.name.text, spec).is_some_and(|key| key.name == duration))
+    {
+        Some(entry) => number(entry)?,
+        None => 10.0,
+    };
+    let (entry, key, rate) = match (find(table, &STEPS), find(table, &FRAMES)) {
+        (Some(steps), _) => (steps, "step", duration / number(steps)?),
+        (None, Some(frames)) if duration > 0.0 => (frames, "frame_rate", number(frames)? / duration),
+        _ => return None,
+    };
+    if table.get(key).is_some() {
+        return None;
+    }
+    let label =
+        if key == "step" { "`step` is duration / steps" } else { "`frame_rate` is frames / duration" };
+    joined(&[entry], key, label, format!("{key} = {}", units::written(rate)), path, context)
+}
+
+/// `ring = 12, radius = 2`: a kind with its count as its value, beside other keys of the kind.
+fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Together> {
+    let Rule::ExactlyOne(names) = &spec.rule else { return None };
+    let kind = table
+        .entries
+        .iter()
+        .find(|entry| names.contains(&&*entry.name.text) && entry.node.as_number().is_some())?;
+    let key = spec.key(&kind.name.text)?;
+    let inner = key.kind.table().filter(|inner| inner.key("count").is_some())?;
+    let others: Vec<(&Entry, &Key)> = table
+        .entries
+        .iter()
+        .filter(|entry| spec.key(&entry.name.text).is_none())
+        .filter_map(|entry| Some((entry, key_of(&entry.name.text, inner)?)))
+        .collect();
+    let (first, _) = others.first()?;
+    let message = format!("unknown key `{}` in {path}", first.name.text);
+    let error = Diagnostic::error(Code::UnknownKey, message)
+        .at(first.name.span, format!("this is a key of {}", inner.noun))
+        .fix(kind.name.span, format!("{}.count", key.name));
+    let fix = |error: Diagnostic, (entry, it): &(&Entry, &Key)| {
+        error.fix(entry.name.span, format!("{}.{}", key.name, it.name))
+    };
+    let spans = others.iter().map(|(entry, _)| entry.name.span).chain([kind.name.span]).collect();
+    Some(Together { error: others.iter().fold(error, fix), spans, key: key.name })
+}
+
+/// A number or a formula as it stands.
+fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
+    let is_value = entry.node.as_number().is_some() || entry.node.as_str().is_some();
+    is_value.then(|| super::text::raw(entry.node.span, context).to_owned())
+}
+
+/// The drag coefficient, the area and the density of the air, by which tables give a quadratic drag.
+fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+    const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
+    const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];
+    const DENSITIES: [&str; 4] = ["density", "rho", "air_density", "fluid_density"];
+    let key = spec.key("quadratic").filter(|key| table.get(key.name).is_none())?.name;
+    let (coefficient, area) = (find(table, &COEFFICIENTS)?, find(table, &AREAS)?);
+    let density = find(table, &DENSITIES);
+    let mut entries = vec![coefficient, area];
+    entries.extend(density);
+    entries.sort_by_key(|entry| entry.name.span);
+    // That of air at 20 °C and at the level of the sea, where none is given.
+    let of_air = match density {
+        Some(entry) => operand(entry, "kg/m³", context)?,
+        None => "1.2".to_owned(),
+    };
+    let line = format!(
+        "{key} = \"0.5*{of_air}*{}*{}\"",
+        operand(coefficient, "", context)?,
+        operand(area, "m²", context)?
+    );
+    joined(&entries, key, "`quadratic` is ½ density × drag coefficient × area", line, path, context)
+}

@@ -1,0 +1,29 @@
+//! Words of other programs for what a key lets choose.
+
+/// A word that is meant by another one, if it is one of those that there are.
+pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
+    const OTHERS: [(&str, &[&str]); 16] = [
+        ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4", "rk45", "ode45", "dopri5"]),
+        ("velocity-verlet", &["verlet", "leapfrog", "leap-frog", "stormer-verlet", "vv", "kdk"]),
+        ("euler-cromer", &["euler", "symplectic", "symplectic-euler", "semi-implicit-euler", "cromer"]),
+        ("explicit-euler", &["forward-euler", "euler-forward", "explicit"]),
+        ("orthographic", &["ortho", "parallel", "orthogonal"]),
+        ("daylight", &["day", "outdoor", "outdoors", "sky", "default"]),
+        ("studio", &["indoor", "indoors", "lab", "room"]),
+        ("paper", &["white", "none", "print"]),
+        ("space", &["stars", "black", "universe"]),
+        ("top-left", &["upper-left", "left-top", "topleft", "northwest"]),
+        ("top-right", &["upper-right", "right-top", "topright", "northeast"]),
+        ("bottom-left", &["lower-left", "left-bottom", "bottomleft", "southwest"]),
+        ("bottom-right", &["lower-right", "right-bottom", "bottomright", "southeast"]),
+        ("above", &["top", "up", "over"]),
+        ("below", &["bottom", "down", "under"]),
+        ("wall", &["xy", "upright", "vertical", "back"]),
+    ];
+    let folded = word.trim().to_lowercase().replace([' ', '_'], "-");
+    let known = |name: &str| words.iter().find(|known| **known == name).copied();
+    known(&folded).or_else(|| {
+        let mut meant = OTHERS.iter().filter(|(_, others)| others.contains(&folded.as_str()));
+        meant.find_map(|(name, _)| known(name))
+    })
+}
