@@ -3,7 +3,7 @@
 use super::super::Context;
 use super::kind::MeantKind;
 use super::launch::{ANGLES, SPEEDS, by_angle, find};
-use super::text::{operand, removal, whole};
+use super::text::{operand, raw, removal, whole, whole_line};
 use super::{ends, key_of, quoted_and};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Rule, TableSpec};
@@ -56,7 +56,15 @@ pub(super) fn joined(
     let error = Diagnostic::error(Code::UnknownKey, message).at(first.name.span, label);
     let mut error = error.fix(whole(first), line);
     for entry in rest {
-        error = error.at(entry.name.span, "").fix(removal(whole(entry), context)?, "");
+        // The end of the line before goes with it, so that the line behind is none of the piece.
+        let gone = match whole_line(whole(entry), context).filter(|line| line.start > 0) {
+            Some(line) => {
+                let is_last = raw(line, context).ends_with('\n');
+                Span { start: line.start - 1, end: line.end - usize::from(is_last), ..line }
+            }
+            None => removal(whole(entry), context)?,
+        };
+        error = error.at(entry.name.span, "").fix(gone, "");
     }
     Some(Together { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
 }
@@ -161,7 +169,7 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
 /// A number or a formula as it stands.
 fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
     let is_value = entry.node.as_number().is_some() || entry.node.as_str().is_some();
-    is_value.then(|| super::text::raw(entry.node.span, context).to_owned())
+    is_value.then(|| raw(entry.node.span, context).to_owned())
 }
 
 /// The drag coefficient, the area and the density of the air, by which tables give a quadratic drag.
