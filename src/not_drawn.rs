@@ -13,10 +13,11 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
         }
         Asking::Axes => (format!("the axes of `{name}`"), "axes.length".to_owned()),
         Asking::Trail => (format!("the trail of `{name}`"), "trail.width".to_owned()),
+        Asking::Ghosts => (format!("the ghosts of `{name}`"), "ghosts".to_owned()),
         Asking::Coil => (format!("the coil of the spring `{name}`"), "coil.radius".to_owned()),
         Asking::ScaleBar => ("the scale bar".to_owned(), "scale_bar.length".to_owned()),
     };
-    let are = if matches!(missing.what, Asking::Axes) { "are" } else { "is" };
+    let are = if matches!(missing.what, Asking::Axes | Asking::Ghosts) { "are" } else { "is" };
     let others = match others {
         0 => String::new(),
         1 => ", nor that of 1 other".to_owned(),
@@ -40,6 +41,10 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
                 ),
                 None,
             )
+        }
+        Why::Still => (format!("{what} {are} not drawn{others}: the body stays where it is"), None),
+        Why::Gone => {
+            (format!("{what} {are} not drawn{others}: the body is gone before the first of them"), None)
         }
         Why::TooLong { length, fit } => {
             let length = rounded(length);

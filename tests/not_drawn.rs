@@ -115,3 +115,20 @@ fn a_scale_bar_that_is_longer_than_the_picture() {
           write `scale_bar.length = 1`, or leave `scale_bar.length` out"]
     );
 }
+
+#[test]
+fn ghosts_of_what_stays_where_it_is() {
+    let ball = "[body.ball]\nshape.sphere.radius = 0.5\nghosts.every = 0.2\n";
+    assert_eq!(said(ball), [""; 0], "it falls");
+    let resting = format!("{ball}motion.formula.location = [0, 0, '0.005*sin(t)']");
+    assert_eq!(
+        said(&resting),
+        ["the ghosts of `ball` are not drawn: the body stays where it is: leave `ghosts` out"]
+    );
+    assert_eq!(said(&resting.replace("0.005", "0.5")), [""; 0]);
+    // What turns in its place is seen to.
+    let turning = format!("{ball}motion.formula = {{ location = [0, 0, 0], orientation = [0, '90*t', 0] }}");
+    assert_eq!(said(&turning), [""; 0]);
+    // What is fixed has none, and needs none.
+    assert_eq!(said(&format!("{ball}fixed = true")), [""; 0]);
+}

@@ -32,6 +32,13 @@ pub struct Coil<'a> {
     pub color: Color,
 }
 
+impl Coil<'_> {
+    /// How wide it is across, with its wire, m.
+    pub(super) fn width(&self) -> f64 {
+        2.0 * (self.radius + self.wire)
+    }
+}
+
 /// The springs of a scene that are drawn.
 #[derive(Clone, Debug)]
 pub(super) struct Coils {

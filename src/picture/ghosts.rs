@@ -1,7 +1,17 @@
 //! The bodies as they were, every so many seconds.
 
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::simulate::{Frame, Ghost};
+
+/// How near a ghost may be to its body and not be drawn, m: surfaces at the same place would be drawn in a mixture of both.
+pub(super) fn near(body: &Body) -> f64 {
+    0.02 * body.drawn().half_thickness().unwrap_or(0.0)
+}
+
+/// Whether two directions whose quaternions have a product are so different that both are seen.
+pub(super) fn is_turned(product: f64) -> bool {
+    product.abs() < 1.0 - 1e-4
+}
 
 /// The ghosts of a scene.
 #[derive(Clone, Debug)]
@@ -13,9 +23,7 @@ pub(super) struct Ghosts {
 impl Ghosts {
     pub(super) fn new(scene: &Scene) -> Ghosts {
         let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| body.showing.ghosts.is_some());
-        // Surfaces at the same place would be drawn in a mixture of both.
-        let near = bodies.map(|(number, body)| (number, 0.02 * body.drawn().half_thickness().unwrap_or(0.0)));
-        Ghosts { bodies: near.collect() }
+        Ghosts { bodies: bodies.map(|(number, body)| (number, near(body))).collect() }
     }
 
     /// The ghosts of a frame that are elsewhere than their bodies. Those of bodies that are gone stay.
@@ -29,7 +37,7 @@ impl Ghosts {
         of.is_ok_and(|of| {
             let near = self.bodies[of].1;
             let is_elsewhere = now.is_none_or(|now| {
-                let turned = now.orientation.dot(ghost.body.orientation).abs() < 1.0 - 1e-4;
+                let turned = is_turned(now.orientation.dot(ghost.body.orientation));
                 ghost.body.location.distance(now.location) > near || turned
             });
             ghost.body.is_finite() && is_elsewhere

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use super::room::Room;
-use super::screen::Screen;
+use super::room::{Rectangle, Room};
+use super::screen::{Screen, Spot};
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
 use crate::dynamics::{Balance, BodySnapshot, find};
@@ -106,17 +106,22 @@ impl Labels {
     ) -> Vec<(usize, Text<'_>)> {
         let now = Moment::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);
+        let mut crowd = self.room();
+        let ghosts = frame.past.ghosts.iter().map(|ghost| &ghost.body);
+        for body in frame.bodies.iter().chain(ghosts) {
+            self.seen(body, screen).into_iter().for_each(|(_, area)| crowd.take(area));
+        }
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
             let here = frame.body(body);
-            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, room));
+            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, (room, &crowd)));
             texts.extend(text.map(|text| (number, text)));
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
                 let bodies = std::slice::from_ref(&ghost.body);
                 let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
-                let text = self.beside(planned, (&ghost.body, side), &then, screen, room);
+                let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
                 texts.extend(text.map(|text| (number, text)));
             }
         }
@@ -144,41 +149,47 @@ impl Labels {
         Some(planned.text(self.said(&planned.label, now).into(), (x, y), align))
     }
 
+    /// Where a body or a ghost is seen, and the part of the picture that it takes: nothing, if it is a plane.
+    fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
+        let shape = self.bodies[at.id].drawn();
+        let spot = screen.spot(at.location)?;
+        let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0) * spot.metre;
+        let (up, right) = (screen.up(), screen.right());
+        let area = Rectangle {
+            left: spot.x - reach(-right),
+            right: spot.x + reach(right),
+            bottom: spot.y - reach(-up),
+            top: spot.y + reach(up),
+        };
+        Some((spot, area))
+    }
+
     /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
-    /// or farther away where it would lie on an arrow or on another text.
+    /// or farther away where it would lie on an arrow or on another text; and on another side where it would lie on
+    /// another body, if it can stay near.
     fn beside<'a>(
         &'a self,
         planned: &'a Planned,
         (at, side): (&BodySnapshot, Side),
         moment: &Moment<'_>,
         screen: &Screen,
-        room: &mut Room,
+        (room, crowd): (&mut Room, &Room),
     ) -> Option<Text<'a>> {
-        let shape = self.bodies[at.id].drawn();
-        let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0);
-        let spot = screen.spot(at.location)?;
-        let (up, right) = (screen.up(), screen.right());
-        let [above, below, to_right, to_left] =
-            [up, -up, right, -right].map(|direction| reach(direction) * spot.metre);
-        if spot.x + to_right < -1.0
-            || spot.x - to_left > 1.0
-            || spot.y + above < -self.aspect
-            || spot.y - below > self.aspect
-        {
+        let (spot, area) = self.seen(at, screen)?;
+        if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
             return None;
         }
         let height = planned.height;
         let at_side = |side: Side, farther: f64| match side {
-            Side::Above => (0.0, above + 0.3 * height + farther, 0.5),
-            Side::Below => (0.0, -below - 0.9 * height - farther, 0.5),
-            Side::Left => (-to_left - 0.35 * height - farther, -0.3 * height, 1.0),
-            Side::Right => (to_right + 0.35 * height + farther, -0.3 * height, 0.0),
+            Side::Above => (spot.x, area.top + 0.3 * height + farther, 0.5),
+            Side::Below => (spot.x, area.bottom - 0.9 * height - farther, 0.5),
+            Side::Left => (area.left - 0.35 * height - farther, spot.y - 0.3 * height, 1.0),
+            Side::Right => (area.right + 0.35 * height + farther, spot.y - 0.3 * height, 0.0),
         };
         let said = self.said(&planned.label, moment);
         let candidate = |side: Side, lines: f64| {
             let (x, y, align) = at_side(side, lines * LINE * height);
-            let y = Vertical::Middle(spot.y + y);
-            self.kept_inside(planned.text(said.as_str().into(), (spot.x + x, y), align))
+            self.kept_inside(planned.text(said.as_str().into(), (x, Vertical::Middle(y)), align))
         };
         let others = match side {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
@@ -187,8 +198,22 @@ impl Labels {
         // A line farther on its own side, or on the opposite one, before the other two sides.
         let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
         let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
-        let mut candidates = near.chain(far).map(|(side, lines)| candidate(side, f64::from(lines)));
-        let free = candidates.find(|text| room.has_room_for(text));
+        let candidates =
+            near.clone().chain(far.clone()).map(|(side, lines)| candidate(side, f64::from(lines)));
+        let aside = near.chain([(others[2], 0), (others[3], 0)]);
+        let aside = aside.map(|(side, lines)| candidate(side, f64::from(lines)));
+        let corners = [Side::Above, Side::Below].into_iter().flat_map(|side| {
+            let y = Vertical::Middle(at_side(side, 0.0).1);
+            [(area.right, 0.0), (area.left, 1.0)]
+                .map(|(x, align)| self.kept_inside(planned.text(said.as_str().into(), (x, y), align)))
+        });
+        let farther = far.filter(|(_, lines)| *lines <= 3);
+        let farther = farther.map(|(side, lines)| candidate(side, f64::from(lines)));
+        let free = aside
+            .chain(corners)
+            .chain(farther)
+            .find(|text| room.has_room_for(text) && crowd.has_room_for(text))
+            .or_else(|| candidates.into_iter().find(|text| room.has_room_for(text)));
         let text = free.unwrap_or_else(|| candidate(side, 0.0));
         room.take_text(&text);
         let Text { x, y, align, .. } = text;

@@ -3,6 +3,7 @@
 use super::arrows::{LONGEST, round_down};
 use super::coils::{self, Coils};
 use super::decimal_step;
+use super::ghosts;
 use super::text::MARGIN;
 use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
@@ -34,6 +35,8 @@ pub enum Asking {
     Axes,
     /// The trail of a body.
     Trail,
+    /// The ghosts of a body.
+    Ghosts,
     /// The coil of a spring.
     Coil,
     /// The scale bar.
@@ -64,6 +67,10 @@ pub enum Why {
         /// The width.
         width: f64,
     },
+    /// The body stays where it is, or nearly so.
+    Still,
+    /// The body is gone before the first of its ghosts.
+    Gone,
     /// It is longer than the picture is wide.
     TooLong {
         /// Its length.
@@ -120,6 +127,18 @@ pub(super) fn find(
             found.add(Asking::Trail, &body.name, why);
         } else if trail.way > 0.0 && trail.way <= width / 2.0 {
             found.add(Asking::Trail, &body.name, Why::Wide { way: trail.way, width });
+        }
+    }
+    for asked in &survey.asked.ghosts {
+        let body = &scene.bodies[asked.body];
+        let why = match asked.way {
+            None => Why::Gone,
+            Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Why::Still,
+            Some(_) => continue,
+        };
+        // What is fixed has no ghosts, and needs none.
+        if !body.start.fixed {
+            found.add(Asking::Ghosts, &body.name, why);
         }
     }
     for (spring, radius) in survey.asked.springs.iter().zip(coils.radii()) {

@@ -256,6 +256,43 @@ fn a_label_stands_where_no_arrow_crosses_it() {
 }
 
 #[test]
+fn a_label_stands_beside_other_bodies_and_the_names_of_axes_beside_coils() {
+    let text = "[body.ball]\nshape.sphere.radius = 0.5
+        [body.other]\nshape.sphere.radius = 0.5\nlocation = [0, 1.05, 0]
+        [body.third]\nshape.sphere.radius = 0.5\nlocation = [1.3, 0, 0]
+        [label.name]\nbody = 'ball'\ntext = 'ball'\n[camera]\nlocation = [0, 0, 9]\nlook_at = [0, 0, 0]";
+    let place = |text: &str| {
+        let (scene, plan) = plan(text);
+        let frame = frames(&scene).next().unwrap();
+        let [ref label] = plan.texts(&frame)[..] else { panic!("there is one") };
+        let at = label.y.above_middle(9.0 / 16.0);
+        (label.x, at)
+    };
+    assert!(place(text).1 < 0.0, "below the ball, above which is the other");
+    // One body that fills the picture leaves the label where it is without any.
+    let wall = "\n[body.wall]\nshape.box.size = [50, 50, 1]\nlocation = [0, 0, -2]";
+    assert!(place(&format!("{text}{wall}")).1 > 0.0);
+
+    let spring = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n[grid]\nspacing = 0.4\n
+        [force.rod.spring]\nbetween = [[-1.5, 0, -0.4], 'bob']\nstiffness = 100\ncoil.radius = 0.13";
+    let (scene, with) = plan(spring);
+    let frame = frames(&scene).next().unwrap();
+    let screen = with.screen(&frame).unwrap();
+    for coil in with.coils(&frame) {
+        for part in 0..=40 {
+            let [begin, end] = coil.span.unwrap();
+            let spot = screen.spot(begin.lerp(end, f64::from(part) / 40.0)).unwrap();
+            for text in with.texts(&frame) {
+                let [left, right, bottom, top] = extent(&text);
+                let is_on = left < spot.x && spot.x < right && bottom < spot.y && spot.y < top;
+                assert!(!is_on, "{text:?}");
+            }
+        }
+    }
+    assert_eq!(with.texts(&frame).iter().filter(|text| text.says.contains("(m)")).count(), 2);
+}
+
+#[test]
 fn a_grid_of_too_many_lines_is_drawn_coarser_and_lines_are_as_thick_as_pixels() {
     let grid =
         |keys: &str| plan(&format!("[body.ball]\nshape.sphere.radius = 1\nvelocity = [10, 0, 0]\n{keys}"));

@@ -163,8 +163,8 @@ pub(super) fn ghosts(run: &Simulation) -> Vec<Ghost> {
 fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
     let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
     let height = |y: Vertical| y.above_middle(aspect);
-    let mut arrows = plan.arrows(frame);
-    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows(frame, &ghost.body)));
+    let mut arrows = plan.arrows_in_front(frame);
+    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows_in_front(frame, &ghost.body)));
     let arrow = |arrow: &picture::Arrow| Arrow {
         from: arrow.from.to_array(),
         to: arrow.to.to_array(),
@@ -233,5 +233,28 @@ fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
     match label.place {
         LabelPlace::Body { body, side, .. } => Some((body, Side::name(side))),
         LabelPlace::Corner(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::{Frames, survey};
+
+    #[test]
+    fn arrows_that_the_ground_would_hide_stand_where_scripts_have_them() {
+        let text = "simulation = { duration = 1, gravity = [0, -9.81, 0] }
+            [body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 0.5, 0]\nvelocity = [1, 9, 0]
+            arrows.force.scale = 0.01\nghosts = { every = 0.5, arrows = true }\n[environment]\nground.height = 0";
+        let scene = Scene::parse(text).unwrap();
+        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        let frame = Frames::at(&scene, 1.0).unwrap();
+        let ghosts: Vec<_> = plan.ghosts(&frame).collect();
+        assert_eq!(ghosts.len(), 2);
+        let hidden = plan.ghost_arrows(&frame, &ghosts[0].body);
+        let seen = plan.ghost_arrows_in_front(&frame, &ghosts[0].body);
+        assert_ne!(hidden, seen, "it points into the ground");
+        let arrows: Vec<Vector> = shown(&scene, &plan, &frame).arrows.iter().map(|arrow| arrow.to).collect();
+        assert!(arrows.contains(&seen[0].to.to_array()), "{arrows:?}");
     }
 }

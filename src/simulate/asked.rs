@@ -1,9 +1,9 @@
 //! How large what is shown beside the bodies gets in a run, so that a run that shows nothing of it can say so.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
-use super::Frame;
 use super::vectors::{root, shown, surface};
+use super::{Frame, Moments};
 use crate::dynamics::{Anchor, BodySnapshot, Shape};
 use crate::scene::{Body, ForceKind, Quantity, Scene};
 
@@ -14,6 +14,8 @@ pub struct Asked {
     pub arrows: Vec<AskedArrow>,
     /// The trails, in the order of their bodies.
     pub trails: Vec<AskedTrail>,
+    /// The ghosts, in the order of their bodies.
+    pub ghosts: Vec<AskedGhosts>,
     /// The springs that are drawn, in the order of the forces and their links.
     pub springs: Vec<AskedSpring>,
 }
@@ -40,6 +42,22 @@ pub struct AskedTrail {
     begin: Option<DVec3>,
     /// How far the body goes from there, m.
     pub way: f64,
+}
+
+/// The ghosts of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedGhosts {
+    /// The number of the body.
+    pub body: usize,
+    every: f64,
+    /// The time of the first that there may be, s, once the body has come.
+    first: Option<f64>,
+    /// Where the first one stands, m, and how it is turned.
+    stands: Option<(DVec3, DQuat)>,
+    /// How far the body goes from there, m; none if it is gone before.
+    pub way: Option<f64>,
+    /// How far it turns from there: the cosine of half the angle.
+    pub turn: f64,
 }
 
 /// A spring that is drawn.
@@ -83,6 +101,14 @@ impl Asked {
             }
             let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin: None, way: 0.0 });
             asked.trails.extend(trail);
+            asked.ghosts.extend(body.showing.ghosts.map(|ghosts| AskedGhosts {
+                body: number,
+                every: ghosts.every,
+                first: None,
+                stands: None,
+                way: None,
+                turn: 1.0,
+            }));
         }
         for force in &scene.forces {
             let ForceKind::Spring { links, coil: Some(_) } = &force.kind else { continue };
@@ -106,12 +132,30 @@ impl Asked {
             let begin = *trail.begin.get_or_insert(body.location);
             trail.way = trail.way.max(begin.distance(body.location));
         }
+        for ghosts in &mut self.ghosts {
+            if let Some(body) = frame.body(ghosts.body) {
+                ghosts.see(body, frame.time, Moments::slack(scene.simulation.frame_rate));
+            }
+        }
         for spring in &mut self.springs {
             let [Some(from), Some(to)] = spring.ends.each_ref().map(|end| end.place(frame)) else { continue };
             let along = (to - from).normalize_or_zero();
             let inside = spring.ends[0].depth(frame, along) + spring.ends[1].depth(frame, -along);
             spring.room = spring.room.max(from.distance(to) - inside);
         }
+    }
+}
+
+impl AskedGhosts {
+    fn see(&mut self, body: &BodySnapshot, time: f64, slack: f64) {
+        let every = self.every;
+        let first = *self.first.get_or_insert_with(|| ((time - slack) / every).ceil() * every);
+        if time < first - slack {
+            return;
+        }
+        let (location, turn) = *self.stands.get_or_insert((body.location, body.orientation));
+        self.way = Some(self.way.unwrap_or(0.0).max(location.distance(body.location)));
+        self.turn = self.turn.min(turn.dot(body.orientation).abs());
     }
 }
 

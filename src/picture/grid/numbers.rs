@@ -81,12 +81,13 @@ impl Ruled {
         &self.grid
     }
 
-    /// The numbers and names as they stand on the plane before a camera, where there is room for them.
-    pub(in super::super) fn written(&self, screen: &Screen, room: &Room) -> Written {
+    /// The numbers and names as they stand on the plane before a camera, where there is room for them. They keep off
+    /// coils, but a name stands on one rather than nowhere.
+    pub(in super::super) fn written(&self, screen: &Screen, room: &Room, coils: &Room) -> Written {
         let lines = self.axes.each_ref().map(|axis| self.in_picture(axis, screen));
         let mut titles: Vec<Placed> = Vec::new();
         for (axis, numbers) in self.axes.iter().zip(&lines) {
-            titles.extend(self.title(axis, numbers, &titles, room));
+            titles.extend(self.title(axis, numbers, &titles, [room, coils]));
         }
         let mut placed: Vec<Placed> = Vec::new();
         for numbers in lines {
@@ -99,7 +100,7 @@ impl Ruled {
             for number in numbers.into_iter().filter(|number| number.line % step == 0.0) {
                 let others = titles.iter().chain(&placed);
                 if others.into_iter().all(|other| !self.collide(other, &number))
-                    && room.is_free(self.area(&number))
+                    && [room, coils].iter().all(|room| room.is_free(self.area(&number)))
                 {
                     placed.push(number);
                 }
@@ -154,8 +155,14 @@ impl Ruled {
     }
 
     /// The name of an axis: behind or above its last number, or in the place of one, as near to the last as there is
-    /// room.
-    fn title(&self, axis: &Axis, numbers: &[Placed], others: &[Placed], room: &Room) -> Option<Placed> {
+    /// room, on no coil if that is possible.
+    fn title(
+        &self,
+        axis: &Axis,
+        numbers: &[Placed],
+        others: &[Placed],
+        [room, coils]: [&Room; 2],
+    ) -> Option<Placed> {
         let height = self.height;
         let title = |(x, y): (f64, f64), align: f64| {
             self.kept_inside(self.aligned(f64::NAN, axis.title.clone(), (x, y), align))
@@ -178,7 +185,10 @@ impl Ruled {
         };
         // Moved to the edge, it would stand on the number that it is to stand behind.
         let beyond = beyond.filter(|text| !self.collide(text, last));
-        beyond.into_iter().chain(behind).chain(instead).find(is_free)
+        let mut free = beyond.into_iter().chain(behind).chain(instead).filter(is_free);
+        let off_coils = |text: &Placed| coils.is_free(self.area(text));
+        let first = free.next()?;
+        if off_coils(&first) { Some(first) } else { free.find(off_coils).or(Some(first)) }
     }
 
     /// A name that would leave the picture, moved to its edge.
