@@ -8,7 +8,8 @@ use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
 use crate::scene::{Scene, Shutter, View};
 use crate::simulate::{
-    Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError, Survey,
+    Corrected, Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError,
+    Survey,
 };
 
 /// A scene whose run has been simulated, so that its frames can be made into scripts.
@@ -101,7 +102,9 @@ impl<'a> Run<'a> {
         let plan = self.emitter.plan();
         let small = plan.too_small().map(|largest| too_small(self.scene(), plan, largest));
         let grid = plan.too_fine_grid().map(grid_too_fine);
-        crossings
+        let corrected = self.survey().corrected.iter().map(corrected);
+        corrected
+            .chain(crossings)
             .chain(self.survey().overlap.iter().map(overlap))
             .chain(thin)
             .chain(small)
@@ -159,7 +162,8 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [Code; 7] = [
+pub(crate) const RUN_WARNINGS: [Code; 8] = [
+    Code::CorrectedStart,
     Code::Crossing,
     Code::Overlap,
     Code::TooThin,
@@ -214,6 +218,25 @@ fn rounded(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 3);
     out
+}
+
+/// That a body starts otherwise than the scene says.
+fn corrected(corrected: &Corrected) -> Diagnostic {
+    let vector = |vector: glam::DVec3| vector.to_array().map(rounded).join(", ");
+    let others = match corrected.others {
+        0 => String::new(),
+        1 => ", and so does 1 other body".to_owned(),
+        others => format!(", and so do {others} other bodies"),
+    };
+    let name = &corrected.body;
+    let message =
+        format!("`{name}` starts with another velocity than it is given, since joints hold it{others}");
+    let help = format!(
+        "it starts with `velocity = [{}]` and `angular_velocity = [{}]`; write these, or others that the joints allow",
+        vector(corrected.velocity),
+        vector(corrected.angular_velocity)
+    );
+    Diagnostic::warning(Code::CorrectedStart, message).help(help)
 }
 
 /// That a body goes through a plane.

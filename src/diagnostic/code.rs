@@ -56,6 +56,7 @@ codes! {
     CannotRead = "cannot-read",
     CannotWrite = "cannot-write",
     ComputedInclude = "computed-include",
+    CorrectedStart = "corrected-start",
     Crossing = "crossing",
     CsvBody = "csv-body",
     CsvColumn = "csv-column",

@@ -52,7 +52,7 @@ pub use record::{Recorded, Recorder};
 pub use recording::{MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use span::{Bounds, Span};
-pub use survey::{Crossing, Survey, Surveyor, survey};
+pub use survey::{Corrected, Crossing, Survey, Surveyor, survey};
 pub(crate) use vectors::anchors;
 pub use vectors::{axis, root, shown, surface};
 

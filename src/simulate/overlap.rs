@@ -108,7 +108,14 @@ impl<'a> Watch<'a> {
         let is_over = !sizes.iter().any(|size| size.has_moving);
         let bodies: Vec<Watched> = bodies.into_iter().map(numbered).collect();
         let grid = Grid::new(if is_over { 0 } else { bodies.len() });
-        let (together, were_there) = (HashSet::new(), vec![false; bodies.len()]);
+        let number = |id: usize| bodies.binary_search_by_key(&id, |body| body.id).ok();
+        let joined = scene.joints.iter().filter_map(|joint| {
+            let [i, j] = joint.kind.between().map(|end| end.body().and_then(|id| number(id.index())));
+            Some((i?.min(j?), i?.max(j?)))
+        });
+        // Where joints hold them, bodies may be within each other.
+        let together = joined.collect();
+        let were_there = vec![false; bodies.len()];
         Watch { scene, bodies, sizes, together, were_there, found: None, is_over, pause: 0, grid }
     }
 
@@ -369,6 +376,26 @@ mod tests {
         assert_eq!(overlap(&text.replace("duration = 2", "duration = 1")), None);
         assert_eq!(overlap(&text.replace("[3, 0, 0]", "[1, 0, 0]")), None);
         assert_eq!(overlap(&text.replace("[3, 0, 0]", "[0.2, 0, 0]")), None);
+    }
+
+    /// The upper half of a folding rule swings against the lower one; without the hinge, it is another body.
+    #[test]
+    fn bodies_that_a_joint_holds_may_be_within_each_other() {
+        let text = "
+            simulation = { duration = 2, frame_rate = 20 }
+            [body.lower]
+            shape.box.size = [0.1, 1, 0.1]
+            fixed = true
+            [body.upper]
+            shape.box.size = [0.1, 0.9, 0.1]
+            location = [0, 1, 0]
+            angular_velocity = [0, 0, 3]
+            velocity = [1.5, 0, 0]
+            ";
+        let hinge = "[joint.fold.hinge]\nbetween = ['lower', 'upper']\nat = [0, 0.5, 0]\naxis = [0, 0, 1]";
+        assert_eq!(overlap(&format!("{text}{hinge}")), None);
+        let others = "[body.other]\nrepeat = 1\nshape.box.size = [0.1, 1, 0.1]\nfixed = true\n";
+        assert!(overlap(&format!("{text}{others}{hinge}")).is_some());
     }
 
     #[test]

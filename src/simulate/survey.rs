@@ -21,6 +21,8 @@ pub struct Survey {
     pub crossings: Vec<Crossing>,
     /// The first two bodies that go into each other.
     pub overlap: Option<Overlap>,
+    /// The first body that starts otherwise than the scene says, since joints hold it.
+    pub corrected: Option<Corrected>,
     /// How large what is to be shown beside the bodies gets.
     pub asked: Asked,
     /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
@@ -44,6 +46,46 @@ pub struct Crossing {
     pub time: f64,
     /// How many other bodies go through the plane later.
     pub others: usize,
+}
+
+/// That a body starts otherwise than the scene says, since joints hold it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corrected {
+    /// Its name.
+    pub body: String,
+    /// The velocity that it starts with, m/s.
+    pub velocity: DVec3,
+    /// The angular velocity that it starts with, rad/s.
+    pub angular_velocity: DVec3,
+    /// How many other bodies do so.
+    pub others: usize,
+}
+
+impl Corrected {
+    /// Compares the first frame with the scene.
+    fn find(scene: &Scene, frame: &Frame) -> Option<Corrected> {
+        // Rounding is far smaller, and what is larger may be seen.
+        const NOTICEABLE: f64 = 1e-6;
+        if scene.joints.is_empty() {
+            return None;
+        }
+        let differs = |now: DVec3, given: DVec3| now.distance(given) > NOTICEABLE * given.length().max(1e-3);
+        let is_other = |&&BodySnapshot { id, velocity, angular_velocity, .. }: &&BodySnapshot| {
+            let body = &scene.bodies[id];
+            let is_free = !body.start.fixed && body.motion.is_none();
+            let start = &body.start;
+            is_free
+                && (differs(velocity, start.velocity) || differs(angular_velocity, start.angular_velocity))
+        };
+        let mut others = frame.bodies.iter().filter(is_other);
+        let first = others.next()?;
+        Some(Corrected {
+            body: scene.bodies[first.id].name.to_string(),
+            velocity: first.velocity,
+            angular_velocity: first.angular_velocity,
+            others: others.count(),
+        })
+    }
 }
 
 /// Simulates a scene to learn where it takes place; `seen` is told of every frame.
@@ -71,6 +113,7 @@ pub struct Surveyor<'a> {
     /// For each body: whether it has gone through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
+    corrected: Option<Corrected>,
     asked: Asked,
     /// The error of the energy where it is largest, J.
     error: f64,
@@ -94,6 +137,7 @@ impl<'a> Surveyor<'a> {
             awaited: free(scene).collect(),
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
+            corrected: None,
             asked: Asked::new(scene),
             error: 0.0,
             largest_kinetic: 0.0,
@@ -112,6 +156,9 @@ impl<'a> Surveyor<'a> {
             plane.see(scene, frame, &come, &mut self.crossed);
         }
         self.overlaps.see(frame);
+        if frame.index == 0 {
+            self.corrected = Corrected::find(scene, frame);
+        }
         self.asked.see(scene, frame);
         // A body that has gone through a plane is behind the scenery: the camera need not follow it.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
@@ -125,13 +172,14 @@ impl<'a> Surveyor<'a> {
 
     /// What is known after the last frame.
     pub fn finish(self) -> Survey {
-        let Surveyor { scene, spans, planes, overlaps, asked, error, largest_kinetic, .. } = self;
+        let Surveyor { scene, spans, planes, overlaps, corrected, asked, error, largest_kinetic, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
         Survey {
             spans: spans.finish(),
             crossings: planes.into_iter().filter_map(|plane| plane.crossing).collect(),
             overlap: overlaps.finish(),
+            corrected,
             asked,
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
