@@ -193,6 +193,24 @@ fn a_guided_body_comes_back_where_its_motion_has_it() {
     }
 }
 
+/// As many steps as intervals, or n bodies would cost n².
+#[test]
+fn births_of_guided_bodies_take_no_steps_of_their_own() {
+    let mut world = world(&METHODS[0], f64::INFINITY);
+    for k in 0..100 {
+        let id = world.add(ball());
+        world.drive(id, Rolling);
+        world.limit(id, &during(0.01 * f64::from(k), 0.5 + 0.01 * f64::from(k)));
+    }
+    let mut there = Vec::new();
+    for frame in 1..=10u32 {
+        let time = 0.1 * f64::from(frame);
+        there.extend(seen(&mut world, time, &[]).iter().map(|moment| moment.bodies.len()));
+        assert_eq!(world.steps(), u64::from(frame));
+    }
+    assert_eq!((there[0], there[9]), (11, 50));
+}
+
 /// Also where a moment is that of a birth, or bodies come between two moments.
 #[test]
 fn looking_at_moments_changes_nothing() {

@@ -218,7 +218,7 @@ static BODY: TableSpec = TableSpec {
             .unit("rad/s")
             .default("[0, 0, 0]")
             .also(&["spin", "omega"]),
-        Key::new("start", ANY, "When it comes: before, it is not there. Its `location` and `velocity` are those of then")
+        Key::new("start", ANY, "When it comes: before, it is not there. Its `location` and `velocity` are those of then, or of t = 0 if that is later")
             .unit("s")
             .default("it is there from the beginning")
             .also(&["birth", "born", "begin", "appears", "t0"]),
