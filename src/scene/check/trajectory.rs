@@ -119,6 +119,25 @@ pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic
         .help("`body` says what the body is called in the file")
 }
 
+/// What is wrong with a first line that names no columns, and what it should be.
+fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> {
+    let words: Vec<&str> = header.iter().flat_map(str::split_whitespace).collect();
+    let are_numbers = !words.is_empty() && words.iter().all(|word| word.parse::<f64>().is_ok());
+    let is_one = header.len() == 1 && words.len() > 2;
+    match (are_numbers, is_one) {
+        (true, true) => Some((
+            "the first line of the file names no columns",
+            "write `t,x,y,z` above it, and commas between the numbers",
+        )),
+        (true, false) => Some(("the first line of the file names no columns", "write `t,x,y,z` above it")),
+        (false, true) => Some((
+            "the columns stand without commas between them",
+            "write `t,x,y,z`, and commas in every line",
+        )),
+        (false, false) => None,
+    }
+}
+
 /// Something wrong in the file.
 struct Wrong {
     code: Code,
@@ -288,8 +307,16 @@ impl Reader<'_> {
     }
 
     fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
-        let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         let line = self.line(start);
+        if let Some((message, help)) = without_names(header) {
+            // Once for all columns.
+            if self.wrong.is_empty() {
+                self.error(Code::CsvColumn, message.to_owned(), line);
+                self.wrong.iter_mut().for_each(|wrong| wrong.help = Some(help.to_owned()));
+            }
+            return;
+        }
+        let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
         // Of one letter, any other would be near.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);

@@ -20,7 +20,10 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     let kind = habits::meant_kind(table, spec, path);
     meant.extend(kind.iter().filter(|kind| kind.word.is_some()).map(|kind| kind.way[0]));
     let mut said = Vec::new();
-    for together in habits::together(table, spec, kind.as_ref(), path, context) {
+    let has_unknown = table.entries.iter().any(|entry| spec.key(&entry.name.text).is_none());
+    let found =
+        if has_unknown { habits::together(table, spec, kind.as_ref(), path, context) } else { Vec::new() };
+    for together in found {
         context.diagnostics.push(together.error);
         meant.push(together.key);
         said.extend(together.spans);
