@@ -207,4 +207,21 @@ mod tests {
         assert_ne!(of_name("a"), of_name("b"));
         assert!(of_name("a").abs().max_element() <= 3.0);
     }
+
+    /// Rays that are cut off early are cheap behind bubbles, and leave dark glass and water black.
+    #[test]
+    fn rays_through_bubbles_end_early_unless_there_is_other_glass() {
+        let ends_early = |materials: &[&str]| {
+            let body = |(i, like): (usize, &&str)| {
+                format!("[body.b{i}]\nshape.sphere.radius = 1\nmaterial = '{like}'\n")
+            };
+            let text: String = materials.iter().enumerate().map(body).collect();
+            let scene = Scene::parse(&format!("simulation.duration = 0\n{text}")).unwrap();
+            let run = crate::Run::new(&scene).unwrap();
+            run.script(&run.frames().next().unwrap().unwrap()).unwrap().contains("adc_bailout 0.1")
+        };
+        assert!(ends_early(&["bubble", "ice", "chrome"]));
+        assert!(!ends_early(&["bubble", "tinted_glass"]) && !ends_early(&["ice", "water"]));
+        assert!(!ends_early(&["glass"]));
+    }
 }
