@@ -108,6 +108,8 @@ pub struct Surveyor<'a> {
     spans: Spans,
     /// The planes that are watched; each knows the bodies that may go through it, from the frame on in which they come.
     planes: Vec<Watched>,
+    /// The bodies that forces move, gone through once and not for each plane.
+    free: Vec<usize>,
     /// The bodies that forces move and that have not come yet.
     awaited: Vec<usize>,
     /// For each body: whether it has gone through a plane.
@@ -134,6 +136,7 @@ impl<'a> Surveyor<'a> {
             scene,
             spans: Spans::default(),
             planes: planes(scene),
+            free: free(scene).collect(),
             awaited: free(scene).collect(),
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
@@ -153,7 +156,7 @@ impl<'a> Surveyor<'a> {
             frame.body(id).is_none()
         });
         for plane in &mut self.planes {
-            plane.see(scene, frame, &come, &mut self.crossed);
+            plane.see(scene, frame, (&self.free, &come), &mut self.crossed);
         }
         self.overlaps.see(frame);
         if frame.index == 0 {
@@ -237,14 +240,20 @@ fn planes(scene: &Scene) -> Vec<Watched> {
 
 impl Watched {
     /// Looks at a frame in which some bodies have come.
-    fn see(&mut self, scene: &Scene, frame: &Frame, come: &[&BodySnapshot], crossed: &mut [bool]) {
+    fn see(
+        &mut self,
+        scene: &Scene,
+        frame: &Frame,
+        (free, come): (&[usize], &[&BodySnapshot]),
+        crossed: &mut [bool],
+    ) {
         let was_there =
             std::mem::replace(&mut self.is_there, self.body.is_none_or(|id| frame.body(id).is_some()));
         match (was_there, self.is_there) {
             (_, false) => return self.bodies.clear(),
             (true, true) => self.begin(scene, come.iter().copied()),
             // It comes itself: now all begin.
-            (false, true) => self.begin(scene, free(scene).filter_map(|id| frame.body(id))),
+            (false, true) => self.begin(scene, free.iter().filter_map(|id| frame.body(*id))),
         }
         self.watch(scene, frame, crossed);
     }
