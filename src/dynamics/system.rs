@@ -40,7 +40,7 @@ impl<'a> System<'a> {
         self.evaluate(t, state, loads);
     }
 
-    /// The forces alone, without what the constraints take: for methods that keep these by [`aim`](Self::aim).
+    /// The forces alone, without what the constraints take: for methods that keep these by impulses.
     pub fn evaluate_forces(&mut self, t: f64, state: &State, loads: &mut Loads) {
         self.model.evaluate(t, state, loads);
     }

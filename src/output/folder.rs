@@ -100,9 +100,9 @@ impl Folder {
         })
     }
 
-    /// The numbers and names of the scripts in the folder, in their order.
-    pub(super) fn scripts(&self) -> Result<Vec<(usize, String)>, OutputError> {
-        scripts(&self.path)
+    /// The numbers and names of some scripts in the folder, in their order: of frames for which `of` holds.
+    pub(super) fn scripts(&self, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
+        scripts_of(&self.path, of)
     }
 
     /// The names of the files with parts of trails in the folder, in their order.
@@ -112,7 +112,7 @@ impl Folder {
 
     /// Removes scripts and what belongs to them, and tells the numbers of the frames of which there was one.
     pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
-        let scripts = self.scripts()?;
+        let scripts = self.scripts(|_| true)?;
         let mut numbers: Vec<usize> = scripts.iter().map(|(number, _)| *number).collect();
         numbers.dedup();
         let names = scripts.into_iter().map(|(_, name)| name);
@@ -143,11 +143,17 @@ impl Folder {
 /// The numbers and names of the scripts in a folder, in their order: of each frame first the sharp one, then that of
 /// the image with motion blur.
 pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
+    scripts_of(path, |_| true)
+}
+
+fn scripts_of(path: &Path, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
     let io_error = |error| OutputError::Io(path.to_owned(), error);
     let mut scripts = Vec::new();
     for entry in fs::read_dir(path).map_err(io_error)? {
         let entry = entry.map_err(io_error)?;
-        if let Some((number, name)) = entry.file_name().to_str().and_then(|n| Some((script_number(n)?, n))) {
+        if let Some((number, name)) = entry.file_name().to_str().and_then(|n| Some((script_number(n)?, n)))
+            && of(number)
+        {
             scripts.push((number, name.to_owned()));
         }
     }

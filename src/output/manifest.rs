@@ -284,11 +284,21 @@ fn open(path: &Path) -> Option<impl io::Read> {
 
 /// Writes a manifest, one line a file.
 pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io::Result<()> {
+    write_each(out, head, entries.iter().cloned().map(Ok))
+}
+
+/// The same of files that are not all in memory.
+pub(super) fn write_each(
+    out: &mut impl Write,
+    head: &Head,
+    entries: impl Iterator<Item = io::Result<Entry>>,
+) -> io::Result<()> {
     let text = serde_json::to_string_pretty(head)?;
     // The list of files goes before the closing brace.
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"files\": [")?;
-    for (i, entry) in entries.iter().enumerate() {
+    for (i, entry) in entries.enumerate() {
+        let entry = entry?;
         let comma = if i == 0 { "" } else { "," };
         // The name of a file that somebody else chose may need escapes.
         let name = serde_json::to_string(&entry.name)?;

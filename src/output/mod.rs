@@ -8,6 +8,7 @@ mod compare;
 mod edited;
 mod error;
 mod folder;
+mod ledger;
 mod manifest;
 mod moment;
 mod tally;

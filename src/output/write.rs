@@ -1,13 +1,13 @@
 //! All selected scripts of a run into a folder.
 
-use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 use std::fs;
-use std::io::Write;
-use std::sync::{Mutex, PoisonError};
+use std::io::{self, Write};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
+use super::ledger::Ledger;
 use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
 use super::{Folder, OutputError, Tally, assets};
@@ -64,8 +64,8 @@ pub fn write(
     put_head(State::Writing, &untouched)?;
 
     let trails = TrailFiles::default();
-    let mut entries = scripts(run, folder, selection, &trails, done)?;
-    let scripts = frames(&entries);
+    let scripts = Scripts::write(run, folder, selection, &trails, done)?;
+    let mut entries = Vec::new();
     let trails = trails.into_entries();
     for (name, text) in run.emitter().sequence(run.scene())? {
         folder.write(name, text.as_bytes())?;
@@ -76,13 +76,14 @@ pub fn write(
     let kept_trails = kept_trails(folder, &trails, &known)?;
     entries.extend(trails);
     removed.retain(|frame| !selection.contains(*frame));
-    let bytes = entries.iter().map(|entry| entry.bytes).sum();
+    let bytes = scripts.bytes + entries.iter().map(|entry| entry.bytes).sum::<u64>();
     let kept = kept(folder, selection, &known)?;
-    let written = Written { scripts, bytes, kept: frames(&kept), removed: removed.len() };
+    let written = Written { scripts: scripts.frames, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
     entries.extend(kept_trails);
     entries.sort_by(in_order);
-    folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
+    let all = scripts.merged(entries, selection);
+    folder.write_with(MANIFEST, |file| manifest::write_each(file, &head, all))?;
     Ok(written)
 }
 
@@ -91,42 +92,86 @@ fn frames(entries: &[Entry]) -> usize {
     entries.chunk_by(|a, b| a.frame == b.frame).count()
 }
 
-/// Writes the selected scripts. The frames come one after another, as the recording has them; whichever thread is
-/// free takes the next, so there are never more frames in memory than threads.
-fn scripts(
-    run: &Run<'_>,
-    folder: &Folder,
-    selection: &Selection,
-    trails: &TrailFiles,
-    done: &(dyn Fn() + Sync),
-) -> Result<Vec<Entry>, OutputError> {
-    let frames = run.scene().simulation.frames();
-    // One list for all: a list of each frame would take more memory than what is in it.
-    let per_frame = if run.shutter().is_some() { 2 } else { 1 };
-    let entries = Mutex::new(Vec::with_capacity(selection.count_within(frames) * per_frame));
-    let list = |entry| entries.lock().unwrap_or_else(PoisonError::into_inner).push(entry);
-    let put = |exposed| -> Result<(), OutputError> {
-        let exposure: Exposure = exposed?;
-        let frame = &exposure.frame;
-        let text = run.script(frame)?;
-        trails.put(run, folder, frame)?;
-        let name = frame_name(frame.index, frames);
-        folder.write(&name, text.as_bytes())?;
-        list(Entry::of(Some(frame.index), name, text.as_bytes()));
-        if let Some(shutter) = run.shutter() {
-            list(put_blurred(run, folder, &exposure, shutter, trails)?);
-        }
-        done();
-        Ok(())
-    };
-    run.selected(selection).par_bridge().try_for_each(put)?;
-    let mut entries = entries.into_inner().unwrap_or_else(PoisonError::into_inner);
-    entries.sort_unstable_by(in_order);
-    Ok(entries)
+/// The scripts that a run has written.
+struct Scripts {
+    ledger: Ledger,
+    /// The number of frames of the scene.
+    scene_frames: usize,
+    /// The number of scripts of a frame: with motion blur, two.
+    per_frame: usize,
+    /// The number of frames of which there are scripts now.
+    frames: usize,
+    /// The bytes of all of them.
+    bytes: u64,
+}
+
+impl Scripts {
+    /// Writes the selected scripts. The frames come one after another, as the recording has them; whichever thread is
+    /// free takes the next, so there are never more frames in memory than threads.
+    fn write(
+        run: &Run<'_>,
+        folder: &Folder,
+        selection: &Selection,
+        trails: &TrailFiles,
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Scripts, OutputError> {
+        let scene_frames = run.scene().simulation.frames();
+        let per_frame = if run.shutter().is_some() { 2 } else { 1 };
+        let lost = |error| OutputError::Io(folder.path().join(MANIFEST), error);
+        let ledger = Ledger::new(scene_frames * per_frame).map_err(lost)?;
+        let (frames, bytes) = (AtomicUsize::new(0), AtomicU64::new(0));
+        let note = |place: usize, entry: &Entry| {
+            bytes.fetch_add(entry.bytes, Ordering::Relaxed);
+            ledger.put(place, entry.bytes, entry.sha256).map_err(lost)
+        };
+        let put = |exposed| -> Result<(), OutputError> {
+            let exposure: Exposure = exposed?;
+            let frame = &exposure.frame;
+            let text = run.script(frame)?;
+            trails.put(run, folder, frame)?;
+            let name = frame_name(frame.index, scene_frames);
+            folder.write(&name, text.as_bytes())?;
+            let first = frame.index * per_frame;
+            note(first, &Entry::of(Some(frame.index), name, text.as_bytes()))?;
+            if let Some(shutter) = run.shutter() {
+                note(first + 1, &put_blurred(run, folder, &exposure, shutter, trails)?)?;
+            }
+            frames.fetch_add(1, Ordering::Relaxed);
+            done();
+            Ok(())
+        };
+        run.selected(selection).par_bridge().try_for_each(put)?;
+        let (frames, bytes) = (frames.into_inner(), bytes.into_inner());
+        Ok(Scripts { ledger, scene_frames, per_frame, frames, bytes })
+    }
+
+    /// The entries of the scripts among others, which stand in their order.
+    fn merged(&self, others: Vec<Entry>, selection: &Selection) -> impl Iterator<Item = io::Result<Entry>> {
+        let frames = (0..self.scene_frames).filter(|&frame| selection.contains(frame));
+        let mut scripts = frames
+            .flat_map(|frame| (0..self.per_frame).map(move |which| (frame, which)))
+            .map(|(frame, which)| self.entry(frame, which))
+            .peekable();
+        let mut others = others.into_iter().peekable();
+        std::iter::from_fn(move || {
+            let is_other_next = match (others.peek(), scripts.peek()) {
+                (Some(other), Some(Ok(script))) => in_order(other, script) == std::cmp::Ordering::Less,
+                (Some(_), None) => true,
+                _ => false,
+            };
+            if is_other_next { others.next().map(Ok) } else { scripts.next() }
+        })
+    }
+
+    fn entry(&self, frame: usize, which: usize) -> io::Result<Entry> {
+        let (bytes, sha256) = self.ledger.get(frame * self.per_frame + which)?;
+        let name = if which == 0 { frame_name } else { shutter_name };
+        Ok(Entry { frame: Some(frame), name: name(frame, self.scene_frames), bytes, sha256 })
+    }
 }
 
 /// First what belongs to the sequence as a whole, then the scripts in their order.
-fn in_order(a: &Entry, b: &Entry) -> Ordering {
+fn in_order(a: &Entry, b: &Entry) -> std::cmp::Ordering {
     (a.frame, &a.name).cmp(&(b.frame, &b.name))
 }
 
@@ -173,7 +218,7 @@ fn kept(
     selection: &Selection,
     known: &HashMap<String, Entry>,
 ) -> Result<Vec<Entry>, OutputError> {
-    let others = folder.scripts()?.into_iter().filter(|(frame, _)| !selection.contains(*frame));
+    let others = folder.scripts(|frame| !selection.contains(frame))?.into_iter();
     others.map(|(frame, name)| kept_entry(folder, Some(frame), name, known)).collect()
 }
 

@@ -1,0 +1,88 @@
+//! The sizes and digests of the scripts that a run writes, until the manifest lists them.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// So many are kept in memory. Of more, all are kept in a file without a name: memory does not grow with the number of frames.
+const IN_MEMORY: usize = 16_384;
+
+/// The size of a script and its SHA-256.
+type Record = [u8; 40];
+
+/// The sizes and digests of scripts by their numbers, written by any thread in any order.
+pub(super) struct Ledger(Mutex<Records>);
+
+enum Records {
+    Memory(Vec<Record>),
+    File(File),
+}
+
+impl Ledger {
+    /// Room for so many scripts.
+    pub(super) fn new(scripts: usize) -> io::Result<Ledger> {
+        let is_small = scripts <= IN_MEMORY;
+        let records = if is_small {
+            Records::Memory(vec![[0; 40]; scripts])
+        } else {
+            Records::File(tempfile::tempfile()?)
+        };
+        Ok(Ledger(Mutex::new(records)))
+    }
+
+    /// Notes a script.
+    pub(super) fn put(&self, number: usize, bytes: u64, sha256: [u8; 32]) -> io::Result<()> {
+        let mut record = [0; 40];
+        record[..8].copy_from_slice(&bytes.to_le_bytes());
+        record[8..].copy_from_slice(&sha256);
+        match &mut *self.lock() {
+            Records::Memory(records) => records[number] = record,
+            Records::File(file) => {
+                file.seek(place(number))?;
+                file.write_all(&record)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The size and the SHA-256 of a script.
+    pub(super) fn get(&self, number: usize) -> io::Result<(u64, [u8; 32])> {
+        let mut record = [0; 40];
+        match &mut *self.lock() {
+            Records::Memory(records) => record = records[number],
+            Records::File(file) => {
+                file.seek(place(number))?;
+                file.read_exact(&mut record)?;
+            }
+        }
+        let (mut bytes, mut sha256) = ([0; 8], [0; 32]);
+        bytes.copy_from_slice(&record[..8]);
+        sha256.copy_from_slice(&record[8..]);
+        Ok((u64::from_le_bytes(bytes), sha256))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Records> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn place(number: usize) -> SeekFrom {
+    SeekFrom::Start(40 * number as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_noted_in_any_order_is_read() {
+        for scripts in [10, IN_MEMORY + 10] {
+            let ledger = Ledger::new(scripts).unwrap();
+            let of = |number: usize| (number as u64 * 7, [number as u8; 32]);
+            for number in (0..10).rev() {
+                ledger.put(number, of(number).0, of(number).1).unwrap();
+            }
+            assert!((0..10).all(|number| ledger.get(number).unwrap() == of(number)), "{scripts}");
+        }
+    }
+}
