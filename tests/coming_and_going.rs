@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
 
 use glam::DVec3;
 use jabuka::dynamics::Presence;
@@ -12,6 +11,7 @@ use jabuka::{Run, Scene};
 
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 mod support;
+use support::place::Place;
 use support::{jabuka, stderr, stdout};
 
 fn scene(text: &str) -> Scene {
@@ -30,27 +30,6 @@ fn scripts(scene: &Scene) -> Vec<String> {
 /// The numbers of the bodies that are there in each frame.
 fn present(scene: &Scene) -> Vec<Vec<usize>> {
     frames(scene).iter().map(|frame| frame.bodies.iter().map(|body| body.id).collect()).collect()
-}
-
-/// A folder with files.
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new(files: &[(&str, &str)]) -> Place {
-        let place = Place(tempfile::tempdir().unwrap());
-        for (name, text) in files {
-            fs::write(place.path(name), text).unwrap();
-        }
-        place
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn scene(&self, name: &str) -> Scene {
-        Scene::from_path(self.path(name)).unwrap_or_else(|report| panic!("{}", report.to_text(false)))
-    }
 }
 
 const SPARKS: &str = "
@@ -177,7 +156,7 @@ fn a_trail_of_a_body_that_comes_back_begins_anew() {
              [body.a]\nshape.sphere.radius = 0.1\ntrail = true\n[body.b]\nshape.sphere.radius = 0.1\n",
         ),
     ]);
-    let scene = place.scene("scene.toml");
+    let scene = place.read("scene.toml");
     assert_eq!(present(&scene), [vec![0, 1], vec![0, 1], vec![1], vec![0, 1], vec![0, 1]]);
     let frames = frames(&scene);
     let points = |frame: usize| frames[frame].past.trails[0].points.iter().map(|point| point.location.x);
@@ -213,7 +192,7 @@ fn a_gap_is_where_a_body_lacks_rows_for_longer_than_usual() {
     let text = "simulation = { duration = 4, frame_rate = 10 }\n[defaults.body]\nshape.sphere.radius = 1\n\
         motion.trajectory.file = 'run.csv'\n[body.all]\n[body.few]\n[body.gaps]\n[body.once]\n[body.some]\n";
     let place = Place::new(&[("run.csv", &rows), ("scene.toml", text)]);
-    let scene = place.scene("scene.toml");
+    let scene = place.read("scene.toml");
     let (first, last) = (f64::NEG_INFINITY, f64::INFINITY);
     let expected: [&[[f64; 2]]; 5] = [
         &[[first, last]],
@@ -237,7 +216,7 @@ fn a_gap_is_where_a_body_lacks_rows_for_longer_than_usual() {
     let table = export("scene.toml", "out.csv");
     assert_eq!(table.lines().filter(|line| line.contains(",gaps,")).count(), 38);
     fs::write(place.path("again.toml"), text.replace("run.csv", "out.csv")).unwrap();
-    assert_eq!(present(&place.scene("again.toml")), there);
+    assert_eq!(present(&place.read("again.toml")), there);
 }
 
 #[test]

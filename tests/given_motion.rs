@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
 
 use glam::DVec3;
 use jabuka::simulate::{Frame, Frames};
@@ -11,6 +10,7 @@ use jabuka::{Run, Scene};
 
 #[allow(unreachable_pub, reason = "a test program has no outside")]
 mod support;
+use support::place::Place;
 use support::{jabuka, stderr, stdout};
 
 fn frames(text: &str) -> Vec<Frame> {
@@ -23,32 +23,6 @@ fn scripts(text: &str) -> Vec<String> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{}", report.to_text(false)));
     let run = Run::new(&scene).unwrap();
     run.frames().map(|frame| run.script(&frame.unwrap()).unwrap()).collect()
-}
-
-struct Place(tempfile::TempDir);
-
-impl Place {
-    fn new(files: &[(&str, &str)]) -> Place {
-        let place = Place(tempfile::tempdir().unwrap());
-        for (name, text) in files {
-            fs::write(place.path(name), text).unwrap();
-        }
-        place
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn read(&self, name: &str) -> Scene {
-        Scene::from_path(self.path(name)).unwrap_or_else(|report| panic!("{}", report.to_text(false)))
-    }
-
-    fn errors(&self, name: &str) -> String {
-        let output = jabuka().current_dir(self.0.path()).args(["check", name]).output().unwrap();
-        assert_eq!(output.status.code(), Some(1));
-        stderr(&output)
-    }
 }
 
 #[test]

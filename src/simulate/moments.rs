@@ -134,7 +134,7 @@ mod tests {
         }
         assert!(moments.after(5).is_empty());
         assert_eq!(moments.intervals(), 5);
-        // From any other time on, it may be open into the interval after the next frame.
+        // A shutter that opens between two frames may close after the second one.
         let moments = moments.with(0.15);
         assert!(near(&moments.after(1), &[0.12, 0.15, 0.16, 0.17]), "{:?}", moments.after(1));
         assert!(near(&moments.after(2), &[0.21, 0.22, 0.26]), "{:?}", moments.after(2));

@@ -1,9 +1,12 @@
 //! Bodies that go into each other, since nothing keeps them apart.
 
+mod grid;
+
 use std::collections::{BTreeMap, HashSet};
 
 use glam::{DQuat, DVec3};
 
+use self::grid::{Cell, Grid};
 use super::Frame;
 use crate::dynamics::{Placed, Shape};
 use crate::scene::Scene;
@@ -22,8 +25,8 @@ pub struct Overlap {
 
 /// Watches a run for the first two bodies that go into each other.
 ///
-/// Bodies that touch in the first frame in which both are there belong together and may do as they like; so may two of which neither is moved
-/// by forces. What is not convex — meshes, rings — is not watched, and what happens between frames is not seen.
+/// Bodies that touch in the first frame in which both are there belong together and may do as they like; so may two that
+/// a joint holds, and two of which neither is moved by forces. What is not convex — meshes, rings — is not watched, and what happens between frames is not seen.
 ///
 /// The work is proportional to the number of bodies. After a frame with very many near pairs, some frames are passed over;
 /// where almost everything is near everything, nothing is watched.
@@ -253,92 +256,6 @@ fn parts(shape: &Shape) -> impl Iterator<Item = (&Shape, DVec3, DQuat)> {
     };
     let parts = parts.iter().map(|part| (&part.shape, part.location, part.orientation));
     whole.into_iter().chain(parts).filter(|(shape, ..)| shape.farthest(DVec3::X).is_some())
-}
-
-/// A cell of a grid.
-#[derive(Clone, Copy)]
-struct Cell([i64; 3]);
-
-impl Cell {
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "what is too far away to be counted shares the last cell"
-    )]
-    fn of(edge: f64, location: DVec3) -> Cell {
-        // One less than the largest number, so that a neighbour can be counted.
-        Cell(location.to_array().map(|coordinate| libm::floor(coordinate / edge).clamp(-9e15, 9e15) as i64))
-    }
-
-    /// The cell and the 26 around it.
-    fn around(self) -> impl Iterator<Item = Cell> {
-        (0..27).map(move |n| self.moved(n))
-    }
-
-    /// Half of the 26 cells around it: of two neighbours, one has the other among these.
-    fn half_around(self) -> impl Iterator<Item = Cell> {
-        (14..27).map(move |n| self.moved(n))
-    }
-
-    fn moved(self, n: i64) -> Cell {
-        let Cell([x, y, z]) = self;
-        Cell([x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1])
-    }
-
-    /// What tells it from others; two may have the same, by chance.
-    fn key(self, size: usize, moves: bool) -> u64 {
-        // Odd numbers whose bits look random: the golden ratio, and the square roots of 2, 3 and 5, in units of 2⁻⁶⁴.
-        const FACTORS: [u64; 4] =
-            [0x9E37_79B9_7F4A_7C15, 0x6A09_E667_F3BC_C909, 0xBB67_AE85_84CA_A73B, 0x3C6E_F372_FE94_F82B];
-        let kind = 2 * size as u64 + u64::from(moves);
-        let numbers = self.0.map(i64::cast_unsigned).into_iter().chain([kind]);
-        let sum =
-            numbers.zip(FACTORS).fold(0, |sum: u64, (n, factor)| sum.wrapping_add(n.wrapping_mul(factor)));
-        (sum ^ (sum >> 32)).wrapping_mul(FACTORS[0])
-    }
-}
-
-/// Which bodies are in which cell.
-#[derive(Default)]
-struct Grid {
-    /// The last body of each cell; cells share a place by chance.
-    last: Vec<u32>,
-    /// For each body, the one before it at the same place.
-    before: Vec<u32>,
-}
-
-impl Grid {
-    const NONE: u32 = u32::MAX;
-
-    fn new(bodies: usize) -> Grid {
-        let places = if bodies == 0 { 0 } else { (2 * bodies).next_power_of_two() };
-        Grid { last: vec![Grid::NONE; places], before: vec![Grid::NONE; bodies] }
-    }
-
-    /// Puts the bodies that have one into the cells with these keys, and what was in them is gone.
-    #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
-    fn fill(&mut self, keys: impl Iterator<Item = Option<u64>>) {
-        self.last.fill(Grid::NONE);
-        for (body, key) in keys.enumerate() {
-            let Some(key) = key else { continue };
-            let place = self.place(key);
-            self.before[body] = std::mem::replace(&mut self.last[place], body as u32);
-        }
-    }
-
-    /// Shows the bodies in a cell, and a few others.
-    fn each(&self, key: u64, mut show: impl FnMut(usize)) {
-        let mut next = self.last[self.place(key)];
-        while next != Grid::NONE {
-            show(next as usize);
-            next = self.before[next as usize];
-        }
-    }
-
-    /// The first bits of a key: those of the product depend on all bits of its factors.
-    #[allow(clippy::cast_possible_truncation, reason = "the remainder is less than the number of places")]
-    fn place(&self, key: u64) -> usize {
-        (key >> 32) as usize & (self.last.len() - 1)
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use jabuka::dynamics::{
-    Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, World,
+    Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, State, World,
 };
 
 /// A field B that swings with time; on each body, a force B and, as on a magnet along its x axis, a torque R x × B:
@@ -72,4 +72,17 @@ pub(crate) fn tether(body: BodyId, stiffness: f64, damping: f64) -> Spring {
 /// Linear drag on a body, in air at rest.
 pub(crate) fn air(body: BodyId, linear: f64) -> Drag {
     Drag { bodies: vec![body], linear, quadratic: 0.0, wind: DVec3::ZERO }
+}
+
+/// The largest deviation between two states, of all quantities.
+pub(crate) fn distance(a: &State, b: &State) -> f64 {
+    let mut largest = (a.accounts.work - b.accounts.work).abs();
+    for i in 0..a.len() {
+        largest = largest
+            .max((a.location[i] - b.location[i]).length())
+            .max((a.velocity[i] - b.velocity[i]).length())
+            .max((a.orientation[i] - b.orientation[i]).length())
+            .max((a.angular_momentum[i] - b.angular_momentum[i]).length());
+    }
+    largest
 }

@@ -3,10 +3,10 @@
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
     Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Hinge, METHODS, Method, Motion, Pose, Presence,
-    RigidBody, Rod, Shape, Slider, State, UniformGravity, World,
+    RigidBody, Rod, Shape, Slider, UniformGravity, World,
 };
 
-use crate::common::{ball, method};
+use crate::common::{ball, distance, method};
 
 const G: f64 = 9.81;
 
@@ -140,19 +140,6 @@ fn hinge(world: &mut World, bodies: [Option<BodyId>; 2], point: DVec3, axis: DVe
     let between = bodies.map(|body| anchor(world, body, point));
     let axis = bodies.map(|body| frame(world, body).1.conjugate() * axis);
     world.add_constraint(Hinge { between, axis });
-}
-
-/// The largest deviation between two states, of all quantities.
-fn distance(a: &State, b: &State) -> f64 {
-    let mut largest = (a.accounts.work - b.accounts.work).abs();
-    for i in 0..a.len() {
-        largest = largest
-            .max((a.location[i] - b.location[i]).length())
-            .max((a.velocity[i] - b.velocity[i]).length())
-            .max((a.orientation[i] - b.orientation[i]).length())
-            .max((a.angular_momentum[i] - b.angular_momentum[i]).length());
-    }
-    largest
 }
 
 /// As in `order.rs`, with rates of up to 5 /s: the slope is off by 5 / 256 / 1.4 of D.

@@ -5,7 +5,7 @@ use jabuka::dynamics::{
     Anchor, BodyId, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
 };
 
-use crate::common::{SwingingField, air, ball, method, tether};
+use crate::common::{SwingingField, air, ball, distance, method, tether};
 
 /// All problems last 1 s, with rates of about 2 /s, and are solved in 128 and in 256 steps.
 ///
@@ -22,19 +22,6 @@ fn world(method: &'static Method, steps: u32, body: RigidBody) -> World {
     world.set_step(1.0 / f64::from(steps));
     world.add(body);
     world
-}
-
-/// The largest deviation between two states, of all quantities.
-fn distance(a: &State, b: &State) -> f64 {
-    let mut largest = (a.accounts.work - b.accounts.work).abs();
-    for i in 0..a.len() {
-        largest = largest
-            .max((a.location[i] - b.location[i]).length())
-            .max((a.velocity[i] - b.velocity[i]).length())
-            .max((a.orientation[i] - b.orientation[i]).length())
-            .max((a.angular_momentum[i] - b.angular_momentum[i]).length());
-    }
-    largest
 }
 
 fn assert_orders(problem: Problem, exact: &State) {

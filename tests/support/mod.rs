@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test program uses some of it")]
 
 pub(crate) mod commands;
+pub(crate) mod place;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -113,8 +113,8 @@ pub(super) fn check(
     context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
 }
 
-/// The shortest time that the start of a scene shows: in which a body comes as far as another one is from it, at the speed at
-/// which the two move against each other, or a spring turns a motion round.
+/// The shortest time in which the motion at the start changes. For two bodies, it is their distance divided by their relative
+/// speed; for a spring, √(m / k).
 fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
     let free = |body: &Body| body.motion.is_none() && !body.start.fixed;
     let bounded: Vec<&Body> =

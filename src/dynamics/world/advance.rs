@@ -1,0 +1,160 @@
+//! How a world advances: steps, births and deaths on the way, and looks between two steps.
+
+use super::super::{Snapshot, State, Step, System};
+use super::{World, picture};
+
+/// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
+/// fractions have rounding errors, and 0.1 s are ten steps of 0.01 s.
+const STEP_TOLERANCE: f64 = 1e-9;
+
+impl World {
+    /// The number of equal steps that [`advance_to`](Self::advance_to) makes of an interval (s): the fewest that are not
+    /// longer than the longest allowed; at least 1, at most `u32::MAX`.
+    #[must_use]
+    pub fn steps_within(&self, interval: f64) -> u32 {
+        let steps = (interval / self.step * (1.0 - STEP_TOLERANCE)).ceil();
+        // The conversion saturates, so this holds for every number, and for what is not one.
+        (steps as u32).max(1)
+    }
+
+    /// Makes one step of `dt` seconds, however long. Bodies that come or go meanwhile do so at its end.
+    pub fn step(&mut self, dt: f64) {
+        self.depart();
+        self.step_from(self.time, dt);
+        self.time += dt;
+        self.arrive();
+    }
+
+    fn step_from(&mut self, t: f64, dt: f64) {
+        self.settle();
+        self.ledger.close(&self.model, t, &self.state);
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.begin(&self.state);
+        self.integrator.advance(&mut system, t, dt, &mut self.state);
+        system.settle(t + dt, &mut self.state);
+        self.steps += 1;
+    }
+
+    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
+    /// not later (or not finite) leaves all as it is.
+    pub fn advance_to(&mut self, t: f64) {
+        self.advance_seeing(t, &[], &mut |_| {});
+    }
+
+    pub(super) fn advance_seeing(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        if !(t > self.time && t.is_finite()) {
+            return;
+        }
+        if self.calendar.next().is_none_or(|next| next > t) {
+            self.advance_evenly(t, moments, see);
+        } else if self.model.is_given() {
+            // Steps mean nothing here, and one for each birth would make n bodies cost n². A copy goes ahead to the moments.
+            let mut copy = None;
+            for &moment in moments {
+                let ahead = copy.get_or_insert_with(|| self.clone());
+                ahead.advance_through(moment);
+                see(ahead.peek());
+            }
+            self.advance_through(t);
+        } else {
+            self.advance_by_events(t, moments, see);
+        }
+    }
+
+    /// Advances in steps that end at each birth and death.
+    fn advance_by_events(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let mut left = moments;
+        while self.time < t {
+            self.depart();
+            let stop = self.calendar.next().map_or(t, |next| next.min(t));
+            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
+            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
+            left = later;
+            self.advance_evenly(stop, before, see);
+            self.arrive();
+            here.iter().for_each(|_| see(self.peek()));
+        }
+    }
+
+    /// Advances to time `t`, and lets come and go at its end who does meanwhile.
+    fn advance_through(&mut self, t: f64) {
+        self.depart();
+        self.advance_evenly(t, &[], &mut |_| {});
+        self.arrive();
+    }
+
+    /// Time goes on: lets go who was there until now.
+    fn depart(&mut self) {
+        let due = self.calendar.depart(self.time);
+        self.change(&due);
+    }
+
+    /// A time is reached: lets come who is born now.
+    fn arrive(&mut self) {
+        let due = self.calendar.arrive(self.time);
+        self.change(&due);
+        // At once, so that the books do not depend on who looks at this moment.
+        self.settle();
+        self.ledger.close(&self.model, self.time, &self.state);
+    }
+
+    fn change(&mut self, due: &[(usize, bool)]) {
+        if !due.is_empty() {
+            self.about_to_change();
+            self.model.let_come_and_go(due, &mut self.state);
+        }
+    }
+
+    /// The present moment, which leaves no trace in the books.
+    fn peek(&mut self) -> Snapshot {
+        let balance = self.ledger.peek(&self.model, self.time, &self.state);
+        let mut system = System::new(&self.model, &mut self.solver);
+        picture(&mut system, self.time, &self.state, balance, &mut self.loads)
+    }
+
+    fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let interval = t - self.time;
+        let start = self.time;
+        let steps = self.steps_within(interval);
+        let dt = interval / f64::from(steps);
+        let mut left = moments;
+        let mut reached = start;
+        for k in 0..steps {
+            // Not start + dt + dt + …: rounding errors would add up.
+            let begin = start + f64::from(k) * dt;
+            let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
+            reached = begin + dt;
+            let (within, later) = left.split_at(left.partition_point(|&moment| moment <= end));
+            left = later;
+            if within.is_empty() {
+                self.step_from(begin, dt);
+                continue;
+            }
+            self.before.clone_from(&self.state);
+            self.step_from(begin, dt);
+            self.look_within(begin, dt, within, see);
+        }
+        self.time = t;
+        // Exactly there, and not where the sum of the steps has it.
+        if reached.to_bits() != t.to_bits() {
+            self.model.place(t, &mut self.state);
+        }
+    }
+
+    /// Looks at some moments of the step that was made last.
+    fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let Self { model, state, integrator, solver, ledger, loads, before, .. } = self;
+        let step = Step { model, start, duration, before, after: state };
+        let mut system = System::new(model, solver);
+        let dense = integrator.dense(&mut system, step);
+        let mut within = State::default();
+        for &time in moments {
+            dense.at(time, &mut within);
+            if system.is_constrained() {
+                system.settle(time, &mut within);
+            }
+            let balance = ledger.peek(model, time, &within);
+            see(picture(&mut system, time, &within, balance, loads));
+        }
+    }
+}
