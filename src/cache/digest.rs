@@ -38,7 +38,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         }
     }
     for joint in &scene.joints {
-        writeln!(text, "{:?}", joint.kind)?;
+        writeln!(text, "{:?} {:?}", joint.kind, joint.servo)?;
     }
     Ok(())
 }

@@ -88,9 +88,7 @@ mod world;
 
 pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
-pub use constraint::{
-    Ball, Constraint, Direction, Equations, Fixed, Hinge, Member, Members, Rod, Row, Slider,
-};
+pub use constraint::*;
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use self::away::Away;
-use super::{Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, Shape, State};
+use super::{Accounts, Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, Shape, State};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -274,9 +274,9 @@ impl Model {
     pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
         self.force.write(&mut loads.force, self.len());
         self.torque.write(&mut loads.torque, self.len());
-        loads.power = 0.0;
+        loads.power = Accounts::default();
         for &i in &self.torqued {
-            loads.power += self.torque.get(i).dot(self.angular_velocity(i, state));
+            loads.power.work += self.torque.get(i).dot(self.angular_velocity(i, state));
         }
         let moment = Moment { time, state, model: self };
         for force in &self.forces {
@@ -289,7 +289,7 @@ impl Model {
         for (i, _) in self.guided() {
             // What guides the body bears the loads on it, and so does their work, with the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
-            loads.power -= loads.force[i].dot(state.velocity[i]) + turning;
+            loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }
         for &i in &self.unmoved {
             loads.force[i] = DVec3::ZERO;

@@ -28,22 +28,32 @@ pub struct State {
 pub struct Accounts {
     /// The work of the forces without a potential: the integral of their power over time.
     pub work: f64,
+    /// The work of the motors of joints.
+    pub motors: f64,
+    /// What is taken when a joint runs into a limit, or a rope becomes taut; never positive.
+    pub limits: f64,
 }
 
 impl Accounts {
     /// The names of the accounts, in the order of [`to_array`](Self::to_array).
-    pub const NAMES: [&'static str; 1] = ["work"];
+    pub const NAMES: [&'static str; 3] = ["work", "motors", "limits"];
 
     /// All entries, in the order of the names.
     #[must_use]
     pub fn to_array(self) -> [f64; Self::NAMES.len()] {
-        [self.work]
+        [self.work, self.motors, self.limits]
     }
 
     /// The accounts with these entries, in the order of the names.
     #[must_use]
-    pub fn from_array([work]: [f64; Self::NAMES.len()]) -> Self {
-        Self { work }
+    pub fn from_array([work, motors, limits]: [f64; Self::NAMES.len()]) -> Self {
+        Self { work, motors, limits }
+    }
+
+    /// Adds `factor` times each entry of others: with powers (W) and a time (s), what they bring in meanwhile.
+    pub fn add(&mut self, factor: f64, others: Accounts) {
+        let (own, others) = (self.to_array(), others.to_array());
+        *self = Accounts::from_array(std::array::from_fn(|i| own[i] + factor * others[i]));
     }
 
     /// The sum of all, J.

@@ -40,9 +40,12 @@ impl<'a> System<'a> {
         self.evaluate(t, state, loads);
     }
 
-    /// The forces alone, without what the constraints take: for methods that keep these by impulses.
+    /// The forces and the motors that push as hard as they can, without what the constraints take: for methods that keep these by
+    /// impulses.
     pub fn evaluate_forces(&mut self, t: f64, state: &State, loads: &mut Loads) {
-        self.model.evaluate(t, state, loads);
+        self.model.sum(t, state, loads);
+        self.solver.drive(self.model, t, state, loads);
+        self.model.bear(state, loads);
     }
 
     /// Changes the velocities at the beginning of a step from `t` to `t` + `dt` such that bodies on which nothing acts
@@ -51,9 +54,31 @@ impl<'a> System<'a> {
         self.solver.aim(self.model, t, dt, state);
     }
 
-    /// To be called before a step from this state.
-    pub(super) fn begin(&mut self, state: &State) {
-        self.solver.begin(self.model, state);
+    /// To be called before a step from this state at time `t`.
+    pub(super) fn begin(&mut self, t: f64, state: &State) {
+        self.solver.begin(self.model, t, state);
+    }
+
+    /// After changes by hand: brings the bodies to where the constraints hold, and finds out which of these push. `loads` is
+    /// room to work in.
+    pub(super) fn start(&mut self, t: f64, state: &mut State, loads: &mut Loads) {
+        self.model.place(t, state);
+        self.solver.start(self.model, t, state, loads);
+    }
+
+    /// Whether something can happen within a step.
+    pub(super) fn has_events(&self) -> bool {
+        self.solver.has_events()
+    }
+
+    /// How far the bodies are from the next event, which has happened where this is negative; and its row.
+    pub(super) fn margin(&mut self, t: f64, state: &State, loads: &mut Loads) -> (f64, usize) {
+        self.solver.margin(self.model, t, state, loads)
+    }
+
+    /// At an event: takes its impulses, and finds out which constraints push from then on.
+    pub(super) fn decide(&mut self, t: f64, state: &mut State, loads: &mut Loads) {
+        self.solver.decide(self.model, t, state, loads);
     }
 
     /// Places the bodies whose motion is given, and moves the others the shortest way to where all constraints hold; takes out

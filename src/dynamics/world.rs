@@ -1,6 +1,7 @@
 //! Bodies, forces, a method of integration and a clock.
 
 mod advance;
+mod piece;
 
 use std::sync::Arc;
 
@@ -165,8 +166,7 @@ impl World {
             self.is_settled = true;
             let accounts = self.state.accounts;
             let mut system = System::new(&self.model, &mut self.solver);
-            system.begin(&self.state);
-            system.settle(self.time, &mut self.state);
+            system.start(self.time, &mut self.state, &mut self.loads);
             // What this gives and takes is booked with the change itself.
             self.state.accounts = accounts;
         }
@@ -213,7 +213,7 @@ impl World {
     pub fn forces(&mut self) -> &[DVec3] {
         self.settle();
         let mut system = System::new(&self.model, &mut self.solver);
-        system.begin(&self.state);
+        system.begin(self.time, &self.state);
         system.evaluate(self.time, &self.state, &mut self.loads);
         self.model.guide(self.time, &mut self.loads);
         &self.loads.force
@@ -222,7 +222,7 @@ impl World {
     /// By how much constraints do not hold: the largest value of all their equations, in metres or, of a turn, in radians.
     pub fn violation(&mut self) -> f64 {
         self.settle();
-        self.solver.violation(&self.model, &self.state)
+        self.solver.violation(&self.model, self.time, &self.state)
     }
 
     /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
@@ -335,7 +335,7 @@ fn picture(
     loads: &mut Loads,
 ) -> Snapshot {
     let model = system.model();
-    system.begin(state);
+    system.begin(time, state);
     system.evaluate(time, state, loads);
     model.guide(time, loads);
     let body = |id: usize| BodySnapshot {

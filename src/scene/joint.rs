@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use super::Color;
-use crate::dynamics::{Anchor, Ball, Constraint, Fixed, Hinge, Rod, Slider};
+use super::timed::Timed;
+use crate::dynamics::{
+    Anchor, Ball, Constraint, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider, Target,
+};
 
 /// What holds two bodies together, or a body to a point of the world.
 #[derive(Clone, Debug)]
@@ -12,12 +15,14 @@ pub struct Joint {
     pub name: String,
     /// What it is.
     pub kind: JointKind,
+    /// The motor that gives way, if it has one.
+    pub servo: Option<Servo>,
     /// How it is drawn, if it is.
     pub look: Option<JointLook>,
 }
 
 /// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the number of a body of the scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum JointKind {
     /// Two points stay together.
     Ball(Ball),
@@ -29,6 +34,12 @@ pub enum JointKind {
     Fixed(Fixed),
     /// Two points keep their distance.
     Rod(Rod),
+    /// The distance of two points does not grow.
+    Rope(Rope),
+    /// A rope that runs over two points.
+    Pulley(Pulley),
+    /// Two joints move together.
+    Gear(Gear),
 }
 
 /// How a joint is drawn: a rod from end to end, any other as a pin.
@@ -43,28 +54,49 @@ pub struct JointLook {
 impl JointKind {
     /// What holds the bodies of a world.
     pub fn constraint(&self) -> Arc<dyn Constraint> {
-        match *self {
-            JointKind::Ball(ball) => Arc::new(ball),
-            JointKind::Hinge(hinge) => Arc::new(hinge),
-            JointKind::Slider(slider) => Arc::new(slider),
-            JointKind::Fixed(fixed) => Arc::new(fixed),
-            JointKind::Rod(rod) => Arc::new(rod),
+        match self {
+            JointKind::Ball(ball) => Arc::new(*ball),
+            JointKind::Hinge(hinge) => Arc::new(hinge.clone()),
+            JointKind::Slider(slider) => Arc::new(slider.clone()),
+            JointKind::Fixed(fixed) => Arc::new(*fixed),
+            JointKind::Rod(rod) => Arc::new(*rod),
+            JointKind::Rope(rope) => Arc::new(*rope),
+            JointKind::Pulley(pulley) => Arc::new(*pulley),
+            JointKind::Gear(gear) => Arc::new(*gear),
         }
     }
 
-    /// Its two ends.
+    /// Its two ends; those of a gear are what the two joints turn.
     pub fn between(&self) -> [Anchor; 2] {
         match self {
             JointKind::Ball(Ball { between })
             | JointKind::Hinge(Hinge { between, .. })
             | JointKind::Slider(Slider { between, .. })
             | JointKind::Fixed(Fixed { between, .. })
-            | JointKind::Rod(Rod { between, .. }) => *between,
+            | JointKind::Rod(Rod { between, .. })
+            | JointKind::Rope(Rope { between, .. })
+            | JointKind::Pulley(Pulley { between, .. }) => *between,
+            JointKind::Gear(gear) => gear.joints.map(|joint| joint.between[1]),
         }
     }
 
     /// Whether it reaches from one end to the other, as a rod does; the ends of all others are at one place.
     pub fn is_long(&self) -> bool {
-        matches!(self, JointKind::Rod(_))
+        matches!(self, JointKind::Rod(_) | JointKind::Rope(_))
+    }
+}
+
+/// A value of a joint that a scene gives by a formula.
+#[derive(Clone, Debug)]
+pub struct Course {
+    /// The formula.
+    pub value: Timed,
+    /// What its unit is in the dynamics' unit: of degrees, π/180.
+    pub unit: f64,
+}
+
+impl Target for Course {
+    fn at(&self, t: f64) -> [f64; 3] {
+        [self.value.at(t), self.value.rate(t), self.value.curvature(t)].map(|value| self.unit * value)
     }
 }

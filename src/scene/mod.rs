@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
 pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use force::{Force, ForceKind};
-pub use joint::{Joint, JointKind, JointLook};
+pub use joint::{Course, Joint, JointKind, JointLook};
 pub use label::{
     BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
     Side,

@@ -29,6 +29,7 @@ pub fn world(scene: &Scene) -> World {
     }
     scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
     scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
+    scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
     world
 }
 

@@ -17,8 +17,8 @@ impl Force for SwingingField {
             let torque = (orientation * DVec3::X).cross(field);
             loads.torque[i] += torque;
             loads.force[i] += field;
-            loads.power += torque.dot(moment.model.angular_velocity(i, moment.state));
-            loads.power += field.dot(moment.state.velocity[i]);
+            loads.power.work += torque.dot(moment.model.angular_velocity(i, moment.state));
+            loads.power.work += field.dot(moment.state.velocity[i]);
         }
     }
 

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Hinge, METHODS, Method, Motion, Pose, Presence,
-    RigidBody, Rod, Shape, Slider, UniformGravity, World,
+    Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Freedom, Hinge, METHODS, Method, Motion, Pose,
+    Presence, RigidBody, Rod, Shape, Slider, UniformGravity, World,
 };
 
 use crate::common::{ball, distance, method};
@@ -138,8 +138,8 @@ fn anchor(world: &World, body: Option<BodyId>, point: DVec3) -> Anchor {
 
 fn hinge(world: &mut World, bodies: [Option<BodyId>; 2], point: DVec3, axis: DVec3) {
     let between = bodies.map(|body| anchor(world, body, point));
-    let axis = bodies.map(|body| frame(world, body).1.conjugate() * axis);
-    world.add_constraint(Hinge { between, axis });
+    let [first, second] = bodies.map(|body| frame(world, body).1);
+    world.add_constraint(Hinge::new(between, first.conjugate() * axis, second.conjugate() * first));
 }
 
 /// As in `order.rs`, with rates of up to 5 /s: the slope is off by 5 / 256 / 1.4 of D.
@@ -383,7 +383,7 @@ fn a_slider_leads_along_its_axis_alone() {
         let block = world.add(block);
         let arm = DVec3::new(0.1, 0.05, 0.0);
         let between = [Anchor::Point(DVec3::Y + arm), at(block, arm)];
-        world.add_constraint(Slider { between, axis, turned: DQuat::IDENTITY });
+        world.add_constraint(Slider { between, axis, turned: DQuat::IDENTITY, freedom: Freedom::default() });
         world.advance_to(1.0);
         let way = world.location(block) - DVec3::Y;
         let expected = -0.25 * G;

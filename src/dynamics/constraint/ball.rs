@@ -13,7 +13,7 @@ pub struct Ball {
 
 impl Constraint for Ball {
     fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(self.between)
+        parts::bodies(&self.between)
     }
 
     fn rows(&self) -> usize {
@@ -21,6 +21,6 @@ impl Constraint for Ball {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        parts::same_point(&End::pair(self.between, members), 0, equations);
+        parts::same_point(&End::all(self.between, members), 0, equations);
     }
 }

@@ -17,7 +17,7 @@ pub struct Fixed {
 
 impl Constraint for Fixed {
     fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(self.between)
+        parts::bodies(&self.between)
     }
 
     fn rows(&self) -> usize {
@@ -25,7 +25,7 @@ impl Constraint for Fixed {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::pair(self.between, members);
+        let ends = End::all(self.between, members);
         parts::same_point(&ends, 0, equations);
         parts::same_turn(&ends, self.turned, 3, equations);
     }

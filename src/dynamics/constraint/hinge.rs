@@ -1,35 +1,72 @@
 //! A hinge: two points stay together, and one axis is common.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::super::{Anchor, BodyId};
 use super::member::End;
-use super::{Constraint, Equations, Members, parts};
+use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A hinge, also called a revolute joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A hinge, also called a revolute joint. Its angle is that of the second end against the first.
+#[derive(Clone, Debug)]
 pub struct Hinge {
     /// The two points.
     pub between: [Anchor; 2],
     /// The axis, a unit vector, in the axes of each end; those of a point of the world are the world's.
-    pub axis: [DVec3; 2],
+    axis: [DVec3; 2],
+    /// The rotation that takes the axes of the first end to those of the second where the angle is 0.
+    turned: DQuat,
+    /// Its limits and its motor.
+    pub freedom: Freedom,
+}
+
+impl Hinge {
+    /// A hinge that turns freely. `axis` is a unit vector in the axes of the first end; `turned` takes these axes to those of the
+    /// second end where the angle is 0.
+    #[must_use]
+    pub fn new(between: [Anchor; 2], axis: DVec3, turned: DQuat) -> Hinge {
+        Hinge { between, axis: [axis, turned * axis], turned, freedom: Freedom::default() }
+    }
+
+    /// The same hinge with limits or a motor.
+    #[must_use]
+    pub fn with(self, freedom: Freedom) -> Hinge {
+        Hinge { freedom, ..self }
+    }
+
+    /// The axis, a unit vector, in the axes of the first end.
+    #[must_use]
+    pub fn axis(&self) -> DVec3 {
+        self.axis[0]
+    }
+
+    /// Its angle.
+    #[must_use]
+    pub fn coordinate(&self) -> Coordinate {
+        let [zero, _] = parts::across(self.axis[0]);
+        Coordinate { between: self.between, axis: self.axis[0], zero: Some([zero, self.turned * zero]) }
+    }
 }
 
 impl Constraint for Hinge {
     fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(self.between)
+        parts::bodies(&self.between)
     }
 
     fn rows(&self) -> usize {
-        5
+        5 + self.freedom.rows()
+    }
+
+    fn law(&self, row: usize) -> Law {
+        row.checked_sub(5).map_or(Law::Tie, |row| self.freedom.law(row))
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::pair(self.between, members);
+        let ends = End::all(self.between, members);
         parts::same_point(&ends, 0, equations);
         let axis = ends[1].orientation * self.axis[1];
         for (i, across) in parts::across(self.axis[0]).into_iter().enumerate() {
             parts::perpendicular(&ends, ends[0].orientation * across, axis, 3 + i, equations);
         }
+        self.freedom.measure(|| self.coordinate(), 5, members, equations);
     }
 }

@@ -69,36 +69,48 @@ pub(super) struct End {
 }
 
 impl End {
-    /// The two ends of a constraint; `members` are its bodies, in the order of the ends.
-    pub(super) fn pair(between: [Anchor; 2], members: &Members<'_>) -> [End; 2] {
+    /// The ends of a constraint; `members` are its bodies, each once, in the order of the ends.
+    pub(super) fn all<const N: usize>(anchors: [Anchor; N], members: &Members<'_>) -> [End; N] {
         let mut next = 0;
-        between.map(|anchor| match anchor {
-            Anchor::Point(location) => End {
-                body: None,
-                location,
-                velocity: DVec3::ZERO,
-                centripetal: DVec3::ZERO,
-                arm: DVec3::ZERO,
-                orientation: DQuat::IDENTITY,
-                angular_velocity: DVec3::ZERO,
-            },
-            Anchor::Body { at, .. } => {
-                let body = next;
-                next += 1;
-                let member = &members[body];
-                let arm = if at == DVec3::ZERO { at } else { member.orientation * at };
-                let omega = member.angular_velocity;
-                let turning = omega.cross(arm);
-                End {
-                    body: Some(body),
-                    location: member.location + arm,
-                    velocity: member.velocity + turning,
-                    centripetal: omega.cross(turning),
-                    arm,
-                    orientation: member.orientation,
-                    angular_velocity: omega,
-                }
+        let mut slots = [None; N];
+        std::array::from_fn(|i| match anchors[i] {
+            Anchor::Point(location) => End::fixed(location),
+            Anchor::Body { id, at } => {
+                let known = anchors[..i].iter().position(|other| other.body() == Some(id));
+                let slot = known.and_then(|other| slots[other]).unwrap_or_else(|| {
+                    next += 1;
+                    next - 1
+                });
+                slots[i] = Some(slot);
+                End::on(&members[slot], slot, at)
             }
         })
+    }
+
+    fn fixed(location: DVec3) -> End {
+        End {
+            body: None,
+            location,
+            velocity: DVec3::ZERO,
+            centripetal: DVec3::ZERO,
+            arm: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            angular_velocity: DVec3::ZERO,
+        }
+    }
+
+    fn on(member: &Member, body: usize, at: DVec3) -> End {
+        let arm = if at == DVec3::ZERO { at } else { member.orientation * at };
+        let omega = member.angular_velocity;
+        let turning = omega.cross(arm);
+        End {
+            body: Some(body),
+            location: member.location + arm,
+            velocity: member.velocity + turning,
+            centripetal: omega.cross(turning),
+            arm,
+            orientation: member.orientation,
+            angular_velocity: omega,
+        }
     }
 }

@@ -5,21 +5,35 @@
 //! Integration*, 2nd ed., VII.1; the joints: D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
 mod ball;
+mod coordinate;
+mod events;
 mod factor;
 mod fixed;
+mod freedom;
+mod gear;
 mod hinge;
 mod member;
+mod modes;
 mod parts;
+mod pulley;
 mod rod;
+mod rope;
+mod servo;
 mod slider;
 mod solver;
 mod structure;
 
 pub use ball::Ball;
+pub use coordinate::Coordinate;
 pub use fixed::Fixed;
+pub use freedom::{Freedom, Motor, Target};
+pub use gear::Gear;
 pub use hinge::Hinge;
 pub use member::Member;
+pub use pulley::Pulley;
 pub use rod::Rod;
+pub use rope::Rope;
+pub use servo::Servo;
 pub use slider::Slider;
 pub(super) use solver::Solver;
 
@@ -37,8 +51,27 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// The number of its equations.
     fn rows(&self) -> usize;
 
+    /// What one of its equations may do.
+    fn law(&self, _row: usize) -> Law {
+        Law::Tie
+    }
+
     /// Writes all equations at one moment. `members` are the bodies, in the order of [`bodies`](Self::bodies).
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
+}
+
+/// What an equation may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// c = 0, whatever it takes.
+    Tie,
+    /// c ≥ 0: it pushes only where c would become negative, and does not pull.
+    Stop,
+    /// c' = 0, as far as a multiplier from −`limit` to `limit` can make it.
+    Drive {
+        /// The largest multiplier; it is positive.
+        limit: f64,
+    },
 }
 
 /// One equation of a constraint at one moment.
@@ -46,7 +79,9 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
 pub struct Row {
     /// c, in metres or without unit: by how much it does not hold.
     pub violation: f64,
-    /// J̇ v: the part of c'' that does not come from accelerations.
+    /// ∂c/∂t: the part of c' that does not come from velocities.
+    pub rate: f64,
+    /// The part of c'' that does not come from accelerations: J̇ v, and what time itself does.
     pub bias: f64,
     /// The size of the terms that c is a difference of: rounding makes an error of about this times 1e-16.
     pub scale: f64,
@@ -66,6 +101,30 @@ pub struct Direction {
 pub struct Members<'a> {
     all: &'a [Member],
     of: &'a [usize],
+    time: f64,
+    /// The same at the beginning of the step.
+    origin: &'a [Member],
+    begun: f64,
+}
+
+impl Members<'_> {
+    /// The time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The time since the beginning of the step, s.
+    #[must_use]
+    pub fn elapsed(&self) -> f64 {
+        self.time - self.begun
+    }
+
+    /// The same bodies at the beginning of the step.
+    #[must_use]
+    pub fn at_origin(&self) -> Self {
+        Self { all: self.origin, time: self.begun, ..*self }
+    }
 }
 
 impl std::ops::Index<usize> for Members<'_> {
@@ -86,15 +145,22 @@ pub struct Equations<'a> {
 impl Equations<'_> {
     /// Writes a row; the directions that are not set are zero.
     fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
-        self.rows[row] = Row { violation, bias, scale };
+        self.rows[row] = Row { violation, rate: 0.0, bias, scale };
         let first = row * self.bodies;
         self.jacobian[first..first + self.bodies].fill(Direction::default());
     }
 
-    /// Sets the direction of one body in a row; a point of the world has none.
+    /// Says how fast a row changes with time itself.
+    fn moving(&mut self, row: usize, rate: f64) {
+        self.rows[row].rate = rate;
+    }
+
+    /// Adds to the direction of one body in a row; a point of the world has none.
     fn direction(&mut self, row: usize, body: Option<usize>, linear: DVec3, angular: DVec3) {
         if let Some(body) = body {
-            self.jacobian[row * self.bodies + body] = Direction { linear, angular };
+            let direction = &mut self.jacobian[row * self.bodies + body];
+            direction.linear += linear;
+            direction.angular += angular;
         }
     }
 }

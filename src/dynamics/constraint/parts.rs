@@ -6,9 +6,51 @@ use super::super::{Anchor, BodyId};
 use super::Equations;
 use super::member::End;
 
-/// The bodies of two ends.
-pub(super) fn bodies(between: [Anchor; 2]) -> Vec<BodyId> {
-    between.into_iter().filter_map(Anchor::body).collect()
+/// The bodies of some ends, each once, in the order in which [`End::all`] takes them.
+pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
+    let mut bodies = Vec::new();
+    for body in ends.iter().filter_map(|end| end.body()) {
+        if !bodies.contains(&body) {
+            bodies.push(body);
+        }
+    }
+    bodies
+}
+
+/// The way from one end to another: its length |d|, whose second derivative is u·d'' + (|d'|² − (u·d')²) / |d|, u = d / |d|.
+pub(super) struct Way {
+    /// |d|, m.
+    pub(super) length: f64,
+    /// The part of |d|'' that does not come from accelerations of the bodies, m/s².
+    pub(super) bias: f64,
+    /// The size of the coordinates that it is a difference of, m.
+    pub(super) scale: f64,
+    u: DVec3,
+    arms: [(Option<usize>, DVec3); 2],
+}
+
+impl Way {
+    /// The way between two ends; `typical` is what its length is about, m.
+    pub(super) fn new([a, b]: &[End; 2], typical: f64) -> Way {
+        let apart = b.location - a.location;
+        let length = apart.length();
+        // Two ends at the same point have no direction; any one leads them apart.
+        let u = apart.try_normalize().unwrap_or(DVec3::Y);
+        let rate = b.velocity - a.velocity;
+        let across = rate - rate.dot(u) * u;
+        let bias =
+            u.dot(b.centripetal - a.centripetal) + across.length_squared() / length.max(1e-3 * typical);
+        let scale = a.location.abs().max(b.location.abs()).max_element();
+        Way { length, bias, scale, u, arms: [(a.body, a.arm), (b.body, b.arm)] }
+    }
+
+    /// Adds `factor` times the directions of its length to a row.
+    pub(super) fn write(&self, factor: f64, row: usize, equations: &mut Equations<'_>) {
+        for ((body, arm), sign) in self.arms.into_iter().zip([-factor, factor]) {
+            let linear = sign * self.u;
+            equations.direction(row, body, linear, arm.cross(linear));
+        }
+    }
 }
 
 /// Three rows: two points are the same.

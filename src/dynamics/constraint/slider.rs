@@ -4,10 +4,10 @@ use glam::{DQuat, DVec3};
 
 use super::super::{Anchor, BodyId};
 use super::member::End;
-use super::{Constraint, Equations, Members, parts};
+use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A slider, also called a prismatic joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A slider, also called a prismatic joint. Its coordinate is the way from the first end to the second, along the axis.
+#[derive(Clone, Debug)]
 pub struct Slider {
     /// The two points; the second stays on the axis through the first.
     pub between: [Anchor; 2],
@@ -15,22 +15,37 @@ pub struct Slider {
     pub axis: DVec3,
     /// The rotation that takes the axes of the first end to those of the second end.
     pub turned: DQuat,
+    /// Its limits and its motor.
+    pub freedom: Freedom,
+}
+
+impl Slider {
+    /// The way.
+    #[must_use]
+    pub fn coordinate(&self) -> Coordinate {
+        Coordinate { between: self.between, axis: self.axis, zero: None }
+    }
 }
 
 impl Constraint for Slider {
     fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(self.between)
+        parts::bodies(&self.between)
     }
 
     fn rows(&self) -> usize {
-        5
+        5 + self.freedom.rows()
+    }
+
+    fn law(&self, row: usize) -> Law {
+        row.checked_sub(5).map_or(Law::Tie, |row| self.freedom.law(row))
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::pair(self.between, members);
+        let ends = End::all(self.between, members);
         parts::same_turn(&ends, self.turned, 0, equations);
         for (i, across) in parts::across(self.axis).into_iter().enumerate() {
             parts::beside(&ends, ends[0].orientation * across, 3 + i, equations);
         }
+        self.freedom.measure(|| self.coordinate(), 5, members, equations);
     }
 }

@@ -12,8 +12,9 @@ use super::super::integrator::drift_body;
 use super::super::{Breakdown, Loads, Model, Motion, State};
 use super::factor::Factor;
 use super::member::Member;
+use super::modes::Mode;
 use super::structure::{Place, Structure};
-use super::{Direction, Equations, Members, Row};
+use super::{Direction, Equations, Law, Members, Row};
 
 /// By how much an equation may fail to hold, as a part of its scale: a few roundings.
 const ROUNDING: f64 = 1e-15;
@@ -28,23 +29,31 @@ const ITERATIONS: usize = 60;
 /// any time.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Solver {
-    structure: Option<Structure>,
-    factor: Factor,
-    members: Vec<Member>,
+    pub(super) structure: Option<Structure>,
+    pub(super) factor: Factor,
+    pub(super) members: Vec<Member>,
+    /// The members at the beginning of the step, and when that is, s.
+    origin: Vec<Member>,
+    begun: f64,
     /// The motions of members that are given.
-    motions: Vec<Option<Arc<dyn Motion>>>,
-    rows: Vec<Row>,
-    jacobian: Vec<Direction>,
+    pub(super) motions: Vec<Option<Arc<dyn Motion>>>,
+    pub(super) rows: Vec<Row>,
+    pub(super) jacobian: Vec<Direction>,
     /// The Jacobian at the beginning of the step, for methods that kick along it.
     first: Vec<Direction>,
-    /// Which rows take part in this step.
-    held: Vec<bool>,
+    /// What each row may do, and what it does at present.
+    pub(super) laws: Vec<Law>,
+    pub(super) modes: Vec<Mode>,
+    /// Whether some row may do anything but hold.
+    pub(super) has_modes: bool,
+    /// Which rows take part in this step: those that hold, but for those that others imply.
+    pub(super) held: Vec<bool>,
     /// What is solved for.
-    unknown: Vec<f64>,
+    pub(super) unknown: Vec<f64>,
     trial: State,
     /// Whether rows and factors are those of the state that comes next.
-    is_ready: bool,
-    failure: Option<Breakdown>,
+    pub(super) is_ready: bool,
+    pub(super) failure: Option<Breakdown>,
 }
 
 impl Solver {
@@ -60,15 +69,24 @@ impl Solver {
 
     /// Begins a step at a state in which the constraints hold: decides which equations take part, since others imply the rest.
     /// The same ones take part in the whole step, so that its right-hand side is smooth.
-    pub(in crate::dynamics) fn begin(&mut self, model: &Model, state: &State) {
+    pub(in crate::dynamics) fn begin(&mut self, model: &Model, t: f64, state: &State) {
         if model.constraints().is_empty() {
             return;
         }
         self.plan(model);
-        self.measure(model, state);
-        self.held.fill(true);
-        self.factorise(true);
+        self.measure(model, t, state);
+        self.origin.clone_from(&self.members);
+        self.begun = t;
+        self.hold();
         self.is_ready = true;
+    }
+
+    /// Decides which of the rows take part that hold: those that others imply do not.
+    pub(super) fn hold(&mut self) {
+        for (held, mode) in self.held.iter_mut().zip(&self.modes) {
+            *held = *mode == Mode::Held;
+        }
+        self.factorise(true);
     }
 
     /// Adds the forces and torques that keep the constraints to the loads.
@@ -78,15 +96,31 @@ impl Solver {
         }
         if !self.is_ready {
             self.plan(model);
-            self.measure(model, state);
+            self.measure(model, t, state);
             self.factorise(false);
         }
         self.is_ready = false;
+        self.push_drives(loads);
+        self.solve_forces(t, state, loads);
+        let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
+        for (multiplier, row) in unknown.iter().zip(rows) {
+            // The power λ J v, since J v + ∂c/∂t = 0.
+            loads.power.motors -= multiplier * row.rate;
+        }
+        for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
+            let i = structure.bodies[member];
+            loads.force[i] += multiplier * direction.linear;
+            loads.torque[i] += multiplier * direction.angular;
+        });
+    }
+
+    /// Finds the multipliers at a state that has been measured and factorised. The accelerations without them take the place of
+    /// velocities, which are not needed any more. Gives the largest size of the terms of c''.
+    fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
         let Solver { structure: Some(structure), members, motions, rows, jacobian, unknown, .. } = self
         else {
-            return;
+            return 0.0;
         };
-        // The accelerations without the constraints take the place of velocities, which are not needed any more.
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
             if let Some(motion) = motion {
                 member.velocity = motion.at(t).acceleration;
@@ -97,16 +131,68 @@ impl Solver {
                 member.angular_velocity = member.inverse_inertia * (loads.torque[i] - gyroscopic);
             }
         }
-        rates(&structure.places, jacobian, members, unknown);
+        let mut size = products(&structure.places, jacobian, members, unknown);
         for (value, row) in unknown.iter_mut().zip(&*rows) {
+            size = size.max(row.bias.abs());
             *value = -(*value + row.bias);
         }
         self.factor.solve(unknown);
+        size
+    }
+
+    /// Finds the multipliers as [`react`](Self::react) does, adds nothing but what drives push, and gives c'' of each row
+    /// with them, and the largest size of its terms.
+    pub(super) fn react_seeing(
+        &mut self,
+        t: f64,
+        state: &State,
+        loads: &mut Loads,
+        accelerations: &mut [f64],
+    ) -> f64 {
+        self.is_ready = false;
+        self.push_drives(loads);
+        let size = self.solve_forces(t, state, loads);
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
+            return size;
+        };
+        move_members(structure, jacobian, unknown, members);
+        products(&structure.places, jacobian, members, accelerations);
+        for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {
+            *acceleration += row.bias;
+        }
+        size
+    }
+
+    /// Adds the forces of drives that push with their limit, and their power.
+    fn push_drives(&mut self, loads: &mut Loads) {
+        if !self.has_modes {
+            return;
+        }
+        let Solver { structure: Some(structure), members, jacobian, unknown, laws, modes, .. } = self else {
+            return;
+        };
+        for (value, (law, mode)) in unknown.iter_mut().zip(laws.iter().zip(modes)) {
+            *value = match (law, mode) {
+                (Law::Drive { limit }, Mode::Pushed(sign)) => *sign * *limit,
+                _ => 0.0,
+            };
+        }
         for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
-            let i = structure.bodies[member];
+            let (i, member) = (structure.bodies[member], &members[member]);
             loads.force[i] += multiplier * direction.linear;
             loads.torque[i] += multiplier * direction.angular;
+            loads.power.motors += multiplier
+                * (direction.linear.dot(member.velocity) + direction.angular.dot(member.angular_velocity));
         });
+    }
+
+    /// Adds the forces of motors that are not strong enough for their speed, where they act as forces do.
+    pub(in crate::dynamics) fn drive(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
+        if self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {
+            self.measure(model, t, state);
+            self.is_ready = false;
+            self.push_drives(loads);
+        }
     }
 
     /// Changes the velocities at the beginning of a step such that free bodies are where the constraints hold after it: the
@@ -130,7 +216,7 @@ impl Solver {
                 trial.angular_momentum[i] = state.angular_momentum[i];
                 drift_body(model, dt, &mut trial, i);
             }
-            self.measure(model, &trial);
+            self.measure(model, t + dt, &trial);
             let worst = self.worst();
             if worst <= ROUNDING || (worst < FAILURE && worst > 0.5 * before) {
                 break;
@@ -142,6 +228,7 @@ impl Solver {
             self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), first, unknown, .. } = &*self else { break };
             push(structure, first, unknown, model, state);
+            book(&self.rows, &self.unknown, state);
         }
         self.trial = trial;
         self.blame(model, t + dt);
@@ -155,16 +242,16 @@ impl Solver {
         }
         self.is_ready = false;
         self.plan(model);
-        self.settle_places(model, state);
+        self.settle_places(model, t, state);
         self.blame(model, t);
         self.settle_velocities(model, state);
     }
 
-    fn settle_places(&mut self, model: &Model, state: &mut State) {
+    pub(super) fn settle_places(&mut self, model: &Model, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
         let mut is_factorised = false;
         for _ in 0..ITERATIONS {
-            self.measure(model, state);
+            self.measure(model, t, state);
             let worst = self.worst();
             let is_slow = worst > 0.1 * before;
             let is_there = worst <= ROUNDING || (worst < FAILURE && is_slow);
@@ -194,13 +281,13 @@ impl Solver {
         }
     }
 
-    fn settle_velocities(&mut self, model: &Model, state: &mut State) {
-        let Solver { structure: Some(structure), members, jacobian, unknown, factor, .. } = self else {
+    pub(super) fn settle_velocities(&mut self, model: &Model, state: &mut State) {
+        let Solver { structure: Some(structure), members, jacobian, unknown, factor, rows, .. } = self else {
             return;
         };
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let scale = rates(&structure.places, jacobian, members, unknown);
+            let scale = rates(&structure.places, jacobian, members, rows, unknown);
             let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
             let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
             // A NaN ends it as well.
@@ -211,20 +298,28 @@ impl Solver {
             unknown.iter_mut().for_each(|rate| *rate = -*rate);
             factor.solve(unknown);
             push(structure, jacobian, unknown, model, state);
-            for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
-                let member = &mut members[member];
-                member.velocity += multiplier * member.inverse_mass * direction.linear;
-                member.angular_velocity += member.inverse_inertia * (multiplier * direction.angular);
-            });
+            book(rows, unknown, state);
+            move_members(structure, jacobian, unknown, members);
         }
     }
 
-    /// The largest value of all equations, also of those that others imply.
-    pub(in crate::dynamics) fn violation(&mut self, model: &Model, state: &State) -> f64 {
+    /// By how much equations do not hold at most, also those that others imply.
+    pub(in crate::dynamics) fn violation(&mut self, model: &Model, t: f64, state: &State) -> f64 {
         self.is_ready = false;
         self.plan(model);
-        self.measure(model, state);
-        self.rows.iter().fold(0.0, |worst, row| worst.max(row.violation.abs()))
+        self.measure(model, t, state);
+        let missing = (0..self.rows.len()).map(|i| self.missing(i));
+        missing.fold(0.0, f64::max)
+    }
+
+    /// By how much a row does not hold.
+    fn missing(&self, row: usize) -> f64 {
+        self.modes[row].missing(self.laws[row], &self.rows[row])
+    }
+
+    /// J M⁻¹ Jᵀ of one row, as it was factorised last.
+    pub(super) fn weight(&self, row: usize) -> f64 {
+        self.factor.values[self.factor.columns[row].end - 1]
     }
 
     /// Notes the equation that is off by most, if that is too much.
@@ -232,10 +327,11 @@ impl Solver {
         let Some(structure) = &self.structure else { return };
         let mut failed = None;
         for place in &structure.places {
-            for row in &self.rows[place.row..place.row + place.rows] {
-                let is_kept = row.violation.abs() <= FAILURE * row.scale;
-                if !is_kept && failed.is_none_or(|(_, missing)| row.violation.abs() > missing) {
-                    failed = Some((place.constraint, row.violation.abs()));
+            for row in place.row..place.row + place.rows {
+                let missing = self.missing(row);
+                let is_kept = missing <= FAILURE * self.rows[row].scale;
+                if !is_kept && failed.is_none_or(|(_, most)| missing > most) {
+                    failed = Some((place.constraint, missing));
                 }
             }
         }
@@ -247,7 +343,7 @@ impl Solver {
     }
 
     /// Finds the structure, where it is not known.
-    fn plan(&mut self, model: &Model) {
+    pub(super) fn plan(&mut self, model: &Model) {
         if self.structure.is_some() {
             return;
         }
@@ -258,13 +354,22 @@ impl Solver {
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
         self.jacobian = vec![Direction::default(); structure.directions];
-        self.held = vec![true; structure.rows];
+        let places = structure.places.iter();
+        let laws = |place: &Place| {
+            let constraint = model.constraints()[place.constraint].clone();
+            (0..place.rows).map(move |row| constraint.law(row))
+        };
+        self.laws = places.flat_map(laws).collect();
+        self.has_modes = self.laws.iter().any(|law| *law != Law::Tie);
+        self.modes = self.laws.iter().map(Mode::first).collect();
+        self.held = vec![false; structure.rows];
+        self.origin = self.members.clone();
         self.unknown = vec![0.0; structure.rows];
         self.structure = Some(structure);
     }
 
     /// Measures all equations at a state.
-    fn measure(&mut self, model: &Model, state: &State) {
+    pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
         let Some(structure) = &self.structure else { return };
         for (member, &i) in self.members.iter_mut().zip(&structure.bodies) {
             *member = Member::of(i, model, state);
@@ -276,7 +381,8 @@ impl Solver {
                 jacobian: &mut self.jacobian[place.direction..place.direction + place.rows * bodies],
                 bodies,
             };
-            let members = Members { all: &self.members, of: &place.bodies };
+            let (origin, begun) = (&self.origin, self.begun);
+            let members = Members { all: &self.members, of: &place.bodies, time: t, origin, begun };
             model.constraints()[place.constraint].measure(&members, &mut equations);
         }
     }
@@ -297,7 +403,7 @@ impl Solver {
     }
 
     /// Factorises J M⁻¹ Jᵀ of what was measured last.
-    fn factorise(&mut self, choose: bool) {
+    pub(super) fn factorise(&mut self, choose: bool) {
         let Some(structure) = &self.structure else { return };
         for (own, neighbours) in structure.places.iter().zip(&structure.neighbours) {
             for row in 0..own.rows {
@@ -324,8 +430,22 @@ impl Solver {
     }
 }
 
+/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to the accelerations in their place.
+pub(super) fn move_members(
+    structure: &Structure,
+    jacobian: &[Direction],
+    multipliers: &[f64],
+    members: &mut [Member],
+) {
+    for_each_direction(&structure.places, jacobian, multipliers, |member, direction, multiplier| {
+        let member = &mut members[member];
+        member.velocity += multiplier * member.inverse_mass * direction.linear;
+        member.angular_velocity += member.inverse_inertia * (multiplier * direction.angular);
+    });
+}
+
 /// Calls back with each direction of the Jacobian, its member and the multiplier of its row.
-fn for_each_direction(
+pub(super) fn for_each_direction(
     places: &[Place],
     jacobian: &[Direction],
     multipliers: &[f64],
@@ -345,8 +465,25 @@ fn for_each_direction(
     }
 }
 
-/// J v for the velocities of the members; the largest sum of the sizes of its terms.
-fn rates(places: &[Place], jacobian: &[Direction], members: &[Member], out: &mut [f64]) -> f64 {
+/// c' = J v + ∂c/∂t for the velocities of the members; the largest sum of the sizes of its terms.
+pub(super) fn rates(
+    places: &[Place],
+    jacobian: &[Direction],
+    members: &[Member],
+    rows: &[Row],
+    out: &mut [f64],
+) -> f64 {
+    let mut largest = products(places, jacobian, members, out);
+    for (rate, row) in out.iter_mut().zip(rows) {
+        *rate += row.rate;
+        largest = largest.max(row.rate.abs());
+    }
+    largest
+}
+
+/// J v for the velocities of the members, or J a where accelerations stand in their place; the largest sum of the sizes of its
+/// terms.
+pub(super) fn products(places: &[Place], jacobian: &[Direction], members: &[Member], out: &mut [f64]) -> f64 {
     let mut largest = 0.0_f64;
     for place in places {
         let width = place.bodies.len();
@@ -367,8 +504,21 @@ fn rates(places: &[Place], jacobian: &[Direction], members: &[Member], out: &mut
     largest
 }
 
+/// Books the work of the impulses Λ of rows that move with time: Λ J v, since J v + ∂c/∂t = 0.
+pub(super) fn book(rows: &[Row], impulses: &[f64], state: &mut State) {
+    for (row, impulse) in rows.iter().zip(impulses) {
+        state.accounts.motors -= impulse * row.rate;
+    }
+}
+
 /// Gives the bodies the impulses Jᵀ Λ. What guides a body bears the impulse on it, and so does its work, with the opposite sign.
-fn push(structure: &Structure, jacobian: &[Direction], impulses: &[f64], model: &Model, state: &mut State) {
+pub(super) fn push(
+    structure: &Structure,
+    jacobian: &[Direction],
+    impulses: &[f64],
+    model: &Model,
+    state: &mut State,
+) {
     for_each_direction(&structure.places, jacobian, impulses, |member, direction, impulse| {
         let i = structure.bodies[member];
         let inverse_mass = model.inverse_mass()[i];

@@ -25,7 +25,7 @@ impl Force for ConstantForce {
             let i = body.index();
             loads.force[i] += self.force;
             loads.torque[i] += self.torque;
-            loads.power += self.torque.dot(moment.model.angular_velocity(i, moment.state));
+            loads.power.work += self.torque.dot(moment.model.angular_velocity(i, moment.state));
         }
     }
 
@@ -59,6 +59,6 @@ mod tests {
         let loads = loads(&force, &model, &state);
         assert_eq!(loads.force, [DVec3::ZERO, DVec3::X]);
         assert_eq!(loads.torque, [DVec3::ZERO, DVec3::new(0.0, 3.0, 4.0)]);
-        assert!((loads.power - 3.0).abs() < 1e-14);
+        assert!((loads.power.work - 3.0).abs() < 1e-14);
     }
 }

@@ -32,7 +32,7 @@ impl Force for Drag {
             let relative = velocity - self.wind;
             let drag = -(self.linear + self.quadratic * relative.length()) * relative;
             loads.force[i] += drag;
-            loads.power += drag.dot(velocity);
+            loads.power.work += drag.dot(velocity);
         }
     }
 
@@ -54,7 +54,7 @@ mod tests {
         let loads = loads(&drag, &model, &state);
         // u = (3, 0, 4), |u| = 5, c₁ + c₂ |u| = 4.5
         assert_eq!(loads.force, [DVec3::ZERO, DVec3::new(-13.5, 0.0, -18.0)]);
-        assert_eq!(loads.power, -13.5 * 4.0 - 18.0 * 4.0);
+        assert_eq!(loads.power.work, -13.5 * 4.0 - 18.0 * 4.0);
     }
 
     #[test]
@@ -62,6 +62,6 @@ mod tests {
         let (model, state) = bodies(&[(DVec3::ZERO, DVec3::X)]);
         let wind = DVec3::new(3.0, 0.0, 0.0);
         let drag = Drag { bodies: vec![BodyId::new(0)], linear: 0.0, quadratic: 1.0, wind };
-        assert_eq!(loads(&drag, &model, &state).power, 4.0);
+        assert_eq!(loads(&drag, &model, &state).power.work, 4.0);
     }
 }

@@ -68,7 +68,7 @@ mod tests {
         let force = DVec3::new(0.0, 0.096, 0.128);
         let loads = loads(&all(2, 0.0), &model, &state);
         assert!(loads.force[0].abs_diff_eq(force, 1e-16) && loads.force[1] == -loads.force[0]);
-        assert_eq!(loads.power, 0.0);
+        assert_eq!(loads.power.work, 0.0);
         let potential =
             |softening| all(2, softening).potential(&Moment { time: 0.0, state: &state, model: &model });
         assert_eq!(potential(0.0), -0.8);

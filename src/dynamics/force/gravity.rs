@@ -41,6 +41,6 @@ mod tests {
         let gravity = UniformGravity { acceleration: DVec3::new(0.5, -9.81, 0.25) };
         assert_minus_gradient(&gravity, &model, &state);
         assert_eq!(loads(&gravity, &model, &state).force[1], DVec3::new(1.0, -19.62, 0.5));
-        assert_eq!(loads(&gravity, &model, &state).power, 0.0);
+        assert_eq!(loads(&gravity, &model, &state).power.work, 0.0);
     }
 }

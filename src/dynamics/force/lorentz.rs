@@ -50,6 +50,6 @@ mod tests {
         // q (E + v × B) with x × z = −y
         let loads = loads(&lorentz, &model, &state);
         assert_eq!(loads.force, [DVec3::new(6.0, -8.0, 2.0), DVec3::new(-3.0, 0.0, -1.0)]);
-        assert_eq!(loads.power, 0.0);
+        assert_eq!(loads.power.work, 0.0);
     }
 }

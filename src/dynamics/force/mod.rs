@@ -36,7 +36,7 @@ pub struct Moment<'a> {
 pub trait Force: Send + Sync {
     /// Adds the forces and torques at this moment to `loads`.
     ///
-    /// A force without a potential (or the part of one that has none) adds its power, F·v + τ·ω, to `loads.power`
+    /// A force without a potential (or the part of one that has none) adds its power, F·v + τ·ω, to `loads.power.work`
     /// as well. Loads on a body that does not move are dropped afterwards.
     fn apply(&self, moment: &Moment, loads: &mut Loads);
 
@@ -55,7 +55,7 @@ pub trait Force: Send + Sync {
 mod testing {
     use glam::DVec3;
 
-    use super::super::{RigidBody, Shape};
+    use super::super::{Accounts, RigidBody, Shape};
     use super::*;
 
     /// Free bodies at the given locations with the given velocities; mass 1, 2, 3, …
@@ -88,7 +88,7 @@ mod testing {
         let mut loads = Loads {
             force: vec![DVec3::ZERO; state.len()],
             torque: vec![DVec3::ZERO; state.len()],
-            power: 0.0,
+            power: Accounts::default(),
         };
         force.apply(&Moment { time: 0.0, state, model }, &mut loads);
         loads

@@ -99,7 +99,7 @@ impl Force for Spring {
             let line = span.try_normalize().unwrap_or_else(|| velocity.normalize_or_zero());
             let rate = velocity.dot(line);
             pull -= self.damping * rate * line;
-            loads.power -= self.damping * rate * rate;
+            loads.power.work -= self.damping * rate * rate;
         }
         for ((anchor, end), force) in self.between.iter().zip(ends).zip([-pull, pull]) {
             if let Anchor::Body { id, .. } = anchor {
@@ -217,7 +217,7 @@ mod tests {
             loads.force[i].dot(state.velocity[i]) + loads.torque[i].dot(model.angular_velocity(i, &state))
         };
         let power = of(0) + of(1);
-        assert!(power < -0.1 && (loads.power - power).abs() < 1e-14, "{power} {}", loads.power);
+        assert!(power < -0.1 && (loads.power.work - power).abs() < 1e-14, "{power} {}", loads.power.work);
     }
 
     #[test]
@@ -227,7 +227,7 @@ mod tests {
         let loads = loads(&damper, &model, &state);
         assert_eq!(loads.force[0], -loads.force[1]);
         let power: f64 = (0..2).map(|i| loads.force[i].dot(state.velocity[i])).sum();
-        assert!(power < -0.1 && (loads.power - power).abs() < 1e-14, "{power}");
+        assert!(power < -0.1 && (loads.power.work - power).abs() < 1e-14, "{power}");
         let span = state.location[1] - state.location[0];
         assert!(loads.force[0].cross(span).length() < 1e-14, "along the line");
     }
@@ -240,7 +240,7 @@ mod tests {
             let spring = Spring { between, stiffness: 30.0, damping: 0.5, rest_length };
             let loads = loads(&spring, &model, &state);
             assert!(loads.force[0].abs_diff_eq(DVec3::new(-1.5, -2.0, 0.0), 1e-15));
-            assert!((loads.power + 12.5).abs() < 1e-14);
+            assert!((loads.power.work + 12.5).abs() < 1e-14);
         }
     }
 }

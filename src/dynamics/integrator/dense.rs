@@ -212,10 +212,11 @@ impl DenseOutput for Hermite<'_> {
                 state.orientation[i] = (DQuat::from_scaled_axis(theta) * before.orientation[i]).normalize();
             }
         }
-        let work = after.accounts.work - before.accounts.work;
-        state.accounts = step.accounts(s);
-        state.accounts.work =
-            before.accounts.work + cubic[1] * h * start.power + cubic[2] * work + cubic[3] * h * end.power;
+        let (first, last) = (before.accounts.to_array(), after.accounts.to_array());
+        let (power, end_power) = (start.power.to_array(), end.power.to_array());
+        state.accounts = Accounts::from_array(std::array::from_fn(|i| {
+            first[i] + cubic[1] * h * power[i] + cubic[2] * (last[i] - first[i]) + cubic[3] * h * end_power[i]
+        }));
         model.place(t, state);
     }
 }

@@ -24,7 +24,7 @@ struct EulerCromer {
 impl Integrator for EulerCromer {
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         system.evaluate_forces(t, state, &mut self.loads);
-        state.accounts.work += self.loads.power * dt;
+        state.accounts.add(dt, self.loads.power);
         splitting::kick(system.model(), &self.loads, dt, state);
         system.aim(t, dt, state);
         splitting::drift(system.model(), dt, state);

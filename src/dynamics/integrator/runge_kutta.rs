@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::{Loads, Model, State, System};
+use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
 /// The derivative of a [`State`] with respect to time. The slopes of angular momentum and of work are the torque and
@@ -62,8 +62,9 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
             *orientation = (*orientation + rate * dt).normalize();
         }
     }
-    let power = slopes.iter().fold(0.0, |sum, (weight, slope)| sum + weight * slope.loads.power);
-    state.accounts.work += dt * power;
+    let mut power = Accounts::default();
+    slopes.iter().for_each(|(weight, slope)| power.add(*weight, slope.loads.power));
+    state.accounts.add(dt, power);
 }
 
 /// values += dt · Σ weight · slope. The small terms are summed first, as each sum with a large value is rounded.

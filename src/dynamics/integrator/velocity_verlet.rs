@@ -103,7 +103,8 @@ impl Integrator for VelocityVerlet {
         } else {
             self.free(system, t, dt, state);
         }
-        state.accounts.work += 0.5 * dt * (self.start.power + self.end.power);
+        state.accounts.add(0.5 * dt, self.start.power);
+        state.accounts.add(0.5 * dt, self.end.power);
 
         std::mem::swap(&mut self.start, &mut self.end);
         self.primed = true;

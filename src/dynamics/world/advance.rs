@@ -1,6 +1,7 @@
 //! How a world advances: steps, births and deaths on the way, and looks between two steps.
 
 use super::super::{Snapshot, State, Step, System};
+use super::piece::EVENTS;
 use super::{World, picture};
 
 /// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
@@ -20,19 +21,35 @@ impl World {
     /// Makes one step of `dt` seconds, however long. Bodies that come or go meanwhile do so at its end.
     pub fn step(&mut self, dt: f64) {
         self.depart();
-        self.step_from(self.time, dt);
+        self.step_from(self.time, dt, &[], &mut |_| {});
         self.time += dt;
         self.arrive();
     }
 
-    fn step_from(&mut self, t: f64, dt: f64) {
+    fn step_from(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         self.settle();
         self.ledger.close(&self.model, t, &self.state);
-        let mut system = System::new(&self.model, &mut self.solver);
-        system.begin(&self.state);
-        self.integrator.advance(&mut system, t, dt, &mut self.state);
-        system.settle(t + dt, &mut self.state);
-        self.steps += 1;
+        let (mut now, mut left, mut length, mut last) = (t, moments, dt, 0);
+        for _ in 0..EVENTS {
+            if !left.is_empty() {
+                self.before.clone_from(&self.state);
+            }
+            let (duration, event) = self.make_piece(now, length);
+            let Some(row) = event else {
+                self.look_within(now, duration, left, see);
+                return;
+            };
+            let (within, later) = left.split_at(left.partition_point(|&moment| moment <= now + duration));
+            left = later;
+            self.look_within(now, duration, within, see);
+            now += duration;
+            length = t + dt - now;
+            let mut system = System::new(&self.model, &mut self.solver);
+            system.decide(now, &mut self.state, &mut self.loads);
+            self.integrator.discontinuity();
+            last = row;
+        }
+        self.solver.give_up(last, now);
     }
 
     /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
@@ -126,13 +143,7 @@ impl World {
             reached = begin + dt;
             let (within, later) = left.split_at(left.partition_point(|&moment| moment <= end));
             left = later;
-            if within.is_empty() {
-                self.step_from(begin, dt);
-                continue;
-            }
-            self.before.clone_from(&self.state);
-            self.step_from(begin, dt);
-            self.look_within(begin, dt, within, see);
+            self.step_from(begin, dt, within, see);
         }
         self.time = t;
         // Exactly there, and not where the sum of the steps has it.
@@ -143,6 +154,9 @@ impl World {
 
     /// Looks at some moments of the step that was made last.
     fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        if moments.is_empty() {
+            return;
+        }
         let Self { model, state, integrator, solver, ledger, loads, before, .. } = self;
         let step = Step { model, start, duration, before, after: state };
         let mut system = System::new(model, solver);

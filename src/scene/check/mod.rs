@@ -194,6 +194,7 @@ impl Context<'_> {
 struct Names {
     bodies: HashMap<Arc<str>, usize>,
     materials: HashMap<Arc<str>, usize>,
+    joints: HashMap<Arc<str>, usize>,
 }
 
 impl Names {
@@ -203,13 +204,16 @@ impl Names {
             let names = table.into_iter().flat_map(|table| &table.entries);
             names.enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect()
         };
-        Names { bodies: collect(Collection::Body), materials: collect(Collection::Material) }
+        let [bodies, materials, joints] =
+            [Collection::Body, Collection::Material, Collection::Joint].map(collect);
+        Names { bodies, materials, joints }
     }
 
     fn get(&self, collection: Collection) -> &HashMap<Arc<str>, usize> {
         match collection {
             Collection::Body => &self.bodies,
             Collection::Material => &self.materials,
+            Collection::Joint => &self.joints,
         }
     }
 }

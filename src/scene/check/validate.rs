@@ -337,7 +337,7 @@ fn reference(
     };
     let names = context.names.get(collection);
     let library: Vec<&str> = match collection {
-        Collection::Body => Vec::new(),
+        Collection::Body | Collection::Joint => Vec::new(),
         Collection::Material => MATERIALS.iter().map(|material| material.name).collect(),
     };
     let is_body = collection == Collection::Body;
@@ -369,7 +369,7 @@ fn reference(
         None => error.help(format!("names of the library need no table: {}", quoted(&library))),
     };
     context.diagnostics.push(match collection {
-        Collection::Body => error,
+        Collection::Body | Collection::Joint => error,
         Collection::Material => habits::color_for_material(error, word, node, entry),
     });
 }

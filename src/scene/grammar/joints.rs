@@ -1,13 +1,13 @@
 //! The keys of `[joint.NAME]`.
 
-use super::Kind::{Choice, Color, Direction, Either, List, Reference, Table};
+use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::forces::END;
 use super::keys::{POSITIVE, VECTOR};
-use super::{Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
 pub(super) static JOINT: TableSpec = TableSpec {
     noun: "a joint",
-    rule: Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod"]),
+    rule: Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"]),
     keys: &[
         Key::new("ball", Table(&BALL), "A point of one stays at a point of the other; every turn is free")
             .also(&["spherical", "socket", "point", "pin"]),
@@ -22,6 +22,10 @@ pub(super) static JOINT: TableSpec = TableSpec {
         Key::new("fixed", Table(&FIXED), "The two move as one body").also(&["weld", "rigid", "glue"]),
         Key::new("rod", Table(&ROD), "The distance of two points stays as it is; the rod has no mass")
             .also(&["distance", "link", "bar", "stick"]),
+        Key::new("rope", Table(&ROPE), "The distance of two points does not grow beyond the rope's length")
+            .also(&["string", "cable", "thread", "cord"]),
+        Key::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
+        Key::new("gear", Table(&GEAR), "Two hinges or sliders move together, at a ratio").also(&["gears"]),
     ],
 };
 
@@ -83,6 +87,10 @@ static HINGE: TableSpec = TableSpec {
         between(PAIR),
         AT.default("the end that is a point of the world"),
         axis("The axis about which they turn, in the world at the start"),
+        limits("The smallest and the largest angle by which the second is turned against the first; 0 is at the start")
+            .unit("degrees")
+            .also(&["limit", "range", "min_max"]),
+        motor(&TURNING, "What turns it"),
         LOOK,
     ],
 };
@@ -94,6 +102,10 @@ static SLIDER: TableSpec = TableSpec {
         between(PAIR),
         AT.default("the centre of the second"),
         axis("The axis along which the second moves, in the world at the start; it turns with the first"),
+        limits("How far the second can move along the axis, back and forth; 0 is at the start")
+            .unit("m")
+            .also(&["limit", "range", "min_max"]),
+        motor(&MOVING, "What moves it"),
         LOOK,
     ],
 };
@@ -116,5 +128,132 @@ static ROD: TableSpec = TableSpec {
             .default("as at the start")
             .also(&["distance", "l"]),
         LOOK,
+    ],
+};
+
+static NUMBER: Kind = Number(Bound::Any);
+
+const fn limits(meaning: &'static str) -> Key {
+    Key::new("limits", List { of: &NUMBER, min: 2, max: 2 }, meaning).default("none")
+}
+
+const fn motor(table: &'static TableSpec, meaning: &'static str) -> Key {
+    Key::new("motor", Table(table), meaning).default("none").also(&["drive", "engine", "actuator"])
+}
+
+static TURNING: TableSpec = TableSpec {
+    noun: "the motor of a hinge",
+    rule: Rule::ExactlyOne(&["speed", "angle"]),
+    keys: &[
+        Key::new("speed", NUMBER_ANY, "The speed that it keeps, as far as its torque allows")
+            .unit("rad/s")
+            .also(&["rate", "angular_velocity", "velocity", "omega"]),
+        Key::new("torque", POSITIVE, "With `speed`: the largest torque that it has")
+            .unit("N·m")
+            .also(&["max_torque", "strength"]),
+        Key::new(
+            "angle",
+            Timed(Bound::Any),
+            "The angle that it keeps, a formula of the time; 0 is at the start. Without `stiffness`, exactly",
+        )
+        .unit("degrees")
+        .also(&["target", "position"]),
+        STIFFNESS.unit("N·m/rad"),
+        DAMPING.unit("N·m·s/rad"),
+    ],
+};
+
+static MOVING: TableSpec = TableSpec {
+    noun: "the motor of a slider",
+    rule: Rule::ExactlyOne(&["speed", "position"]),
+    keys: &[
+        Key::new("speed", NUMBER_ANY, "The speed that it keeps, as far as its force allows")
+            .unit("m/s")
+            .also(&["rate", "velocity"]),
+        Key::new("force", POSITIVE, "With `speed`: the largest force that it has")
+            .unit("N")
+            .also(&["max_force", "strength"]),
+        Key::new(
+            "position",
+            Timed(Bound::Any),
+            "The place along the axis that it keeps, a formula of the time; 0 is at the start. Without `stiffness`, exactly",
+        )
+        .unit("m")
+        .also(&["target", "location", "angle"]),
+        STIFFNESS.unit("N/m"),
+        DAMPING.unit("N·s/m"),
+    ],
+};
+
+const NUMBER_ANY: Kind = Number(Bound::Any);
+
+const STIFFNESS: Key =
+    Key::new("stiffness", POSITIVE, "It is as strong as a spring of this stiffness, and gives way")
+        .also(&["k"]);
+
+const DAMPING: Key =
+    Key::new("damping", Number(Bound::NonNegative), "With `stiffness`: the damper beside that spring")
+        .default("0")
+        .also(&["damper", "d"]);
+
+static ROPE: TableSpec = TableSpec {
+    noun: "a rope",
+    rule: Rule::Any,
+    keys: &[
+        between(
+            "The two that it joins: each the name of a body (its centre), a point of a body, or a point of the world",
+        ),
+        Key::new("length", POSITIVE, "Its length: the distance of its ends where it is taut")
+            .unit("m")
+            .default("their distance at the start")
+            .also(&["distance", "max_length", "l"]),
+        LOOK,
+    ],
+};
+
+static PULLEY: TableSpec = TableSpec {
+    noun: "a pulley",
+    rule: Rule::Any,
+    keys: &[
+        between(
+            "The two ends of the rope: each the name of a body (its centre), a point of a body, or a point of the world",
+        ),
+        Key::new(
+            "over",
+            List { of: &AN_END, min: 2, max: 2 },
+            "The two points over which it runs: that of the first end, then that of the second",
+        )
+        .unit("m")
+        .required()
+        .also(&["wheels", "through", "via", "anchors"]),
+        Key::new("ratio", POSITIVE, "How much rope the first end gets for each metre that the second gives")
+            .default("1"),
+        Key::new("length", POSITIVE, "The length of the first part, and `ratio` times that of the second")
+            .unit("m")
+            .default("as at the start"),
+        LOOK,
+    ],
+};
+
+static A_JOINT: Kind = Reference(Collection::Joint);
+
+static GEAR: TableSpec = TableSpec {
+    noun: "a gear",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "joints",
+            List { of: &A_JOINT, min: 2, max: 2 },
+            "The names of the two hinges or sliders that it couples",
+        )
+        .required()
+        .also(&["between", "hinges", "axles"]),
+        Key::new(
+            "ratio",
+            NUMBER_ANY,
+            "How much the second moves when the first moves by 1; negative where it moves the other way, as two wheels do that mesh",
+        )
+        .required()
+        .also(&["factor"]),
     ],
 };

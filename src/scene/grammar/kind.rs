@@ -82,6 +82,8 @@ pub enum Collection {
     Body,
     /// `[material.NAME]`
     Material,
+    /// `[joint.NAME]`
+    Joint,
 }
 
 impl Bound {
@@ -112,6 +114,7 @@ impl Collection {
         match self {
             Collection::Body => "body",
             Collection::Material => "material",
+            Collection::Joint => "joint",
         }
     }
 
@@ -120,6 +123,7 @@ impl Collection {
         match self {
             Collection::Body => "bodies",
             Collection::Material => "materials",
+            Collection::Joint => "joints",
         }
     }
 }

@@ -287,7 +287,7 @@ mod tests {
             drift: 4.0,
             linear_momentum: DVec3::X,
             angular_momentum: DVec3::Y,
-            accounts: Accounts { work: 5.0 },
+            accounts: Accounts { work: 5.0, motors: 6.0, limits: -7.0 },
         };
         let frame = (time > 1.5).then_some(7);
         Entry { frame, snapshot: Snapshot { time, bodies: bodies.iter().map(body).collect(), balance } }

@@ -69,35 +69,24 @@ static NOT_BUILT: &[NotBuilt] = &[
     },
     NotBuilt {
         of: "a joint",
-        words: &[
-            "rope",
-            "string",
-            "cable",
-            "gear",
-            "gears",
-            "pulley",
-            "universal",
-            "cylindrical",
-            "screw",
-            "spring",
-            "motor",
-        ],
-        help: "there are `ball`, `hinge`, `slider`, `fixed` and `rod`; springs are forces, `[force.NAME.spring]`",
-        comes_with: "rope",
+        words: &["universal", "cylindrical", "screw", "spring", "motor", "belt"],
+        help: "there are `ball`, `hinge`, `slider`, `fixed`, `rod`, `rope`, `pulley` and `gear`; springs are forces, \
+               `[force.NAME.spring]`, and a motor is a key of a hinge or a slider",
+        comes_with: "",
         can_go: false,
     },
     NotBuilt {
         of: "a hinge",
-        words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
-        help: "joints move freely yet, without limits and motors; leave the line out",
-        comes_with: "limits",
+        words: &["damping", "friction", "stiffness"],
+        help: "a joint has no friction of its own; `motor = { speed = 0, torque = 2 }` holds it with 2 N·m",
+        comes_with: "",
         can_go: true,
     },
     NotBuilt {
         of: "a slider",
-        words: &["limits", "limit", "motor", "damping", "friction", "stiffness"],
-        help: "joints move freely yet, without limits and motors; leave the line out",
-        comes_with: "limits",
+        words: &["damping", "friction", "stiffness"],
+        help: "a joint has no friction of its own; `motor = { speed = 0, force = 2 }` holds it with 2 N",
+        comes_with: "",
         can_go: true,
     },
     NotBuilt {
@@ -235,16 +224,16 @@ static NOT_BUILT: &[NotBuilt] = &[
     NotBuilt {
         of: "a body",
         words: &["pivot", "hinge", "joint", "attached_to", "parent", "constraint"],
-        help: "what holds a body is a table of its own: `[joint.NAME.hinge]`, `ball`, `slider`, `rod` or `fixed`",
+        help: "what holds a body is a table of its own: `[joint.NAME.hinge]`, `ball`, `slider`, `rod`, `rope` or `fixed`",
         comes_with: "",
         can_go: false,
     },
     NotBuilt {
         of: "a scene",
         words: &["rope", "string", "cable", "motor", "gear", "pulley"],
-        help: "there are `ball`, `hinge`, `slider`, `fixed` and `rod`, each as `[joint.NAME.rod]`; a soft spring is a \
-               force, `[force.NAME.spring]`",
-        comes_with: "rope",
+        help: "it is a joint: `[joint.NAME.rope]`, `pulley`, `gear`, or the key `motor` of a hinge; a soft spring is \
+               a force, `[force.NAME.spring]`",
+        comes_with: "",
         can_go: false,
     },
 ];

@@ -1,5 +1,8 @@
 //! `[joint.NAME]`.
 
+mod freedom;
+mod rope;
+
 use glam::DVec3;
 
 use super::Context;
@@ -7,7 +10,7 @@ use super::end;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Anchor, Ball, Fixed, Hinge, Method, Rod, Slider};
+use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Method, Rod, Servo, Slider};
 use crate::scene::source::Node;
 use crate::scene::{Body, Joint, JointKind, JointLook};
 
@@ -23,16 +26,20 @@ pub(super) fn read(
     method: &Method,
     context: &mut Context<'_>,
 ) -> Vec<Joint> {
-    let mut joints = Vec::new();
-    for (name, span, view) in root.named("joint") {
+    let mut joints: Vec<Joint> = Vec::new();
+    let named = root.named("joint");
+    // Gears couple other joints, and come last.
+    let (gears, others): (Vec<_>, Vec<_>) =
+        named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
+    for (name, span, view) in others.into_iter().chain(gears) {
         let mut reader = Reader { name, span, bodies, context };
-        let Some(kind) = reader.kind(&view) else { continue };
+        let Some((kind, servo)) = reader.kind(&view, &joints) else { continue };
         if !method.constraints {
             let message = format!("the integrator `{}` keeps no joints", method.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
             context.diagnostics.push(error.help("take another one: `simulation.integrator = \"rk4\"`"));
         }
-        joints.push(Joint { name: name.to_owned(), look: look(&view), kind });
+        joints.push(Joint { name: name.to_owned(), look: look(&view, &kind), kind, servo });
     }
     joints
 }
@@ -43,8 +50,12 @@ fn about(length: f64) -> String {
 }
 
 /// How the joint is drawn, if it is.
-fn look(view: &View<'_>) -> Option<JointLook> {
-    let kind = ["ball", "hinge", "slider", "fixed", "rod"].into_iter().find_map(|kind| view.variant(kind))?;
+fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
+    if matches!(kind, JointKind::Gear(_)) {
+        return None;
+    }
+    let kinds = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley"];
+    let kind = kinds.into_iter().find_map(|kind| view.variant(kind))?;
     let look = kind.table("look");
     (kind.text("look") != Some("none"))
         .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })
@@ -59,30 +70,40 @@ struct Reader<'a, 'c> {
 }
 
 impl Reader<'_, '_> {
-    fn kind(&mut self, view: &View<'_>) -> Option<JointKind> {
-        if let Some(rod) = view.variant("rod") {
-            return self.rod(&rod).map(JointKind::Rod);
-        }
-        if let Some(ball) = view.variant("ball") {
-            let (between, _) = self.joined(&ball, true)?;
-            return Some(JointKind::Ball(Ball { between }));
-        }
+    fn kind(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<(JointKind, Option<Servo>)> {
         if let Some(hinge) = view.variant("hinge") {
             let (between, _) = self.joined(&hinge, true)?;
             let axis = DVec3::from(hinge.direction("axis")?).normalize();
-            return Some(JointKind::Hinge(Hinge {
-                between,
-                axis: between.map(|end| self.in_axes_of(end, axis)),
-            }));
+            let axis = self.in_axes_of(between[0], axis);
+            let joint = Hinge::new(between, axis, self.turned(between));
+            let (freedom, servo) = self.freedom(&hinge, joint.coordinate());
+            return Some((JointKind::Hinge(joint.with(freedom)), servo));
         }
         if let Some(slider) = view.variant("slider") {
             let (between, _) = self.joined(&slider, false)?;
             let axis = DVec3::from(slider.direction("axis")?).normalize();
             let axis = self.in_axes_of(between[0], axis);
-            return Some(JointKind::Slider(Slider { between, axis, turned: self.turned(between) }));
+            let turned = self.turned(between);
+            let joint = Slider { between, axis, turned, freedom: Freedom::default() };
+            let (freedom, servo) = self.freedom(&slider, joint.coordinate());
+            return Some((JointKind::Slider(Slider { freedom, ..joint }), servo));
         }
-        let (between, _) = self.joined(&view.variant("fixed")?, false)?;
-        Some(JointKind::Fixed(Fixed { between, turned: self.turned(between) }))
+        let kind = if let Some(rod) = view.variant("rod") {
+            JointKind::Rod(self.rod(&rod)?)
+        } else if let Some(ball) = view.variant("ball") {
+            let (between, _) = self.joined(&ball, true)?;
+            JointKind::Ball(Ball { between })
+        } else if let Some(rope) = view.variant("rope") {
+            JointKind::Rope(self.rope(&rope)?)
+        } else if let Some(pulley) = view.variant("pulley") {
+            JointKind::Pulley(self.pulley(&pulley)?)
+        } else if let Some(gear) = view.variant("gear") {
+            JointKind::Gear(self.gear(&gear, joints)?)
+        } else {
+            let (between, _) = self.joined(&view.variant("fixed")?, false)?;
+            JointKind::Fixed(Fixed { between, turned: self.turned(between) })
+        };
+        Some((kind, None))
     }
 
     fn rod(&mut self, view: &View<'_>) -> Option<Rod> {

@@ -1,0 +1,126 @@
+//! What a hinge or a slider leaves free: an angle, or a way.
+
+use glam::DVec3;
+
+use super::super::Anchor;
+use super::member::End;
+use super::{Equations, Members};
+
+/// The angle of a hinge, or the way of a slider, from the first end to the second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinate {
+    /// The two points.
+    pub between: [Anchor; 2],
+    /// The axis, a unit vector, in the axes of the first end.
+    pub axis: DVec3,
+    /// Of an angle: two directions across the axis, in the axes of each end, which are the same where it is 0.
+    pub zero: Option<[DVec3; 2]>,
+}
+
+/// A coordinate at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Free {
+    /// Its value, rad (from −π to π) or m.
+    pub(super) value: f64,
+    /// By how much its second derivative is more than the accelerations make it.
+    bias: f64,
+    /// The size of the terms of its value.
+    pub(super) scale: f64,
+    /// How each end takes part.
+    parts: [(Option<usize>, DVec3, DVec3); 2],
+}
+
+impl Coordinate {
+    /// Whether it is an angle.
+    #[must_use]
+    pub fn is_angle(&self) -> bool {
+        self.zero.is_some()
+    }
+
+    /// The coordinate at the present moment of the members, which are those of its ends.
+    pub(super) fn measure(&self, [a, b]: &[End; 2]) -> Free {
+        let axis = a.orientation * self.axis;
+        match self.zero {
+            Some(zero) => {
+                let (u, w) = (a.orientation * zero[0], b.orientation * zero[1]);
+                let parts = [(a.body, DVec3::ZERO, -axis), (b.body, DVec3::ZERO, axis)];
+                let relative = b.angular_velocity - a.angular_velocity;
+                Free {
+                    value: libm::atan2(axis.dot(u.cross(w)), u.dot(w)),
+                    bias: a.angular_velocity.cross(axis).dot(relative),
+                    scale: 1.0,
+                    parts,
+                }
+            }
+            None => {
+                let apart = b.location - a.location;
+                let rate = b.velocity - a.velocity;
+                let axis_rate = a.angular_velocity.cross(axis);
+                Free {
+                    value: axis.dot(apart),
+                    bias: axis.dot(b.centripetal - a.centripetal)
+                        + 2.0 * axis_rate.dot(rate)
+                        + a.angular_velocity.cross(axis_rate).dot(apart),
+                    scale: a.location.abs().max(b.location.abs()).max_element(),
+                    parts: [(a.body, -axis, axis.cross(apart + a.arm)), (b.body, axis, b.arm.cross(axis))],
+                }
+            }
+        }
+    }
+
+    /// The coordinate now, and at the beginning of the step.
+    pub(super) fn measure_both(&self, members: &Members<'_>) -> [Free; 2] {
+        [*members, members.at_origin()].map(|members| self.measure(&End::all(self.between, &members)))
+    }
+
+    /// The difference of two values, of angles the shortest way round.
+    pub(super) fn difference(&self, to: f64, from: f64) -> f64 {
+        if self.is_angle() { libm::remainder(to - from, std::f64::consts::TAU) } else { to - from }
+    }
+
+    /// The rate of the coordinate, rad/s or m/s.
+    pub(super) fn rate([a, b]: &[End; 2], free: &Free) -> f64 {
+        let rate = |end: &End, (_, linear, angular): (Option<usize>, DVec3, DVec3)| {
+            let centre = end.velocity - end.angular_velocity.cross(end.arm);
+            linear.dot(centre) + angular.dot(end.angular_velocity)
+        };
+        rate(a, free.parts[0]) + rate(b, free.parts[1])
+    }
+
+    /// The forces and torques on the two ends' bodies that a generalised force of 1 makes.
+    pub(super) fn directions(free: &Free) -> [(Option<usize>, DVec3, DVec3); 2] {
+        free.parts
+    }
+}
+
+/// One equation between coordinates.
+pub(super) struct CoordinateRow<'a> {
+    /// Which one, among those of the constraint.
+    pub(super) row: usize,
+    /// The factor of each coordinate.
+    pub(super) terms: &'a [(f64, Free)],
+    /// c.
+    pub(super) violation: f64,
+    /// ∂c/∂t.
+    pub(super) rate: f64,
+    /// ∂²c/∂t².
+    pub(super) curvature: f64,
+}
+
+impl CoordinateRow<'_> {
+    /// Writes it.
+    pub(super) fn write(self, equations: &mut Equations<'_>) {
+        let (mut bias, mut scale) = (self.curvature, f64::MIN_POSITIVE);
+        for (factor, free) in self.terms {
+            bias += factor * free.bias;
+            scale = scale.max(factor.abs() * free.scale);
+        }
+        equations.row(self.row, self.violation, bias, scale);
+        equations.moving(self.row, self.rate);
+        for (factor, free) in self.terms {
+            for (body, linear, angular) in free.parts {
+                equations.direction(self.row, body, *factor * linear, *factor * angular);
+            }
+        }
+    }
+}

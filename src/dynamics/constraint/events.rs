@@ -1,0 +1,73 @@
+//! When rows have to change what they do: how far a state is from the next event.
+
+use super::super::{Breakdown, Loads, Model, State};
+use super::Law;
+use super::modes::Mode;
+use super::solver::{self, Solver};
+
+/// An open stop may be passed by this part of its scale, and a speed by this part of the rates, before that is an event.
+const PASSED: f64 = 1e-12;
+
+/// Multipliers may be on the wrong side by this part of the accelerations. It is more than what [`Solver::decide`] calls
+/// slight, so that each event changes something.
+const PULLED: f64 = 1e-9;
+
+impl Solver {
+    /// Whether rows can change what they do.
+    pub(in crate::dynamics) fn has_events(&self) -> bool {
+        self.has_modes
+    }
+
+    /// How far a state is from the next event, which has happened where this is negative, in units of what is tolerated; and the
+    /// row that is the nearest. It is 1 where a stop is just touched. `loads` is room to work in.
+    pub(in crate::dynamics) fn margin(
+        &mut self,
+        model: &Model,
+        t: f64,
+        state: &State,
+        loads: &mut Loads,
+    ) -> (f64, usize) {
+        self.is_ready = false;
+        self.measure(model, t, state);
+        let n = self.rows.len();
+        let mut rates = vec![0.0; n];
+        let size = match &self.structure {
+            Some(structure) => {
+                solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut rates)
+            }
+            None => return (f64::INFINITY, 0),
+        };
+        let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Tie;
+        let mut force = 0.0;
+        if self.modes.iter().zip(&self.laws).any(pulls) {
+            self.factorise(false);
+            self.is_ready = true;
+            model.sum(t, state, loads);
+            let mut accelerations = vec![0.0; n];
+            force = self.react_seeing(t, state, loads, &mut accelerations);
+        }
+        let part = |value: f64, of: f64, tolerated: f64| {
+            if of > 0.0 { value / of / tolerated + 1.0 } else { 1.0 }
+        };
+        let margin = |i: usize| match (self.modes[i], self.laws[i]) {
+            (Mode::Open, Law::Stop) => part(self.rows[i].violation, self.rows[i].scale, PASSED),
+            (Mode::Pushed(sign), _) => part(-sign * rates[i], size, PASSED),
+            (Mode::Held, Law::Stop) => part(self.unknown[i] * self.weight(i), force, PULLED),
+            (Mode::Held, Law::Drive { limit }) => {
+                part((limit - self.unknown[i].abs()) * self.weight(i), force, PULLED)
+            }
+            _ => f64::INFINITY,
+        };
+        (0..n).map(|i| (margin(i), i)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
+    }
+
+    /// Notes that a run cannot go on, since a row changes again and again.
+    pub(in crate::dynamics) fn give_up(&mut self, row: usize, time: f64) {
+        let Some(structure) = &self.structure else { return };
+        let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));
+        let missing = self.rows[row].violation.abs();
+        if let (None, Some(place)) = (self.failure, place) {
+            self.failure = Some(Breakdown::Broken { constraint: place.constraint, time, missing });
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! A gear: two joints move together.
+
+use super::super::{Anchor, BodyId};
+use super::coordinate::{Coordinate, CoordinateRow};
+use super::{Constraint, Equations, Members, parts};
+
+/// What couples the angles of two hinges, or the ways of sliders.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gear {
+    /// The coordinates of the two joints.
+    pub joints: [Coordinate; 2],
+    /// How much the second moves when the first moves by 1; it is not 0.
+    pub ratio: f64,
+}
+
+impl Gear {
+    fn ends(&self) -> [Anchor; 4] {
+        let [[a, b], [c, d]] = self.joints.map(|joint| joint.between);
+        [a, b, c, d]
+    }
+}
+
+impl Constraint for Gear {
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(&self.ends())
+    }
+
+    fn rows(&self) -> usize {
+        1
+    }
+
+    /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step: so the turns need not be counted.
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        let measure = |members: &Members<'_>| {
+            let [a, b, c, d] = super::member::End::all(self.ends(), members);
+            [self.joints[0].measure(&[a, b]), self.joints[1].measure(&[c, d])]
+        };
+        let (now, before) = (measure(members), measure(&members.at_origin()));
+        let moved = |i: usize| self.joints[i].difference(now[i].value, before[i].value);
+        let violation = moved(1) - self.ratio * moved(0);
+        let terms = &[(-self.ratio, now[0]), (1.0, now[1])];
+        CoordinateRow { row: 0, terms, violation, rate: 0.0, curvature: 0.0 }.write(equations);
+    }
+}

@@ -1,0 +1,215 @@
+//! Rows that do not always hold: which of them do at present, and which push as hard as they may.
+//!
+//! A stop with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0; a drive either keeps its speed with
+//! |λ| ≤ its limit, or pushes with its limit. Both are found as the solution of a linear complementarity problem, of velocities
+//! at an impact and then of accelerations, by changing one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics
+//! with Unilateral Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
+
+use super::super::{Loads, Model, State};
+use super::solver::{self, Solver};
+use super::{Law, Row};
+
+/// What a row does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Mode {
+    /// It keeps c = 0.
+    Held,
+    /// It does nothing.
+    Open,
+    /// It pushes with its limit, with this sign.
+    Pushed(f64),
+}
+
+/// A stop is touched where c is below this part of its scale.
+const TOUCHED: f64 = 1e-9;
+
+/// What is below this part of the terms that it is a sum of has come from rounding.
+pub(super) const SLIGHT: f64 = 1e-10;
+
+impl Mode {
+    /// That of a row of which nothing is known yet.
+    pub(super) fn first(law: &Law) -> Mode {
+        match law {
+            Law::Tie => Mode::Held,
+            Law::Stop | Law::Drive { .. } => Mode::Open,
+        }
+    }
+
+    /// By how much a row does not hold.
+    pub(super) fn missing(self, law: Law, row: &Row) -> f64 {
+        match (law, self) {
+            (_, Mode::Held) => row.violation.abs(),
+            (Law::Stop, _) => (-row.violation).max(0.0),
+            (Law::Tie | Law::Drive { .. }, _) => 0.0,
+        }
+    }
+}
+
+impl Solver {
+    /// Brings bodies to where the constraints hold, after they have been changed by hand at time `t`, and decides what each row
+    /// does from then on.
+    pub(in crate::dynamics) fn start(&mut self, model: &Model, t: f64, state: &mut State, loads: &mut Loads) {
+        self.begin(model, t, state);
+        if !self.has_modes {
+            self.settle(model, t, state);
+            return;
+        }
+        // Stops that are passed lead the places back, and leave the velocities alone.
+        for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
+            if *law == Law::Stop && row.violation < 0.0 {
+                *mode = Mode::Held;
+            }
+        }
+        self.hold();
+        self.settle(model, t, state);
+        for (mode, law) in self.modes.iter_mut().zip(&self.laws) {
+            *mode = Mode::first(law);
+        }
+        self.decide(model, t, state, loads);
+    }
+
+    /// Decides what each row does from now on: takes the impulses of stops that are hit, and finds the rows that go on holding.
+    /// `loads` is room to work in.
+    pub(in crate::dynamics) fn decide(
+        &mut self,
+        model: &Model,
+        t: f64,
+        state: &mut State,
+        loads: &mut Loads,
+    ) {
+        self.is_ready = false;
+        self.measure(model, t, state);
+        let touched: Vec<bool> = self
+            .laws
+            .iter()
+            .zip(&self.rows)
+            .map(|(law, row)| *law == Law::Stop && row.violation <= TOUCHED * row.scale)
+            .collect();
+        let size = self.hit(model, state, &touched);
+        // The velocities are new.
+        self.measure(model, t, state);
+        let mut rates = vec![0.0; self.rows.len()];
+        if let Some(structure) = &self.structure {
+            solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut rates);
+        }
+        let mut can_hold = vec![false; self.rows.len()];
+        for i in 0..self.rows.len() {
+            let is_still = rates[i].abs() <= TOUCHED * size;
+            (self.modes[i], can_hold[i]) = match self.laws[i] {
+                Law::Tie => (Mode::Held, false),
+                Law::Stop if touched[i] && is_still => (Mode::Held, true),
+                Law::Stop => (Mode::Open, false),
+                Law::Drive { .. } if is_still => (Mode::Held, true),
+                Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
+            };
+        }
+        self.go_on(model, t, state, loads, &can_hold);
+    }
+
+    /// Takes the impulses of stops that are hit: those push, and after it nothing goes further into them. Gives the size of the
+    /// rates.
+    fn hit(&mut self, model: &Model, state: &mut State, touched: &[bool]) -> f64 {
+        let n = self.rows.len();
+        let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
+        for (i, mode) in self.modes.iter_mut().enumerate() {
+            *mode = Mode::first(&self.laws[i]);
+        }
+        let size = match &self.structure {
+            Some(structure) => {
+                solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut before)
+            }
+            None => return 0.0,
+        };
+        let slight = SLIGHT * size;
+        let is_hit = |i: usize, rate: f64| touched[i] && rate < -slight;
+        if !(0..n).any(|i| is_hit(i, before[i])) {
+            return size;
+        }
+        for i in (0..n).filter(|&i| is_hit(i, before[i])) {
+            self.modes[i] = Mode::Held;
+        }
+        let members = self.members.clone();
+        for round in 0..rounds(n) {
+            self.hold();
+            for (value, rate) in self.unknown.iter_mut().zip(&before) {
+                *value = -rate;
+            }
+            self.factor.solve(&mut self.unknown);
+            let Solver { structure: Some(structure), members: moved, jacobian, unknown, .. } = self else {
+                return size;
+            };
+            moved.clone_from(&members);
+            solver::move_members(structure, jacobian, unknown, moved);
+            solver::rates(&structure.places, jacobian, moved, &self.rows, &mut after);
+            let wrong = |i: usize| match self.modes[i] {
+                Mode::Held if touched[i] => -self.unknown[i] * self.weight(i),
+                Mode::Open if touched[i] => -after[i],
+                _ => 0.0,
+            };
+            match worst(n, round, slight, wrong) {
+                None => break,
+                Some(i) if self.modes[i] == Mode::Held => self.modes[i] = Mode::Open,
+                Some(i) => self.modes[i] = Mode::Held,
+            }
+        }
+        let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
+        solver::push(structure, jacobian, unknown, model, state);
+        solver::book(rows, unknown, state);
+        // The work of the impulses is ½ Λ (c' before + c' after), beside what guides and motors have given.
+        let mut taken = 0.0;
+        for i in 0..n {
+            taken += 0.5 * unknown[i] * (before[i] + after[i]);
+        }
+        state.accounts.limits += taken;
+        size
+    }
+
+    /// Finds which of the rows that can hold go on doing so, by their accelerations.
+    fn go_on(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads, can_hold: &[bool]) {
+        let n = self.rows.len();
+        let is_free = can_hold.iter().all(|can| !can);
+        let mut accelerations = vec![0.0; n];
+        for round in 0..rounds(n) {
+            self.hold();
+            if is_free {
+                return;
+            }
+            self.is_ready = true;
+            model.sum(t, state, loads);
+            let size = self.react_seeing(t, state, loads, &mut accelerations);
+            let wrong = |i: usize| match (self.modes[i], self.laws[i]) {
+                _ if !can_hold[i] => 0.0,
+                (Mode::Held, Law::Stop) => -self.unknown[i] * self.weight(i),
+                (Mode::Held, Law::Drive { limit }) => (self.unknown[i].abs() - limit) * self.weight(i),
+                (Mode::Open, _) => -accelerations[i],
+                (Mode::Pushed(sign), _) => sign * accelerations[i],
+                (Mode::Held, Law::Tie) => 0.0,
+            };
+            match worst(n, round, SLIGHT * size, wrong) {
+                None => return,
+                Some(i) => {
+                    self.modes[i] = match (self.modes[i], self.laws[i]) {
+                        (Mode::Held, Law::Drive { .. }) => Mode::Pushed(self.unknown[i].signum()),
+                        (Mode::Held, _) => Mode::Open,
+                        _ => Mode::Held,
+                    };
+                }
+            }
+        }
+    }
+}
+
+/// As many changes as a problem of `n` rows may need.
+fn rounds(n: usize) -> usize {
+    100 + 20 * n
+}
+
+/// The row that is most wrong, if some is by more than what is slight; after many rounds the first one, which ends every
+/// circle.
+fn worst(n: usize, round: usize, slight: f64, wrong: impl Fn(usize) -> f64) -> Option<usize> {
+    let all = (0..n).map(|i| (i, wrong(i))).filter(|(_, wrong)| *wrong > slight);
+    if round > 50 + 2 * n {
+        return all.map(|(i, _)| i).next();
+    }
+    all.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+}

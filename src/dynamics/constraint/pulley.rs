@@ -1,0 +1,51 @@
+//! A pulley: a rope that runs over two points.
+
+use super::super::{Anchor, BodyId};
+use super::member::End;
+use super::{Constraint, Equations, Law, Members, parts};
+
+/// A rope without mass and friction from one end over two points to the other end. It can be slack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulley {
+    /// The two ends of the rope.
+    pub between: [Anchor; 2],
+    /// The points over which it runs: the first is that of the first end.
+    pub over: [Anchor; 2],
+    /// How much rope the first end gets for each metre of the second; it is positive.
+    pub ratio: f64,
+    /// ℓ: the length of the first part, and `ratio` times that of the second, m.
+    pub length: f64,
+}
+
+impl Pulley {
+    fn ends(&self) -> [Anchor; 4] {
+        [self.over[0], self.between[0], self.over[1], self.between[1]]
+    }
+}
+
+impl Constraint for Pulley {
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(&self.ends())
+    }
+
+    fn rows(&self) -> usize {
+        1
+    }
+
+    fn law(&self, _: usize) -> Law {
+        Law::Stop
+    }
+
+    /// c = ℓ − |d₁| − r |d₂| ≥ 0, with d the ways from the points to the ends.
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        let [a, b, c, d] = End::all(self.ends(), members);
+        let ways = [([a, b], 1.0), ([c, d], self.ratio)];
+        let ways = ways.map(|(ends, factor)| (parts::Way::new(&ends, self.length), factor));
+        let sum = |value: fn(&parts::Way) -> f64| -> f64 {
+            ways.iter().map(|(way, factor)| factor * value(way)).sum()
+        };
+        let scale = ways.iter().fold(self.length, |scale, (way, _)| scale.max(way.scale));
+        equations.row(0, self.length - sum(|way| way.length), -sum(|way| way.bias), scale);
+        ways.iter().for_each(|(way, factor)| way.write(-factor, 0, equations));
+    }
+}

@@ -1,0 +1,35 @@
+//! A rope: the distance of two points does not grow beyond its length.
+
+use super::super::{Anchor, BodyId};
+use super::member::End;
+use super::{Constraint, Equations, Law, Members, parts};
+
+/// A rope without mass. When it becomes taut, it takes what leads the ends apart, and does not spring back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rope {
+    /// The two points.
+    pub between: [Anchor; 2],
+    /// Its length ℓ, m; it is positive.
+    pub length: f64,
+}
+
+impl Constraint for Rope {
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(&self.between)
+    }
+
+    fn rows(&self) -> usize {
+        1
+    }
+
+    fn law(&self, _: usize) -> Law {
+        Law::Stop
+    }
+
+    /// c = ℓ − |d| ≥ 0, with d the way from one end to the other.
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        let way = parts::Way::new(&End::all(self.between, members), self.length);
+        equations.row(0, self.length - way.length, -way.bias, way.scale.max(self.length));
+        way.write(-1.0, 0, equations);
+    }
+}

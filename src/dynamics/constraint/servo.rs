@@ -1,0 +1,52 @@
+//! A servo: a spring and a damper that lead a joint to a value that is given at every time.
+
+use std::sync::Arc;
+
+use super::super::{Force, Loads, Moment};
+use super::member::{End, Member};
+use super::{Coordinate, Members, Target, parts};
+
+/// A motor that is as strong as its stiffness: k (q₀(t) − q) + d (q₀'(t) − q').
+#[derive(Clone, Debug)]
+pub struct Servo {
+    /// What it drives.
+    pub coordinate: Coordinate,
+    /// q₀: the value that is wanted.
+    pub target: Arc<dyn Target>,
+    /// k, N m/rad or N/m.
+    pub stiffness: f64,
+    /// d, N m s/rad or N s/m.
+    pub damping: f64,
+}
+
+impl Force for Servo {
+    fn apply(&self, moment: &Moment<'_>, loads: &mut Loads) {
+        let ids = parts::bodies(&self.coordinate.between);
+        if ids.iter().any(|id| !moment.model.is_present(id.index())) {
+            return;
+        }
+        let mut all = [Member::default(); 2];
+        for (member, id) in all.iter_mut().zip(&ids) {
+            *member = Member::of(id.index(), moment.model, moment.state);
+        }
+        let members = Members { all: &all, of: &[0, 1], time: moment.time, origin: &all, begun: moment.time };
+        let ends = End::all(self.coordinate.between, &members);
+        let free = self.coordinate.measure(&ends);
+        let rate = Coordinate::rate(&ends, &free);
+        let [value, wanted, _] = self.target.at(moment.time);
+        let effort =
+            self.stiffness * self.coordinate.difference(value, free.value) + self.damping * (wanted - rate);
+        for (body, linear, angular) in Coordinate::directions(&free) {
+            if let Some(body) = body {
+                let i = ids[body].index();
+                loads.force[i] += effort * linear;
+                loads.torque[i] += effort * angular;
+            }
+        }
+        loads.power.motors += effort * rate;
+    }
+
+    fn potential(&self, _: &Moment<'_>) -> f64 {
+        0.0
+    }
+}

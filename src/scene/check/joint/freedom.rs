@@ -1,0 +1,142 @@
+//! The limits and the motor of a hinge or a slider.
+
+use std::sync::Arc;
+
+use super::Reader;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::{Coordinate, Freedom, Motor, Servo};
+use crate::scene::check::read::figure;
+use crate::scene::check::view::View;
+use crate::scene::joint::Course;
+
+/// What differs between an angle and a way.
+struct Words {
+    /// What the unit of the scene is in that of the dynamics.
+    unit: f64,
+    /// The unit, as it is written.
+    symbol: &'static str,
+    /// The key of what the motor can do at most.
+    strength: &'static str,
+    /// The key of the value that a motor keeps.
+    value: &'static str,
+}
+
+const TURNING: Words =
+    Words { unit: std::f64::consts::PI / 180.0, symbol: "°", strength: "torque", value: "angle" };
+const MOVING: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
+
+/// A turn, degrees.
+const TURN: f64 = 360.0;
+
+impl Reader<'_, '_> {
+    /// Reads what is done with the coordinate that a joint leaves free.
+    pub(super) fn freedom(&mut self, view: &View<'_>, coordinate: Coordinate) -> (Freedom, Option<Servo>) {
+        let words = if coordinate.is_angle() { &TURNING } else { &MOVING };
+        let limits = self.limits(view, words);
+        let Some(motor) = view.variant("motor") else { return (Freedom { limits, motor: None }, None) };
+        if let Some(value) = motor.timed(words.value) {
+            let target = Arc::new(Course { value, unit: words.unit });
+            let servo = motor.number("stiffness").map(|stiffness| Servo {
+                coordinate,
+                target: target.clone(),
+                stiffness,
+                damping: motor.number("damping").unwrap_or(0.0),
+            });
+            self.unused(
+                &motor,
+                words.strength,
+                &format!("with `{}`, a motor is as strong as its `stiffness`", words.value),
+            );
+            if servo.is_some() {
+                return (Freedom { limits, motor: None }, servo);
+            }
+            self.unused(&motor, "damping", "without `stiffness`, the motor keeps its value exactly");
+            self.begins_at_zero(&motor, &target, words);
+            return (Freedom { limits, motor: Some(Motor::Value(target)) }, None);
+        }
+        for key in ["stiffness", "damping"] {
+            self.unused(
+                &motor,
+                key,
+                &format!("with `speed`, a motor is as strong as its `{}`", words.strength),
+            );
+        }
+        let speed = motor.number("speed");
+        let limit = motor.number(words.strength);
+        if let (Some(_), None, false) = (speed, limit, motor.has(words.strength)) {
+            let message = format!("the motor of the joint `{}` does not say how strong it is", self.name);
+            let span = view.span("motor").unwrap_or(self.span);
+            let error = Diagnostic::error(Code::MissingKey, message);
+            let error = error.at(span, format!("needs `{}`", words.strength));
+            let help = format!(
+                "such as `motor = {{ speed = {}, {} = 10 }}`",
+                figure(speed.unwrap_or(1.0)),
+                words.strength
+            );
+            self.context.diagnostics.push(error.help(help));
+        }
+        let motor = speed.zip(limit).map(|(speed, limit)| Motor::Speed { speed, limit });
+        (Freedom { limits, motor }, None)
+    }
+
+    fn limits(&mut self, view: &View<'_>, words: &Words) -> Option<[f64; 2]> {
+        let [low, high] = *view.numbers("limits")?.as_slice() else { return None };
+        let span = view.span("limits").unwrap_or(self.span);
+        let Words { unit, symbol, .. } = *words;
+        let mut wrong = |label: String, help: String| {
+            let message = format!("the limits of the joint `{}` cannot hold", self.name);
+            self.context
+                .diagnostics
+                .push(Diagnostic::error(Code::BadJoint, message).at(span, label).help(help));
+            None
+        };
+        let [shown_low, shown_high] = [low, high].map(figure);
+        if low >= high {
+            return wrong(
+                "the first must be smaller than the second".to_owned(),
+                format!(
+                    "`limits = [{shown_high}, {shown_low}]`, or a `fixed` joint where it must not move at all"
+                ),
+            );
+        }
+        if low > 0.0 || high < 0.0 {
+            return wrong(
+                format!("the joint begins at 0{symbol}, which is not between them"),
+                "limits count from how the bodies stand at the start: turn or move the bodies, or the limits"
+                    .to_owned(),
+            );
+        }
+        if words.symbol == "°" && high - low >= TURN {
+            return wrong(
+                format!("they are {}° apart, a turn or more", figure(high - low)),
+                "limits span less than 360°; without limits, a hinge turns as often as it likes".to_owned(),
+            );
+        }
+        Some([low * unit, high * unit])
+    }
+
+    /// Says it where a motor that keeps a value exactly would have to jump there.
+    fn begins_at_zero(&mut self, motor: &View<'_>, target: &Course, words: &Words) {
+        let value = target.value.at(0.0);
+        if value.abs() * words.unit > 1e-9 {
+            let message = format!("the motor of the joint `{}` would have to jump at the start", self.name);
+            let span = motor.span(words.value).unwrap_or(self.span);
+            let label =
+                format!("it is {}{} at t = 0, and the joint begins at 0", figure(value), words.symbol);
+            let help =
+                "let the formula begin at 0, or give the motor a `stiffness`: then it pulls the joint there";
+            self.context
+                .diagnostics
+                .push(Diagnostic::error(Code::BadJoint, message).at(span, label).help(help));
+        }
+    }
+
+    /// Warns of a key that has no effect.
+    fn unused(&mut self, view: &View<'_>, key: &'static str, why: &str) {
+        let span: Option<Span> = view.key_span(key);
+        if let Some(span) = span {
+            let message = format!("`{key}` has no effect here");
+            self.context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, why));
+        }
+    }
+}

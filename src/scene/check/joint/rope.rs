@@ -1,0 +1,114 @@
+//! Ropes, pulleys and gears.
+
+use super::{Reader, about};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::dynamics::{Coordinate, Gear, Pulley, Rope};
+use crate::scene::check::end;
+use crate::scene::check::read::figure;
+use crate::scene::check::view::View;
+use crate::scene::source::Value;
+use crate::scene::{Joint, JointKind};
+
+/// A rope that is too short by less than this part is taut: its length was written with few digits.
+const NEARLY: f64 = 1e-9;
+
+impl Reader<'_, '_> {
+    pub(super) fn rope(&mut self, view: &View<'_>) -> Option<Rope> {
+        let (between, nodes) = self.ends(view)?;
+        let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
+        let distance = from.distance(to);
+        let length = view.number("length").unwrap_or(distance);
+        if length == 0.0 {
+            let message = format!("the rope `{}` has no length", self.name);
+            let error =
+                Diagnostic::error(Code::BadJoint, message).at(nodes[1].span, "where the other end is");
+            self.context.diagnostics.push(error.help("say how long it is: `length = 1`"));
+            return None;
+        }
+        self.reaches(view, length, distance, "its ends are", "the rope");
+        Some(Rope { between, length: length.max(distance) })
+    }
+
+    pub(super) fn pulley(&mut self, view: &View<'_>) -> Option<Pulley> {
+        let (between, _) = self.ends(view)?;
+        let [first, second] = view.list("over")? else { return None };
+        let over = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
+        let ratio = view.number("ratio").unwrap_or(1.0);
+        let mut ways = [0.0; 2];
+        for ((way, end), (point, node)) in
+            ways.iter_mut().zip(between).zip(over.into_iter().zip([first, second]))
+        {
+            *way = end::place(end, self.bodies).distance(end::place(point, self.bodies));
+            if *way == 0.0 {
+                let message = format!("the pulley `{}` has an end where its rope runs over", self.name);
+                let error = Diagnostic::error(Code::BadJoint, message).at(node.span, "an end is here, too");
+                self.context.diagnostics.push(error.help("the rope needs a way from each point to its end"));
+                return None;
+            }
+        }
+        let needed = ways[0] + ratio * ways[1];
+        let length = view.number("length").unwrap_or(needed);
+        self.reaches(view, length, needed, "its parts are", "the rope of the pulley");
+        Some(Pulley { between, over, ratio, length: length.max(needed) })
+    }
+
+    /// Says it where a rope is too short.
+    fn reaches(&mut self, view: &View<'_>, length: f64, needed: f64, what: &str, whose: &str) {
+        if needed <= length * (1.0 + NEARLY) {
+            return;
+        }
+        let message =
+            format!("{whose} `{}` is too short: {} m are missing", self.name, about(needed - length));
+        let span = view.span("length").unwrap_or(self.span);
+        let needed = figure(format!("{needed:.9}").parse().unwrap_or(needed));
+        let error = Diagnostic::error(Code::JointApart, message);
+        let error = error.at(span, format!("{what} {needed} m at the start"));
+        self.context
+            .diagnostics
+            .push(error.help(format!("`length = {needed}` or more; without the key, it is taut")));
+    }
+
+    /// A gear between two of the joints that were read before.
+    pub(super) fn gear(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<Gear> {
+        let nodes = view.list("joints")?;
+        let ratio = view.number("ratio");
+        let mut coordinates: Vec<Coordinate> = Vec::new();
+        let mut names: Vec<&str> = Vec::new();
+        for node in nodes {
+            let Value::String(name) = &node.value else { return None };
+            let joint = joints.iter().find(|joint| joint.name == **name)?;
+            let error = match &joint.kind {
+                _ if names.contains(&&**name) => "the same joint as the one before it",
+                JointKind::Hinge(hinge) => {
+                    coordinates.push(hinge.coordinate());
+                    names.push(name);
+                    continue;
+                }
+                JointKind::Slider(slider) => {
+                    coordinates.push(slider.coordinate());
+                    names.push(name);
+                    continue;
+                }
+                _ => "neither a hinge nor a slider",
+            };
+            let message = format!("the gear `{}` cannot couple these joints", self.name);
+            let error = Diagnostic::error(Code::BadJoint, message).at(node.span, error);
+            self.context
+                .diagnostics
+                .push(error.help("a gear couples two hinges, two sliders, or one of each"));
+            return None;
+        }
+        let [first, second] = *coordinates.as_slice() else { return None };
+        let ratio = ratio?;
+        if ratio == 0.0 {
+            let message = format!("the gear `{}` has a ratio of 0", self.name);
+            let span = view.span("ratio").unwrap_or(self.span);
+            let error = Diagnostic::error(Code::BadJoint, message).at(span, "the second would never move");
+            self.context
+                .diagnostics
+                .push(error.help("such as `ratio = -2`: the second turns twice as fast, the other way"));
+            return None;
+        }
+        Some(Gear { joints: [first, second], ratio })
+    }
+}
