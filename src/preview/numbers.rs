@@ -41,13 +41,12 @@ pub(super) fn poses(
     Ok(bytes)
 }
 
-/// Appends what is said of all bodies together: the time; kinetic, potential, total energy; the accounts; drift; linear
+/// Appends what is said of all bodies together: the time; kinetic, potential, total energy; the sum of the accounts; drift; linear
 /// momentum; angular momentum.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance) {
     let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
     put(bytes, &[time, *kinetic, *potential, *total]);
-    put(bytes, &accounts.to_array());
-    put(bytes, &[*drift]);
+    put(bytes, &[accounts.total(), *drift]);
     put(bytes, &linear_momentum.to_array());
     put(bytes, &angular_momentum.to_array());
 }
