@@ -15,6 +15,7 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
         Asking::Trail => (format!("the trail of `{name}`"), "trail.width".to_owned()),
         Asking::Ghosts => (format!("the ghosts of `{name}`"), "ghosts".to_owned()),
         Asking::Coil => (format!("the coil of the spring `{name}`"), "coil.radius".to_owned()),
+        Asking::Line => (format!("the line of the spring `{name}`"), "coil.radius".to_owned()),
         Asking::ScaleBar => ("the scale bar".to_owned(), "scale_bar.length".to_owned()),
     };
     let are = if matches!(missing.what, Asking::Axes | Asking::Ghosts) { "are" } else { "is" };
@@ -61,7 +62,7 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     };
     let help = match (fit, &missing.what) {
         (Some(fit), _) => format!("write `{key} = {}`, or leave `{key}` out", rounded(fit)),
-        (None, Asking::Coil) => "move the ends apart, or write `coil = false`".to_owned(),
+        (None, Asking::Coil | Asking::Line) => "move the ends apart, or write `line = \"none\"`".to_owned(),
         (None, _) => format!("leave `{key}` out"),
     };
     Diagnostic::warning(Code::NotDrawn, message).help(help)

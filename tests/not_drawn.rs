@@ -99,7 +99,7 @@ fn coils_without_room_or_width() {
          write `coil.radius = 0.1`, or leave `coil.radius` out"]
     );
     let touching = spring("[0.5, 0, 0]", "");
-    assert!(touching[0].ends_with("move the ends apart, or write `coil = false`"), "{touching:?}");
+    assert!(touching[0].ends_with("move the ends apart, or write `line = \"none\"`"), "{touching:?}");
     // POV-Ray takes no such number: without the warning, there would be no picture either.
     let thin = spring("[3, 0, 0]", "coil.radius = 1e-13");
     assert!(thin[0].starts_with("the coil of the spring `s` is not seen: at most"), "{thin:?}");

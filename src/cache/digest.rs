@@ -31,7 +31,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     for force in &scene.forces {
         match &force.kind {
             // How a spring is drawn does not matter.
-            ForceKind::Spring { links, coil: _ } => {
+            ForceKind::Spring { links, look: _ } => {
                 writeln!(text, "{links:?}")?;
             }
             kind => writeln!(text, "{kind:?}")?,

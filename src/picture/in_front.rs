@@ -1,10 +1,10 @@
-//! Arrows that the ground or a spring would hide, moved towards the camera: so they look the same, and are seen.
+//! Arrows that the ground, a spring or a joint would hide, moved towards the camera: so they look the same, and are seen.
 
 use glam::DVec3;
 
 use super::arrows::{Arrow, HEAD};
 use super::camera::{Lens, Placed};
-use super::coils::Coil;
+use super::links::Link;
 use super::stage::Stage;
 use crate::dynamics::Shape;
 use crate::scene::Scene;
@@ -52,15 +52,13 @@ impl Planes {
     }
 }
 
-/// Moves an arrow in front of a coil in which it lies.
-pub(super) fn lift_from_coil(arrow: &mut Arrow, coil: &Coil<'_>, camera: &Placed) {
-    let Some([begin, end]) = coil.span else { return };
-    let reach = coil.radius + coil.wire + HEAD * arrow.radius;
-    if distance([arrow.from, arrow.to], [begin, end]) >= reach {
-        return;
-    }
+/// Moves an arrow in front of a spring or a joint in which it lies.
+pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
+    let reach = link.reach() + HEAD * arrow.radius;
+    let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;
+    let Some([begin, end]) = link.lines().find(is_hidden) else { return };
     let middle = (arrow.from + arrow.to) / 2.0;
-    // Along a coil that is seen from its end, the way out of it would be long.
+    // Along a line that is seen from its end, the way out of it would be long.
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
     *arrow = match camera.lens() {

@@ -1,7 +1,7 @@
 //! Frames → what their pictures show.
 //!
 //! A [`Plan`] is made once for a run and a camera; then it says of any frame, in any order and from several threads at
-//! once, where the camera stands, what shines, and what is drawn beside the bodies: arrows, axes, coils, ghosts,
+//! once, where the camera stands, what shines, and what is drawn beside the bodies: arrows, axes, springs, joints, ghosts,
 //! trails, texts, a grid, a scale bar. All of it is in metres, and in no program's words, so that all that draws a
 //! frame draws the same.
 
@@ -9,7 +9,8 @@ mod arrows;
 mod bar;
 mod beside;
 mod camera;
-mod coils;
+#[cfg(test)]
+mod catenary;
 mod colors;
 mod framing;
 mod ghosts;
@@ -18,6 +19,7 @@ mod in_front;
 mod labels;
 mod length;
 mod lights;
+mod links;
 mod not_drawn;
 pub(crate) mod number;
 mod plan;
@@ -33,11 +35,11 @@ mod trails;
 pub use arrows::{Arrow, Axes};
 pub use bar::Bar;
 pub use camera::{Lens, Placed};
-pub use coils::Coil;
 pub use colors::{of_look, pale};
 pub(crate) use framing::{decimal_step, rounded_outward};
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};
+pub use links::{Link, LinkForm};
 pub use not_drawn::{Asking, NotDrawn, Why};
 pub(crate) use plan::has_texts;
 pub use plan::{Largest, Plan, Written};

@@ -1,9 +1,9 @@
 //! What a scene asks for, and no picture of the run shows.
 
 use super::arrows::{LONGEST, round_down};
-use super::coils::{self, Coils};
 use super::decimal_step;
 use super::ghosts;
+use super::links::{Links, SpringSize};
 use super::text::MARGIN;
 use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
@@ -39,6 +39,8 @@ pub enum Asking {
     Ghosts,
     /// The coil of a spring.
     Coil,
+    /// The straight line of a spring.
+    Line,
     /// The scale bar.
     ScaleBar,
 }
@@ -92,7 +94,7 @@ pub enum Why {
 pub(super) fn find(
     scene: &Scene,
     survey: &Survey,
-    coils: &Coils,
+    links: &Links,
     view: f64,
     bar: Option<(f64, f64)>,
 ) -> Vec<NotDrawn> {
@@ -141,14 +143,15 @@ pub(super) fn find(
             found.add(Asking::Ghosts, &body.name, why);
         }
     }
-    for (spring, radius) in survey.asked.springs.iter().zip(coils.radii()) {
-        let fits = coils::room_for(radius) < spring.room;
-        if !fits {
+    for (spring, size) in survey.asked.springs.iter().zip(links.springs()) {
+        let SpringSize { radius, room, is_coil } = *size;
+        let what = if is_coil { Asking::Coil } else { Asking::Line };
+        if room >= spring.room {
             let fit = (spring.room > 0.0).then(|| decimal_step(0.3 * spring.room));
-            found.add(Asking::Coil, &spring.force, Why::NoRoom { radius, fit });
+            found.add(what, &spring.force, Why::NoRoom { radius, fit });
         } else if 2.0 * radius < THINNEST * pixel {
             let why = Why::TooSmall { pixels: 2.0 * radius / pixel, fit: decimal_step(0.1 * spring.room) };
-            found.add(Asking::Coil, &spring.force, why);
+            found.add(what, &spring.force, why);
         }
     }
     if let Some((length, wide)) = bar.filter(|(_, wide)| *wide > 2.0 - 2.0 * MARGIN) {

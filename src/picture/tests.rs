@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Part, Plan, Text};
+use super::{Link, LinkForm, Part, Plan, Text};
 use crate::scene::{Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -278,9 +278,8 @@ fn a_label_stands_beside_other_bodies_and_the_names_of_axes_beside_coils() {
     let (scene, with) = plan(spring);
     let frame = frames(&scene).next().unwrap();
     let screen = with.screen(&frame).unwrap();
-    for coil in with.coils(&frame) {
+    for [begin, end] in with.links(&frame).iter().flat_map(Link::lines) {
         for part in 0..=40 {
-            let [begin, end] = coil.span.unwrap();
             let spot = screen.spot(begin.lerp(end, f64::from(part) / 40.0)).unwrap();
             for text in with.texts(&frame) {
                 let [left, right, bottom, top] = extent(&text);
@@ -330,11 +329,11 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
         between = [{ body = 'plank', at = [1, 0.05, 0.1] }, { body = 'moon', at = [0, -0.1, 0] }]",
     );
     for frame in frames(&scene).step_by(5) {
-        let [coil] = &plan.coils(&frame)[..] else { panic!("one is drawn") };
+        let [Link { form: LinkForm::Coil { ends: [begin, end], .. }, .. }] = plan.links(&frame)[..] else {
+            panic!("one is drawn")
+        };
         let [plank, moon] = &frame.bodies[..] else { panic!("there are two") };
-        let [begin, end] = coil.span.unwrap();
         assert_eq!(begin, plank.location + plank.orientation * DVec3::new(1.0, 0.05, 0.1));
         assert_eq!(end, moon.location + moon.orientation * DVec3::new(0.0, -0.2, 0.0));
-        assert_eq!(coil.fixed, [None, None]);
     }
 }

@@ -282,7 +282,7 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
     let springs = scene
         .forces
         .iter()
-        .any(|force| matches!(force.kind, crate::scene::ForceKind::Spring { coil: Some(_), .. }));
+        .any(|force| matches!(force.kind, crate::scene::ForceKind::Spring { look: Some(_), .. }));
     let trails = scene.bodies.iter().any(|body| body.showing.trail.is_some());
     let texts = !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some();
     let moves = |plan: &Plan| plan.camera_moves() || plan.lights_move();

@@ -24,7 +24,7 @@ pub(super) struct Shown {
     grid: Option<Vec<Line>>,
     arrows: Vec<Arrow>,
     axes: Vec<Axes>,
-    coils: Vec<Coil>,
+    links: Vec<Link>,
     texts: Vec<Text>,
     bar: Option<Bar>,
 }
@@ -75,15 +75,21 @@ struct Axes {
     length: f64,
 }
 
+/// A part of a spring or of a joint.
 #[derive(Serialize)]
-struct Coil {
-    span: Option<[Vector; 2]>,
-    fixed: Vec<Vector>,
-    knob: f64,
-    radius: f64,
-    wire: f64,
-    turns: u32,
+struct Link {
+    #[serde(flatten)]
+    form: LinkForm,
     color: Vector,
+}
+
+#[derive(Serialize)]
+#[serde(tag = "form", rename_all = "lowercase")]
+enum LinkForm {
+    Pin { at: Vector, radius: f64 },
+    Coil { ends: [Vector; 2], radius: f64, wire: f64, turns: u32 },
+    Rod { ends: [Vector; 2], radius: f64 },
+    Rope { points: Vec<Vector>, radius: f64 },
 }
 
 #[derive(Serialize)]
@@ -176,15 +182,6 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         turn: axes.orientation.to_array(),
         length: axes.length,
     };
-    let coil = |coil: &picture::Coil<'_>| Coil {
-        span: coil.span.map(|ends| ends.map(|end| DVec3::to_array(&end))),
-        fixed: coil.fixed.iter().flatten().map(DVec3::to_array).collect(),
-        knob: coil.knob,
-        radius: coil.radius,
-        wire: coil.wire,
-        turns: coil.turns,
-        color: coil.color.0,
-    };
     let text = |text: &picture::Text<'_>| Text {
         name: text.name.to_owned(),
         says: text.says.to_string(),
@@ -210,10 +207,25 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         grid: plan.grid(frame).filter(|_| plan.camera_moves()).map(|grid| lines(&grid)),
         arrows: arrows.iter().map(arrow).collect(),
         axes: plan.axes(frame).iter().map(axes).collect(),
-        coils: plan.coils(frame).iter().map(coil).collect(),
+        links: plan.links(frame).into_iter().map(link).collect(),
         texts: plan.texts(frame).iter().map(text).collect(),
         bar: plan.bar(frame).map(bar),
     }
+}
+
+fn link(link: picture::Link<'_>) -> Link {
+    let vectors = |ends: [DVec3; 2]| ends.map(|end| end.to_array());
+    let form = match link.form {
+        picture::LinkForm::Pin { at, radius } => LinkForm::Pin { at: at.to_array(), radius },
+        picture::LinkForm::Coil { ends, radius, wire, turns } => {
+            LinkForm::Coil { ends: vectors(ends), radius, wire, turns }
+        }
+        picture::LinkForm::Rod { ends, radius } => LinkForm::Rod { ends: vectors(ends), radius },
+        picture::LinkForm::Rope { points, radius } => {
+            LinkForm::Rope { points: points.iter().map(DVec3::to_array).collect(), radius }
+        }
+    };
+    Link { form, color: link.color.0 }
 }
 
 /// The lines of a grid.

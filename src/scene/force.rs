@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Coil;
+use super::SpringLook;
 use crate::dynamics::{self, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring};
 
 /// A force that is not a single body's own.
@@ -32,7 +32,7 @@ pub enum ForceKind {
         /// The springs, one behind the other.
         links: Vec<Spring>,
         /// How they are drawn, if they are.
-        coil: Option<Coil>,
+        look: Option<SpringLook>,
     },
 }
 

@@ -48,7 +48,7 @@ pub use look::{
 pub use model::{Body, BodyLook, Simulation};
 pub use places::Places;
 pub use preset::Preset;
-pub use showing::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Trail};
+pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
 pub use source::Override;
 
 use crate::diagnostic::Report;

@@ -1,4 +1,4 @@
-//! The part of a checked scene that shows its physics: arrows, axes, ghosts, trails and coils.
+//! The part of a checked scene that shows its physics: arrows, axes, ghosts, trails and springs.
 
 use super::Color;
 
@@ -78,12 +78,24 @@ pub struct Trail {
 }
 
 /// How a spring is drawn. What is not given follows from its length and from what it is fastened to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Coil {
-    /// The radius of the coil, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringLook {
+    /// As what.
+    pub line: SpringLine,
+    /// The radius of the coil or of the straight line, m.
     pub radius: Option<f64>,
-    /// The number of its turns.
-    pub turns: Option<u32>,
-    /// The color of its wire.
+    /// Its color.
     pub color: Option<Color>,
+}
+
+/// As what a spring is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpringLine {
+    /// A coil of wire.
+    Coil {
+        /// The number of its turns.
+        turns: Option<u32>,
+    },
+    /// A straight line from end to end.
+    Straight,
 }

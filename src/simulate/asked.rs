@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::vectors::{root, shown, surface};
 use super::{Frame, Moments};
-use crate::dynamics::{Anchor, BodySnapshot, Shape};
-use crate::scene::{Body, ForceKind, Quantity, Scene};
+use crate::dynamics::{Anchor, BodySnapshot, Shape, Slider};
+use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// How large what is asked for gets in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,6 +18,8 @@ pub struct Asked {
     pub ghosts: Vec<AskedGhosts>,
     /// The springs that are drawn, in the order of the forces and their links.
     pub springs: Vec<AskedSpring>,
+    /// The sliders that are drawn, in the order of the joints.
+    pub sliders: Vec<AskedSlider>,
 }
 
 /// An arrow of a body.
@@ -71,6 +73,18 @@ pub struct AskedSpring {
     pub room: f64,
 }
 
+/// A slider whose rail is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedSlider {
+    /// The number of the joint.
+    pub joint: usize,
+    slider: Slider,
+    /// How far the second end is from the first along the axis, m, where that is least.
+    pub least: f64,
+    /// The same where it is most, m.
+    pub most: f64,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 enum End {
     Point(DVec3),
@@ -111,12 +125,19 @@ impl Asked {
             }));
         }
         for force in &scene.forces {
-            let ForceKind::Spring { links, coil: Some(_) } = &force.kind else { continue };
+            let ForceKind::Spring { links, look: Some(_) } = &force.kind else { continue };
             asked.springs.extend(links.iter().map(|link| AskedSpring {
                 force: force.name.clone(),
                 ends: link.between.map(end),
                 room: f64::NEG_INFINITY,
             }));
+        }
+        for (number, joint) in scene.joints.iter().enumerate() {
+            let JointKind::Slider(slider) = joint.kind else { continue };
+            if joint.look.is_some() {
+                let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+                asked.sliders.push(AskedSlider { joint: number, slider, least, most });
+            }
         }
         asked
     }
@@ -143,6 +164,7 @@ impl Asked {
             let inside = spring.ends[0].depth(frame, along) + spring.ends[1].depth(frame, -along);
             spring.room = spring.room.max(from.distance(to) - inside);
         }
+        self.sliders.iter_mut().for_each(|slider| slider.see(frame));
     }
 }
 
@@ -169,6 +191,21 @@ impl AskedArrow {
         } else if self.lost.is_none() {
             self.lost = Some(time);
         }
+    }
+}
+
+impl AskedSlider {
+    fn see(&mut self, frame: &Frame) {
+        let pose = |end: Anchor| match end.body() {
+            Some(id) => frame.body(id.index()).map(|body| (body.location, body.orientation)),
+            None => Some((DVec3::ZERO, DQuat::IDENTITY)),
+        };
+        let [first, second] = self.slider.between;
+        let (Some(one), Some(other)) = (pose(first), pose(second)) else { return };
+        let apart = second.place(|_| other) - first.place(|_| one);
+        let along = apart.dot(one.1 * self.slider.axis);
+        self.least = self.least.min(along);
+        self.most = self.most.max(along);
     }
 }
 

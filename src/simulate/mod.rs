@@ -37,7 +37,7 @@ mod vectors;
 use crate::dynamics::Breakdown;
 use crate::scene::Scene;
 
-pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSpring, AskedTrail};
+pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSlider, AskedSpring, AskedTrail};
 pub use build::world;
 pub use exposure::Exposure;
 pub use frame::Frame;

@@ -38,7 +38,7 @@ pub fn axis(body: &Body) -> Option<f64> {
 /// The fixed points of the springs and joints that are drawn, m.
 pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Spring { links, coil: Some(_) } => Some(links),
+        ForceKind::Spring { links, look: Some(_) } => Some(links),
         _ => None,
     });
     let joints = scene.joints.iter().filter(|joint| joint.look.is_some()).map(|joint| joint.kind.between());

@@ -1,11 +1,11 @@
-//! What shows the physics of a frame beside its bodies, in POV-Ray's words: arrows, axes, ghosts, trails, coils, texts.
+//! What shows the physics of a frame beside its bodies, in POV-Ray's words: arrows, axes, ghosts, trails, springs, joints, texts.
 //!
 //! What is to be shown, and where, is said by the [`Plan`]. What nobody asks for leaves no trace in a script.
 
 mod arrows;
-mod coils;
 mod ghosts;
 mod grid;
+mod links;
 mod texts;
 mod trails;
 
@@ -19,7 +19,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::picture::{Plan, Written, has_texts};
-use crate::scene::{Color, ForceKind, Scene};
+use crate::scene::{Color, ForceKind, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
@@ -38,7 +38,7 @@ pub(super) struct Showing {
 pub(super) struct Shows {
     /// Whether bodies have arrows.
     arrows: bool,
-    /// Whether springs are drawn.
+    /// Whether springs are drawn as coils.
     coils: bool,
     /// Whether something is written.
     labels: bool,
@@ -48,10 +48,11 @@ pub(super) struct Shows {
 
 impl Shows {
     pub(super) fn of(scene: &Scene) -> Shows {
-        let is_drawn = |kind: &ForceKind| matches!(kind, ForceKind::Spring { coil: Some(_), links } if !links.is_empty());
+        let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
+        let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
         Shows {
             arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
-            coils: scene.forces.iter().any(|force| is_drawn(&force.kind)),
+            coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
@@ -88,7 +89,7 @@ impl Showing {
     /// Appends what is to be shown of a frame, whose bodies have the given names.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
-        coils::write(out, plan, frame, style);
+        links::write(out, plan, frame, style);
         self.ghosts.write(out, plan, frame);
         for ghost in plan.ghosts(frame) {
             arrows::write_ghost(out, plan, frame, &ghost.body, names, style);

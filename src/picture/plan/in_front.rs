@@ -3,7 +3,7 @@
 use super::Plan;
 use crate::dynamics::BodySnapshot;
 use crate::picture::arrows::Arrow;
-use crate::picture::in_front::lift_from_coil;
+use crate::picture::in_front::lift_from_link;
 use crate::simulate::Frame;
 
 impl Plan {
@@ -15,8 +15,8 @@ impl Plan {
             let camera = self.eye.at(frame);
             for arrow in &mut arrows {
                 self.planes.lift(arrow, &camera);
-                for coil in self.coils.of_body(arrow.body, frame) {
-                    lift_from_coil(arrow, &coil, &camera);
+                for link in self.links.of_body(arrow.body, frame) {
+                    lift_from_link(arrow, &link, &camera);
                 }
             }
         }

@@ -10,12 +10,12 @@ pub use written::Written;
 use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{Eye, Placed, half_width};
-use super::coils::{Coil, Coils};
 use super::ghosts::Ghosts;
 use super::grid::{Grid, Ruled, Ruler};
 use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
+use super::links::{Link, Links};
 use super::not_drawn::{self, NotDrawn};
 use super::scope::{Part, Scope, largest};
 use super::screen::Screen;
@@ -36,7 +36,7 @@ pub struct Plan {
     arrows: Arrows,
     /// What may hide arrows.
     planes: Planes,
-    coils: Coils,
+    links: Links,
     ghosts: Ghosts,
     trails: Trails,
     ruler: Option<Ruler>,
@@ -130,7 +130,7 @@ impl Plan {
         let distance = placed.location().distance(stage.center);
         let lights = Lights::new(scene, stage.center, stage.size.max(distance));
         let still = ruler.as_ref().filter(|_| !eye.moves());
-        let coils = Coils::new(scene);
+        let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
@@ -139,8 +139,8 @@ impl Plan {
             lights,
             arrows,
             planes: Planes::new(scene, &stage),
-            not_drawn: not_drawn::find(scene, survey, &coils, narrowest, bar_at_start),
-            coils,
+            not_drawn: not_drawn::find(scene, survey, &links, narrowest, bar_at_start),
+            links,
             ghosts: Ghosts::new(scene),
             trails: Trails::new(scene, stroke(narrowest, scene.output)),
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
@@ -224,9 +224,9 @@ impl Plan {
         self.arrows.axes(frame)
     }
 
-    /// The springs that are drawn, as they are in a frame.
-    pub fn coils(&self, frame: &Frame) -> Vec<Coil<'_>> {
-        self.coils.at(frame)
+    /// The parts of springs and joints that are drawn, as they are in a frame.
+    pub fn links(&self, frame: &Frame) -> Vec<Link<'_>> {
+        self.links.at(frame)
     }
 
     /// The ghosts of a frame that are drawn: those that are elsewhere than their bodies.
@@ -359,7 +359,7 @@ mod tests {
     fn what_nobody_asks_for_is_not_there() {
         let (plan, frame) = plan("");
         assert!(plan.arrows(&frame).is_empty() && plan.axes(&frame).is_empty());
-        assert!(plan.coils(&frame).is_empty() && plan.trails(&frame).is_empty());
+        assert!(plan.links(&frame).is_empty() && plan.trails(&frame).is_empty());
         assert!(plan.texts(&frame).is_empty() && plan.ghosts(&frame).next().is_none());
         assert!(plan.grid(&frame).is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
         assert!(plan.lights(0.5).is_empty() && !plan.camera_moves() && !plan.lights_move());

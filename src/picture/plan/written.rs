@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::Plan;
 use crate::picture::bar::Bar;
+use crate::picture::links::Link;
 use crate::picture::room::Room;
 use crate::picture::screen::Screen;
 use crate::picture::text::Text;
@@ -32,8 +33,8 @@ impl Plan {
     /// What is written in a frame, by kind; none if nothing is.
     ///
     /// Labels in corners and the scale bar stand where they stand; then the names of the grid's axes, the labels beside
-    /// bodies, and the numbers of the grid, each where there is room. None of these lies on a coil, unless
-    /// there is no other place for the name of an axis.
+    /// bodies, and the numbers of the grid, each where there is room. None of these lies on a spring or a joint,
+    /// unless there is no other place for the name of an axis.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
@@ -44,11 +45,11 @@ impl Plan {
         }
         let mut labels = self.labels.in_corners(frame);
         labels.iter().for_each(|(_, text)| room.take_text(text));
-        let mut coils = self.labels.room();
-        for coil in self.coils(frame) {
-            coil.span.into_iter().for_each(|span| coils.cross(span, coil.width(), &screen));
+        let mut links = self.labels.room();
+        for (line, width) in self.linked(frame) {
+            links.cross(line, width, &screen);
         }
-        let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room, &coils));
+        let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room, &links));
         let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
         if labels.len() < self.labels.count() {
@@ -66,16 +67,23 @@ impl Plan {
         Some(Written { screen, grid, bar, labels })
     }
 
-    /// The lines of a frame on which no text should stand, each with its width, m: arrows, axes and coils.
+    /// The lines of a frame on which no text should stand, each with its width, m: arrows, axes, springs
+    /// and joints.
     fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let mut arrows = self.arrows(frame);
         arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body)));
         let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
-        let coils = self.coils(frame).into_iter().filter_map(|coil| Some((coil.span?, coil.width())));
         let axes = self.axes(frame).into_iter().flat_map(|axes| {
             let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
             arms.map(|arm| ([axes.location, axes.location + arm * axes.length * 1.1], 0.1 * axes.length))
         });
-        arrows.chain(axes).chain(coils).collect()
+        arrows.chain(axes).chain(self.linked(frame)).collect()
+    }
+
+    /// The lines along which springs and joints stand in a frame, each with its width, m.
+    fn linked(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
+        let links = self.links(frame);
+        let lines = |link: &Link<'_>| link.lines().map(|line| (line, 2.0 * link.reach())).collect::<Vec<_>>();
+        links.iter().flat_map(lines).collect()
     }
 }

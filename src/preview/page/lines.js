@@ -1,4 +1,4 @@
-// What is drawn in lines: trails, arrows, coils, grids, axes, and where the scene's camera stands.
+// What is drawn in lines: trails, arrows, springs, joints, grids, axes, and where the scene's camera stands.
 
 import { add, cross, dot, isThere, length, sub, times, turned, unit } from "./math.js";
 
@@ -40,12 +40,16 @@ export function arrow(lines, { from, to, radius, color }) {
   lines.add(neck, to, 3.2 * shaft, color, 0);
 }
 
-/** A spring, as in the templates; without turns, a rod. */
-export function coil(lines, { span, fixed, knob, radius, wire, turns, color }) {
-  for (const point of fixed) lines.add(sub(point, [0, knob, 0]), add(point, [0, knob, 0]), knob, color);
-  if (!span) return;
-  const [a, b] = span;
-  if (turns === 0) return lines.add(a, b, radius, color);
+/** A part of a spring or of a joint, as in the scripts. */
+export function link(lines, { form, at, ends, points, radius, wire, turns, color }) {
+  if (form === "pin") lines.add(at, at, radius, color);
+  else if (form === "rod") lines.add(...ends, radius, color);
+  else if (form === "rope") points.slice(1).forEach((point, i) => lines.add(points[i], point, radius, color));
+  else coil(lines, ends, radius, wire, turns, color);
+}
+
+/** A coil around the line between its ends, as in the templates. */
+function coil(lines, [a, b], radius, wire, turns, color) {
   const axis = sub(b, a);
   const sideways = unit(cross(axis, Math.abs(unit(axis)[2]) < 0.98 ? [0, 0, 1] : [1, 0, 0]), [1, 0, 0]);
   const across = times(sideways, radius);

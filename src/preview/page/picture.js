@@ -1,6 +1,6 @@
 // What is seen of a frame.
 
-import { arrow, axes, camera as cameraLines, coil, Lines, trail } from "./lines.js";
+import { arrow, axes, camera as cameraLines, link, Lines, trail } from "./lines.js";
 import { isThere, length, short, sub, unit } from "./math.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
@@ -107,7 +107,7 @@ function drawLines(lines, run, shown, at, view) {
   grid?.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
   const stroke = shown?.stroke ?? 0;
   stage?.trails.forEach((each) => trail(lines, run, { ...each, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length));
-  shown?.coils.forEach((each) => coil(lines, each));
+  shown?.links.forEach((each) => link(lines, each));
   shown?.arrows.forEach((each) => arrow(lines, each));
   shown?.axes.forEach((each) => axes(lines, each));
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {

@@ -309,7 +309,10 @@ void main() {
   color = vec4(toScreen(sum), 1.0);
 }`;
 
-/** Lines with a width in the world, and of a pixel at least; one that tapers is the head of an arrow. */
+/**
+ * Lines with a width in the world, and of a pixel at least; one that tapers is the head of an arrow, and one whose ends are at one
+ * place is a ball.
+ */
 export const LINE_VERTEX = `${HEAD}
 layout(location = 0) in vec2 a_corner;
 layout(location = 1) in vec4 a_from; // and the radius there
@@ -320,6 +323,7 @@ uniform vec2 u_pixels;
 uniform float u_focal;   // the length of 1 at distance 1, in pixels
 out vec4 v_color;
 out float v_side;
+out float v_end; // from -1 to 1 across a ball; 0 on a line
 void main() {
   vec4 from = u_clip * vec4(a_from.xyz, 1.0);
   vec4 to = u_clip * vec4(a_to.xyz, 1.0);
@@ -333,7 +337,8 @@ void main() {
   vec4 at = a_corner.x < 0.5 ? from : to;
   float radius = a_corner.x < 0.5 ? a_from.w : a_to.w;
   float pixels = radius <= 0.0 ? 0.0 : max(0.7, radius * u_focal / at.w);
-  at.xy += across * a_corner.y * pixels / u_pixels * at.w;
+  v_end = a_from.xyz == a_to.xyz ? 2.0 * a_corner.x - 1.0 : 0.0;
+  at.xy += (across * a_corner.y + vec2(v_end, 0.0)) * pixels / u_pixels * at.w;
   v_color = a_color;
   v_side = a_corner.y;
   gl_Position = at;
@@ -342,5 +347,10 @@ void main() {
 export const LINE_FRAGMENT = `${HEAD}
 in vec4 v_color;
 in float v_side;
+in float v_end;
 out vec4 color;
-void main() { color = vec4(v_color.rgb * (0.78 + 0.22 * sqrt(max(0.0, 1.0 - v_side * v_side))), v_color.a); }`;
+void main() {
+  float out2 = v_side * v_side + v_end * v_end;
+  if (out2 > 1.0) discard;
+  color = vec4(v_color.rgb * (0.78 + 0.22 * sqrt(1.0 - out2)), v_color.a);
+}`;

@@ -2,9 +2,9 @@
 
 use super::Context;
 use super::view::View;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::Shape;
-use crate::scene::{Arrow, BodyAxes, Coil, Ghosts, Quantity, Showing, Simulation, Trail};
+use crate::scene::{Arrow, BodyAxes, Ghosts, Quantity, Showing, Simulation, SpringLine, SpringLook, Trail};
 
 /// More ghosts of a body than a picture can show.
 const MAX_GHOSTS: f64 = 10_000.0;
@@ -63,14 +63,34 @@ fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
 }
 
 /// How a spring is drawn, if it is.
-pub(super) fn coil(spring: &View<'_>) -> Option<Coil> {
-    if spring.boolean("coil") == Some(false) {
-        return None;
-    }
+pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<SpringLook> {
     let coil = spring.table("coil");
-    Some(Coil {
+    let mut useless = |span: Option<Span>, key: &str, why: &str| {
+        let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of a spring has no effect"));
+        context.diagnostics.extend(span.map(|span| warning.at(span, why)));
+    };
+    let is_hidden = spring.boolean("coil") == Some(false);
+    let line = spring.text("line");
+    match line {
+        Some("none") => {
+            if !is_hidden {
+                useless(spring.key_span("coil"), "coil", "with `line = \"none\"`, it is not drawn");
+            }
+            return None;
+        }
+        _ if is_hidden => {
+            useless(spring.key_span("line"), "line", "with `coil = false`, it is not drawn");
+            return None;
+        }
+        Some("straight") => {
+            useless(coil.key_span("turns"), "coil.turns", "it is drawn as a straight line");
+        }
+        _ => {}
+    }
+    let turns = coil.integer("turns").and_then(|turns| u32::try_from(turns).ok());
+    Some(SpringLook {
+        line: if line == Some("straight") { SpringLine::Straight } else { SpringLine::Coil { turns } },
         radius: coil.number("radius"),
-        turns: coil.integer("turns").and_then(|turns| u32::try_from(turns).ok()),
         color: coil.color("color"),
     })
 }

@@ -128,6 +128,7 @@ static SPRING: TableSpec = TableSpec {
             .unit("m")
             .default("its length at the start, for each of a chain its own")
             .also(&["length", "rest"]),
+        super::showing::LINE,
         super::showing::COIL,
     ],
 };

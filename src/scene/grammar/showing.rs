@@ -1,6 +1,6 @@
-//! The keys that show physics: arrows, axes, ghosts, trails and coils.
+//! The keys that show physics: arrows, axes, ghosts, trails and springs.
 
-use super::Kind::{Boolean, Color, Either, Integer, Table};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
 use super::keys::POSITIVE;
 use super::{Key, Kind, Rule, TableSpec};
 
@@ -29,10 +29,19 @@ pub(super) const TRAIL: Key =
         .default("false")
         .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
 // How a spring is drawn.
-pub(super) const COIL: Key =
-    Key::new("coil", Either(&COIL_KINDS), "Whether it is drawn, as a coil between its ends, and how; it is left out while they leave no room for it")
-        .default("true")
-        .also(&["look", "drawn", "draw", "visible"]);
+pub(super) const LINE: Key = Key::new(
+    "line",
+    Choice(|| vec!["coil", "straight", "none"]),
+    "As what it is drawn between its ends; it is left out while they leave no room for it",
+)
+.default("coil")
+.also(&["look", "drawn", "draw", "visible", "style"]);
+pub(super) const COIL: Key = Key::new(
+    "coil",
+    Either(&COIL_KINDS),
+    "The size and color of its coil or line; `false` hides it, as `line = \"none\"` does",
+)
+.default("true");
 
 const COLOR: Key = Key::new("color", Color, "Its color").also(&["colour"]);
 
@@ -105,7 +114,7 @@ static COIL_TABLE: TableSpec = TableSpec {
     noun: "a coil",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "Its radius")
+        Key::new("radius", POSITIVE, "Its radius, also that of a straight line")
             .unit("m")
             .default("after its length and the bodies at its ends"),
         Key::new("turns", Integer(1, 200), "The number of its turns").default("after its length and radius"),

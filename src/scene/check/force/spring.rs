@@ -29,7 +29,7 @@ impl Reader<'_, '_> {
             let rest_length = rest_length.unwrap_or_else(length);
             links.push(Spring { between: [from, to], stiffness, damping, rest_length });
         }
-        Some(ForceKind::Spring { links, coil: super::super::showing::coil(view) })
+        Some(ForceKind::Spring { links, look: super::super::showing::spring(view, self.context) })
     }
 
     /// Warns of several bodies that are repeated: their copies make one chain, where pairs may have been meant.

@@ -137,13 +137,6 @@ static NOT_BUILT: &[NotBuilt] = &[
         can_go: false,
     },
     NotBuilt {
-        of: "a spring",
-        words: &["line", "style"],
-        help: "a spring is drawn as a coil, or not at all with `coil = false`; leave the line out",
-        comes_with: "line",
-        can_go: true,
-    },
-    NotBuilt {
         of: "a trail",
         words: &["at", "point", "offset"],
         help: "a trail is that of the centre of mass; leave the line out",

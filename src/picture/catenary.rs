@@ -1,0 +1,222 @@
+//! The shape of a rope that hangs between two points: a catenary of its length.
+//!
+//! With the depth y below the first end, the horizontal way x from there, and a parameter τ that grows by 2u along
+//! the rope, x = a (τ − τ₀) and y = a (cosh τ₀ − cosh τ); its arc length is a (sinh τ − sinh τ₀). For ends whose horizontal
+//! distance is h and whose heights differ by v, a rope of the length L has h = 2 a u, tanh((τ₀ + τ₁)/2) = v/L and
+//! sinh(u)/u = √(L² − v²)/h. Source: E. H. Lockwood, *A Book of Curves* (1961), chapter 13.
+
+use glam::DVec3;
+
+/// The number of straight pieces that a curve is drawn of. All of them are equally far from the curve: at most h u / 2304.
+const PIECES: u32 = 24;
+
+/// Ends whose horizontal distance is a smaller part of the rope's length hang one below the other.
+const UPRIGHT: f64 = 1e-9;
+
+/// A rope that is longer than the distance of its ends by a smaller part of it is straight.
+const TAUT: f64 = 1e-12;
+
+/// The points of a rope without stiffness that hangs between two ends, m; two of them where it is taut. `down` is the
+/// direction of gravity, a unit vector; without it the rope is the arc of a circle. The ends of a rope that is shorter than their
+/// distance are joined by a straight line.
+pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec<DVec3> {
+    let distance = ends[0].distance(ends[1]);
+    if length - distance <= TAUT * length {
+        return ends.to_vec();
+    }
+    let Some(down) = down else { return arc(ends, length) };
+    match Catenary::new(ends, length, down) {
+        Some(curve) => curve.points(),
+        None => {
+            // Straight down and up again.
+            let [from, to] = ends;
+            let depth = (length + (to - from).dot(down)) / 2.0;
+            vec![from, from + down * depth, to]
+        }
+    }
+}
+
+/// The curve of a hanging rope.
+struct Catenary {
+    ends: [DVec3; 2],
+    down: DVec3,
+    /// The horizontal way from the first end to the second, m.
+    across: DVec3,
+    /// Half of the range of the parameter τ.
+    half_range: f64,
+    /// Its value at the first end.
+    first: f64,
+}
+
+impl Catenary {
+    /// The curve for a length that is larger than the distance of the ends; none where these hang one below the other.
+    fn new(ends: [DVec3; 2], length: f64, down: DVec3) -> Option<Catenary> {
+        let way = ends[1] - ends[0];
+        let rise = -way.dot(down);
+        let across = way + down * rise;
+        let width = across.length();
+        if width < UPRIGHT * length {
+            return None;
+        }
+        // (L² − v²)/h² − 1, without the difference of nearly equal numbers.
+        let distance = way.length();
+        let excess = (length - distance) * (length + distance) / (width * width);
+        let half_range = solve(0.5 * libm::log1p(excess));
+        // sinh((τ₀ + τ₁)/2) = v/√(L² − v²), which is known better than v/L where that is nearly 1.
+        let first = libm::asinh(rise / (width * libm::sqrt(1.0 + excess))) - half_range;
+        Some(Catenary { ends, down, across, half_range, first })
+    }
+
+    /// The point at a part of the range of its parameter, from 0 to 1. This is also the part of the horizontal way.
+    fn point(&self, part: f64) -> DVec3 {
+        let Catenary { ends, down, across, half_range, first } = *self;
+        let half = half_range * part;
+        let scale = across.length() / half_range;
+        // cosh τ − cosh τ₀ = 2 sinh((τ + τ₀)/2) sinh((τ − τ₀)/2).
+        let rise = scale * libm::sinh(first + half) * libm::sinh(half);
+        ends[0] + across * part - down * rise
+    }
+
+    fn points(&self) -> Vec<DVec3> {
+        let inner = (1..PIECES).map(|piece| self.point(f64::from(piece) / f64::from(PIECES)));
+        std::iter::once(self.ends[0]).chain(inner).chain([self.ends[1]]).collect()
+    }
+}
+
+/// The positive u with ln(sinh(u)/u) = s. The left-hand side is convex and grows, so Newton's method converges from every
+/// starting point: after the first step from the right.
+fn solve(s: f64) -> f64 {
+    // ln(sinh(u)/u) ≈ u²/6, and ≈ u − ln 2u.
+    let mut u = if s < 1.0 { libm::sqrt(6.0 * s) } else { s + libm::log(2.0 * s + 2.0) };
+    for _ in 0..50 {
+        let (value, slope) = log_sinh_ratio(u);
+        let step = (value - s) / slope;
+        u -= step;
+        if step.abs() <= 1e-15 * u {
+            break;
+        }
+    }
+    u
+}
+
+/// ln(sinh(u)/u) and its derivative for a positive u, without the difference of nearly equal numbers.
+fn log_sinh_ratio(u: f64) -> (f64, f64) {
+    if u < 0.5 {
+        // sinh(u)/u − 1 = Σ u²ᵏ/(2k + 1)!, and its derivative.
+        let square = u * u;
+        let (mut term, mut sum, mut derivative) = (1.0, 0.0, 0.0);
+        for k in 1..10_u32 {
+            term *= square / f64::from(2 * k * (2 * k + 1));
+            sum += term;
+            derivative += f64::from(2 * k) * term / u;
+        }
+        return (libm::log1p(sum), derivative / (1.0 + sum));
+    }
+    let fall = libm::exp(-2.0 * u);
+    (u + libm::log1p(-fall) - libm::log(2.0 * u), (1.0 + fall) / (1.0 - fall) - 1.0 / u)
+}
+
+/// The arc of a circle with a length, larger than the distance of its ends; it bulges downward as far as it can.
+fn arc(ends: [DVec3; 2], length: f64) -> Vec<DVec3> {
+    let [from, to] = ends;
+    let chord = from.distance(to);
+    // Half of the angle of the arc: sin(φ)/φ = chord/length, by bisection; from π to 0, the left-hand side grows.
+    let (mut low, mut high) = (0.0, std::f64::consts::PI);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if libm::sin(middle) * length > chord * middle { low = middle } else { high = middle }
+    }
+    let half = 0.5 * (low + high);
+    let radius = length / (2.0 * half);
+    let along = (to - from).normalize_or(DVec3::X);
+    let side = DVec3::NEG_Y.reject_from_normalized(along).normalize_or(DVec3::X);
+    let centre = from.midpoint(to) + side * (-radius * libm::cos(half));
+    let point = |piece: u32| {
+        let angle = half * (2.0 * f64::from(piece) / f64::from(PIECES) - 1.0);
+        centre + radius * (along * libm::sin(angle) + side * libm::cos(angle))
+    };
+    std::iter::once(from).chain((1..PIECES).map(point)).chain([to]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOWN: DVec3 = DVec3::NEG_Y;
+
+    /// The length of the curve by the formula of its arc.
+    fn length(curve: &Catenary) -> f64 {
+        let scale = curve.across.length() / (2.0 * curve.half_range);
+        // sinh τ₁ − sinh τ₀ = 2 cosh((τ₁ + τ₀)/2) sinh((τ₁ − τ₀)/2).
+        2.0 * scale * libm::cosh(curve.first + curve.half_range) * libm::sinh(curve.half_range)
+    }
+
+    #[test]
+    fn a_rope_keeps_its_length_between_any_ends() {
+        let slacks = [1e-11, 1e-9, 1e-6, 1e-3, 0.01, 0.3, 1.0, 5.0, 100.0, 1e6];
+        for to in [[1.0, 0.0], [1.0, 1.0], [1.0, -3.0], [1e-3, 2.0], [1e-6, -1.0], [1e4, 3.0], [1e-3, 0.0]] {
+            let ends =
+                [DVec3::new(0.3, 2.0, -1.0), DVec3::new(0.3, 2.0, -1.0) + DVec3::new(to[0], to[1], 0.0)];
+            for slack in slacks {
+                let asked = ends[0].distance(ends[1]) * (1.0 + slack);
+                // An end that hangs nearly below the other.
+                let Some(curve) = Catenary::new(ends, asked, DOWN) else {
+                    assert!(to[0] < 2.0 * UPRIGHT * asked);
+                    continue;
+                };
+                assert!((length(&curve) / asked - 1.0).abs() < 1e-9, "{to:?} {slack}: {}", length(&curve));
+                // The last point follows from the curve, too.
+                let missing = curve.point(1.0).distance(ends[1]);
+                assert!(missing < 1e-9 * asked, "{to:?} {slack}: {missing}");
+            }
+        }
+    }
+
+    /// y = cosh x, between x = -1 and 1, and between 0 and 2: lengths are differences of sinh x.
+    #[test]
+    fn a_rope_is_a_catenary() {
+        let curve = Catenary::new([DVec3::NEG_X, DVec3::X], 2.350_402_387_287_602_9, DOWN).unwrap();
+        let sag = -curve.point(0.5).y;
+        assert!((sag - 0.543_080_634_815_243_7).abs() < 1e-12, "{sag}");
+        let ends = [DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 3.762_195_691_083_631, 2.0)];
+        let curve = Catenary::new(ends, 3.626_860_407_847_018_6, DOWN).unwrap();
+        let middle = curve.point(0.5);
+        assert!(middle.abs_diff_eq(DVec3::new(0.0, 1.543_080_634_815_243_7, 1.0), 1e-12), "{middle}");
+    }
+
+    /// A rope that is a little longer than the distance d of its ends sags by √(3 d (L − d)/8).
+    #[test]
+    fn a_rope_that_is_nearly_taut_sags_little() {
+        for slack in [1e-11, 1e-8, 1e-5] {
+            let points = hanging([DVec3::ZERO, DVec3::X * 2.0], 2.0 * (1.0 + slack), Some(DOWN));
+            let sag = -points[12].y;
+            let expected = libm::sqrt(3.0 * 2.0 * 2.0 * slack / 8.0);
+            assert!((sag / expected - 1.0).abs() < 1e-4, "{slack}: {sag} {expected}");
+        }
+    }
+
+    #[test]
+    fn pieces_are_a_little_shorter_than_the_rope() {
+        let ends = [DVec3::ZERO, DVec3::new(1.0, -0.5, 0.4)];
+        for (length, down) in [(1.3, Some(DOWN)), (4.0, Some(DVec3::X)), (1.3, None), (9.0, None)] {
+            let points = hanging(ends, length, down);
+            assert_eq!((points[0], points[24]), (ends[0], ends[1]));
+            let pieces: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            assert!((0.99..1.0).contains(&(pieces / length)), "{length} {down:?}: {pieces}");
+        }
+    }
+
+    #[test]
+    fn taut_and_upright_ropes_are_straight() {
+        let ends = [DVec3::Y, DVec3::X];
+        for length in [1.0, 2_f64.sqrt()] {
+            assert_eq!(hanging(ends, length, Some(DOWN)), ends);
+            assert_eq!(hanging(ends, length, None), ends);
+        }
+        // 3 m between ends that are 1 m apart, one below the other: 1 m below the lower one.
+        let upright = hanging([DVec3::Y, DVec3::ZERO], 3.0, Some(DOWN));
+        assert_eq!(upright, [DVec3::Y, DVec3::NEG_Y, DVec3::ZERO]);
+        let loose = hanging([DVec3::ZERO; 2], 3.0, Some(DOWN));
+        assert_eq!(loose, [DVec3::ZERO, DVec3::NEG_Y * 1.5, DVec3::ZERO]);
+    }
+}

@@ -1,0 +1,231 @@
+//! Springs and joints as they are drawn: coils, rods, ropes, pins and rails.
+//!
+//! What each of them is made of is planned once for a run (`plan`); where its parts are follows from the frame.
+
+mod plan;
+
+use glam::{DQuat, DVec3};
+
+use crate::dynamics::{Anchor, Shape};
+use crate::scene::{Body, Color, Scene};
+use crate::simulate::{Frame, Survey, surface};
+
+/// The radius of the wire of a coil, as part of that of the coil.
+const WIRE: f64 = 0.14;
+
+/// A part of a spring or of a joint, as it is drawn in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link<'a> {
+    /// The name of the force or the joint in the scene.
+    pub name: &'a str,
+    /// What is drawn, and where.
+    pub form: LinkForm,
+    /// Its color.
+    pub color: Color,
+}
+
+/// What a part of a spring or of a joint looks like. Lengths are in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinkForm {
+    /// A ball: a pin, or the end of a spring or a rod at a point of the world.
+    Pin {
+        /// Its centre.
+        at: DVec3,
+        /// Its radius.
+        radius: f64,
+    },
+    /// The coil of a spring.
+    Coil {
+        /// Where it begins and ends.
+        ends: [DVec3; 2],
+        /// Its radius.
+        radius: f64,
+        /// The radius of its wire.
+        wire: f64,
+        /// The number of its turns.
+        turns: u32,
+    },
+    /// A straight bar: a rod, a straight spring, the axle of a hinge, a rail.
+    Rod {
+        /// Where it begins and ends.
+        ends: [DVec3; 2],
+        /// Its radius.
+        radius: f64,
+    },
+    /// A rope, from point to point: two of them where it is taut.
+    Rope {
+        /// Its points.
+        points: Vec<DVec3>,
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+impl Link<'_> {
+    /// The straight lines along which it stands, m: of a coil, its axis; none for a pin.
+    pub(super) fn lines(&self) -> impl Iterator<Item = [DVec3; 2]> {
+        let points: &[DVec3] = match &self.form {
+            LinkForm::Pin { .. } => &[],
+            LinkForm::Coil { ends, .. } | LinkForm::Rod { ends, .. } => ends,
+            LinkForm::Rope { points, .. } => points,
+        };
+        points.windows(2).map(|pair| [pair[0], pair[1]])
+    }
+
+    /// How far it reaches from these lines, m.
+    pub(super) fn reach(&self) -> f64 {
+        match self.form {
+            LinkForm::Coil { radius, wire, .. } => radius + wire,
+            LinkForm::Pin { radius, .. } | LinkForm::Rod { radius, .. } | LinkForm::Rope { radius, .. } => {
+                radius
+            }
+        }
+    }
+}
+
+/// The springs and joints of a scene that are drawn.
+#[derive(Clone, Debug)]
+pub(super) struct Links {
+    /// In the order of the forces, their links, and the joints; each with its parts in a row.
+    parts: Vec<Part>,
+    /// The drawn shapes of bodies, by their numbers.
+    shapes: Vec<Shape>,
+    /// How many times larger bodies are drawn than they are, by their numbers.
+    scales: Vec<f64>,
+    /// The numbers of bodies with the numbers of the parts that are fastened to them, in order.
+    of_bodies: Vec<(usize, usize)>,
+    /// How thick the springs are, in the order of the forces and their links.
+    springs: Vec<SpringSize>,
+}
+
+/// How thick a spring is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpringSize {
+    /// Its radius, m.
+    pub(super) radius: f64,
+    /// The length between its ends above which it is drawn, m.
+    pub(super) room: f64,
+    /// Whether it is a coil, and not a straight line.
+    pub(super) is_coil: bool,
+}
+
+/// A part of a spring or of a joint. It is drawn while both ends of the spring or the joint are there.
+#[derive(Clone, Debug)]
+struct Part {
+    name: String,
+    between: [Anchor; 2],
+    form: Form,
+    color: Color,
+}
+
+/// What a part looks like in any frame. Lengths are in metres.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    /// A ball at a place.
+    Pin { at: Anchor, radius: f64 },
+    /// A coil from end to end.
+    Coil { radius: f64, turns: u32 },
+    /// A rod; where it begins or ends in the centre of a body, it is seen from its surface on.
+    Rod { between: [Anchor; 2], radius: f64 },
+    /// A rod through a point. The direction, a unit vector, is in the axes of the point's body; `reach` says from where to where
+    /// it goes along it.
+    Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
+}
+
+impl Links {
+    pub(super) fn new(scene: &Scene, survey: &Survey) -> Links {
+        let parts = plan::parts(scene, &survey.asked);
+        let bodies = if parts.is_empty() { &[] } else { scene.bodies.as_slice() };
+        let shapes = bodies.iter().map(Body::drawn).collect();
+        let scales = bodies.iter().map(|body| body.look.scale).collect();
+        let ends = parts.iter().enumerate().flat_map(|(number, part): (usize, &Part)| {
+            part.between.into_iter().filter_map(Anchor::body).map(move |body| (body.index(), number))
+        });
+        let mut of_bodies: Vec<(usize, usize)> = ends.collect();
+        of_bodies.sort_unstable();
+        Links { parts, shapes, scales, of_bodies, springs: plan::springs(scene) }
+    }
+
+    /// How thick the springs are, in the order of the forces and their links.
+    pub(super) fn springs(&self) -> &[SpringSize] {
+        &self.springs
+    }
+
+    /// The parts that are fastened to a body, as they are in a frame.
+    pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
+        let first = self.of_bodies.partition_point(|(other, _)| *other < body);
+        let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
+        its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
+    }
+
+    /// The parts that are drawn in a frame: those whose ends are there.
+    pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
+        self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
+    }
+
+    /// A part as it is in a frame; none where an end is away, and where bodies that touch leave no room for it.
+    fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Link<'a>> {
+        // A point of the world is always there.
+        let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
+        if !part.between.into_iter().all(is_there) {
+            return None;
+        }
+        let form = match part.form {
+            Form::Pin { at, radius } => LinkForm::Pin { at: self.place(at, frame), radius },
+            Form::Coil { radius, turns } => {
+                let ends = self.span(part.between, frame, room_for(radius))?;
+                LinkForm::Coil { ends, radius, wire: WIRE * radius, turns }
+            }
+            Form::Rod { between, radius } => LinkForm::Rod { ends: self.span(between, frame, 0.0)?, radius },
+            Form::Bar { at, along, reach, radius } => {
+                let middle = self.place(at, frame);
+                let along = turn(at, frame) * along;
+                LinkForm::Rod { ends: reach.map(|way| middle + way * along), radius }
+            }
+        };
+        Some(Link { name: &part.name, form, color: part.color })
+    }
+
+    /// Where an end is drawn, m: a point of a body that is drawn larger is farther from its centre.
+    fn place(&self, end: Anchor, frame: &Frame) -> DVec3 {
+        let drawn = match end {
+            Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },
+            Anchor::Point(_) => end,
+        };
+        drawn.place(|id| {
+            let body = frame.body(id.index());
+            body.map_or((DVec3::ZERO, DQuat::IDENTITY), |body| (body.location, body.orientation))
+        })
+    }
+
+    /// From where to where something is seen that goes from one end to another, m: from surface to surface of what it is fastened
+    /// to in its centre; none where that leaves less than so much room.
+    fn span(&self, between: [Anchor; 2], frame: &Frame, room: f64) -> Option<[DVec3; 2]> {
+        let [from, to] = between.map(|end| self.place(end, frame));
+        let along = (to - from).normalize_or_zero();
+        let depth = |end: Anchor, direction: DVec3| match end {
+            // A little below the surface, so that no gap is seen where that is not flat.
+            Anchor::Body { id, .. } if end.is_centre() => {
+                0.95 * surface(&self.shapes[id.index()], turn(end, frame), direction)
+            }
+            _ => 0.0,
+        };
+        let begin = from + along * depth(between[0], along);
+        let end = to - along * depth(between[1], -along);
+        ((end - begin).dot(along) > room).then_some([begin, end])
+    }
+}
+
+/// The rotation that takes the axes of an end to those of the world.
+fn turn(end: Anchor, frame: &Frame) -> DQuat {
+    let body = end.body().and_then(|id| frame.body(id.index()));
+    body.map_or(DQuat::IDENTITY, |body| body.orientation)
+}
+
+/// The least length of a coil with a radius, m.
+fn room_for(radius: f64) -> f64 {
+    4.0 * WIRE * radius
+}
+
+#[cfg(test)]
+mod tests;

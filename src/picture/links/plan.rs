@@ -1,0 +1,227 @@
+//! What springs and joints are made of, and how large their parts are.
+
+use glam::{DQuat, DVec3};
+
+use super::{Form, Part, SpringSize, room_for};
+use crate::dynamics::{Anchor, Hinge, Slider, Spring};
+use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
+use crate::simulate::{Asked, AskedSlider, surface};
+
+/// The usual color of springs and joints.
+const STEEL: Color = Color([0.62, 0.64, 0.67]);
+
+/// The parts of all springs and joints that are drawn.
+pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for force in &scene.forces {
+        let ForceKind::Spring { links, look: Some(look) } = &force.kind else { continue };
+        links.iter().for_each(|link| spring(scene, &force.name, link, look, &mut parts));
+    }
+    for (number, its) in scene.joints.iter().enumerate() {
+        let Some(look) = its.look else { continue };
+        let travel = asked.sliders.iter().find(|slider| slider.joint == number);
+        joint(scene, its, look, travel, &mut parts);
+    }
+    parts
+}
+
+/// How thick the springs are that are drawn, in the order of the forces and their links.
+pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
+    let forces = scene.forces.iter().filter_map(|force| match &force.kind {
+        ForceKind::Spring { links, look: Some(look) } => Some((links, look)),
+        _ => None,
+    });
+    let size = |link: &Spring, look: &SpringLook| {
+        let (radius, _) = spring_size(scene, link, look);
+        let is_coil = matches!(look.line, SpringLine::Coil { .. });
+        SpringSize { radius, room: if is_coil { room_for(radius) } else { 0.0 }, is_coil }
+    };
+    forces.flat_map(|(links, look)| links.iter().map(move |link| size(link, look))).collect()
+}
+
+/// The parts of a spring: itself, and a ball at each end that is a point of the world.
+fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &mut Vec<Part>) {
+    let (radius, free) = spring_size(scene, link, look);
+    let between = link.between;
+    let color = look.color.unwrap_or(STEEL);
+    let part = |form: Form| Part { name: name.to_owned(), between, form, color };
+    let (knob, form) = match look.line {
+        SpringLine::Coil { turns } => {
+            let turns = turns.unwrap_or_else(|| usual_turns(free / (1.5 * radius)));
+            (0.6 * radius, Form::Coil { radius, turns })
+        }
+        SpringLine::Straight => (1.6 * radius, Form::Rod { between, radius }),
+    };
+    parts.extend(knobs(between, knob).map(part));
+    parts.push(part(form));
+}
+
+/// The radius of a spring, m, and its length at rest or at the start between what it is fastened to, m. A coil is about as
+/// wide as half the smaller of the bodies at its ends; a straight line is as thick as a rod.
+fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
+    let [from, to] = link.between.map(|end| start(scene, end));
+    let along = to - from;
+    let length = link.rest_length.max(along.length());
+    let towards = along.normalize_or(DVec3::Y);
+    let reach = |end: Anchor, direction: DVec3| {
+        let body = &scene.bodies[end.body()?.index()];
+        body.drawn().support(body.start.orientation, direction)
+    };
+    let widest =
+        |end| [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(|axis| reach(end, axis)).reduce(f64::max);
+    let smallest = link.between.into_iter().filter_map(widest).fold(f64::MAX, f64::min);
+    let depth = |end: Anchor| match end {
+        Anchor::Body { id, .. } if end.is_centre() => {
+            let body = &scene.bodies[id.index()];
+            surface(&body.drawn(), body.start.orientation, towards)
+        }
+        _ => 0.0,
+    };
+    let free = length - link.between.map(depth).iter().sum::<f64>();
+    let free = if free > 0.0 { free } else { length };
+    let (of_body, of_length) = match look.line {
+        SpringLine::Coil { .. } => (0.5, 0.12),
+        SpringLine::Straight => (0.1, 1.0 / 60.0),
+    };
+    let radius = look.radius.unwrap_or_else(|| (of_body * smallest).min(of_length * free));
+    // Bodies at the same place, with a spring without length.
+    let radius = if radius > 0.0 { radius } else { of_body * smallest.min(1.0) };
+    (radius, free)
+}
+
+/// A number of turns near to what would be usual.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
+fn usual_turns(usual: f64) -> u32 {
+    usual.round().clamp(4.0, 24.0) as u32
+}
+
+/// The parts of a joint.
+fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSlider>, parts: &mut Vec<Part>) {
+    let between = joint.kind.between();
+    let color = look.color.unwrap_or(STEEL);
+    let mut add = |form: Form| parts.push(Part { name: joint.name.clone(), between, form, color });
+    match &joint.kind {
+        JointKind::Rod(_) => {
+            let [from, to] = between.map(|end| start(scene, end));
+            let radius = look.radius.unwrap_or_else(|| rod_radius(scene, between, from.distance(to)));
+            knobs(between, 1.6 * radius).for_each(&mut add);
+            add(Form::Rod { between, radius });
+        }
+        JointKind::Ball(_) | JointKind::Fixed(_) => {
+            arms(scene, between, look).for_each(&mut add);
+            let radius = look.radius.unwrap_or_else(|| 0.56 * thinnest(scene, between));
+            add(Form::Pin { at: between[0], radius });
+        }
+        JointKind::Hinge(hinge) => {
+            let arms: Vec<Form> = arms(scene, between, look).collect();
+            arms.iter().copied().for_each(&mut add);
+            add(axle(scene, hinge, look, &arms));
+        }
+        JointKind::Slider(slider) => rail(scene, slider, look, travel).for_each(add),
+    }
+}
+
+/// A ball at each end that is a point of the world.
+fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = Form> {
+    between.into_iter().filter(|end| end.body().is_none()).map(move |at| Form::Pin { at, radius })
+}
+
+/// Half the thickness of the thinner of the bodies at two ends, m.
+fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
+    let thickness = |end: Anchor| scene.bodies[end.body()?.index()].drawn().half_thickness();
+    // What moves has a thickness, but for triangles without one.
+    between.into_iter().filter_map(thickness).reduce(f64::min).unwrap_or(0.05)
+}
+
+/// A rod is a fifth as thick as the thinner of the bodies at its ends, and never thicker than a thirtieth of its length.
+fn rod_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
+    (0.2 * thinnest(scene, between)).min(length / 30.0)
+}
+
+/// Rods from bodies to the point of a joint, where that is outside of them.
+fn arms(scene: &Scene, between: [Anchor; 2], look: JointLook) -> impl Iterator<Item = Form> {
+    between.into_iter().filter_map(move |end| arm(scene, end, between, look))
+}
+
+/// A rod from the centre of a body to a point of it, where that is outside of its shape.
+fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Option<Form> {
+    let Anchor::Body { id, at } = end else { return None };
+    let drawn = scene.bodies[id.index()].drawn();
+    // A plane has no centre that an arm could begin in.
+    drawn.half_thickness()?;
+    let at = at * scene.bodies[id.index()].look.scale;
+    let length = at.length();
+    let is_outside = length > 1.02 * surface(&drawn, DQuat::IDENTITY, at.normalize_or_zero());
+    let usual = || rod_radius(scene, between, length);
+    let radius = look.radius.map_or_else(usual, |radius| 0.6 * radius);
+    is_outside.then_some(Form::Rod { between: [Anchor::centre(id), end], radius })
+}
+
+/// The axle of a hinge: thicker than its arms, and a little longer than the bodies are there.
+fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
+    let thickest = arms.iter().fold(0.0_f64, |most, arm| match arm {
+        Form::Rod { radius, .. } => most.max(*radius),
+        _ => most,
+    });
+    let usual = || (0.35 * thinnest(scene, hinge.between)).max(1.5 * thickest);
+    let radius = look.radius.unwrap_or_else(usual);
+    let through = hinge.between.into_iter().zip(hinge.axis).filter_map(|(end, axis)| {
+        let Anchor::Body { id, at } = end else { return None };
+        let body = &scene.bodies[id.index()];
+        let (drawn, at) = (body.drawn(), at * body.look.scale);
+        let ways = [axis, -axis].map(|way| drawn.exit(at, way));
+        ways.into_iter().flatten().reduce(f64::max)
+    });
+    let half = through.reduce(f64::min).unwrap_or(0.0).min(10.0 * radius) + 2.0 * radius;
+    Form::Bar { at: hinge.between[0], along: hinge.axis[0], reach: [-half, half], radius }
+}
+
+/// The rail of a slider, as far as what slides goes in the run. It is fastened to the end that moves less: to a point of
+/// the world, if one is. An arm joins them where the rail does not go through what slides.
+fn rail(
+    scene: &Scene,
+    slider: &Slider,
+    look: JointLook,
+    travel: Option<&AskedSlider>,
+) -> impl Iterator<Item = Form> {
+    let [first, second] = slider.between;
+    let is_still = |end: Anchor| end.body().is_none_or(|id| scene.bodies[id.index()].start.fixed);
+    let is_turned = is_still(second) && !is_still(first);
+    let (base, rider, along) = if is_turned {
+        (second, first, -(slider.turned * slider.axis))
+    } else {
+        (first, second, slider.axis)
+    };
+    let (least, most) = travel
+        .filter(|travel| travel.least <= travel.most)
+        .map_or((0.0, 0.0), |travel| (travel.least, travel.most));
+    let direction = in_world(scene, base, along);
+    // The point of the rail beside which the centre of what slides is, from its own point on, and how far it reaches from there.
+    let (foot, beyond, arm) = match rider {
+        Anchor::Point(_) => (0.0, 0.0, None),
+        Anchor::Body { id, at } => {
+            let body = &scene.bodies[id.index()];
+            let own = body.start.orientation.conjugate() * direction;
+            let foot = -at.dot(own);
+            let reach = body.drawn().support(body.start.orientation, direction).unwrap_or(0.0);
+            (foot, 1.3 * reach, arm(scene, Anchor::Body { id, at: at + foot * own }, slider.between, look))
+        }
+    };
+    let reach = [least + foot - beyond, most + foot + beyond];
+    let radius = look.radius.unwrap_or_else(|| rod_radius(scene, slider.between, reach[1] - reach[0]));
+    arm.into_iter().chain([Form::Bar { at: base, along, reach, radius }])
+}
+
+/// Where an end is at the start, m.
+fn start(scene: &Scene, end: Anchor) -> DVec3 {
+    end.place(|id| {
+        let start = &scene.bodies[id.index()].start;
+        (start.location, start.orientation)
+    })
+}
+
+/// A direction in the axes of an end, in the world at the start.
+fn in_world(scene: &Scene, end: Anchor, direction: DVec3) -> DVec3 {
+    let turn = end.body().map_or(DQuat::IDENTITY, |id| scene.bodies[id.index()].start.orientation);
+    turn * direction
+}

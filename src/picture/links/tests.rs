@@ -1,0 +1,88 @@
+//! Springs and joints stand where what they are fastened to is.
+
+use glam::DVec3;
+
+use super::LinkForm;
+use crate::picture::Plan;
+use crate::scene::Scene;
+use crate::simulate::{Frames, survey};
+
+/// What is drawn of springs and joints in a frame of a scene.
+fn forms(text: &str, frame: usize) -> Vec<LinkForm> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let frame = Frames::new(&scene).nth(frame).unwrap().unwrap();
+    plan.links(&frame).into_iter().map(|link| link.form).collect()
+}
+
+fn near(point: DVec3, x: f64, y: f64, z: f64) -> bool {
+    point.abs_diff_eq(DVec3::new(x, y, z), 1e-9)
+}
+
+#[test]
+fn a_spring_is_a_coil_a_straight_line_or_nothing() {
+    let scene = |keys: &str| {
+        format!(
+            "[body.ball]\nshape.sphere.radius = 0.5\nlocation = [4, 0, 0]\n[force.s.spring]\nstiffness = 0\n
+             between = ['ball', [0, 0, 0]]\n{keys}"
+        )
+    };
+    let [LinkForm::Pin { at, radius: knob }, LinkForm::Coil { radius, .. }] =
+        forms(&scene("line = 'coil'"), 0)[..]
+    else {
+        panic!("a coil, and its end")
+    };
+    assert!(at == DVec3::ZERO && (knob - 0.6 * radius).abs() < 1e-12);
+    let straight = forms(&scene("line = 'straight'\ncoil = { radius = 0.02, color = 'red' }"), 0);
+    let [LinkForm::Pin { .. }, LinkForm::Rod { ends: [from, to], radius: 0.02 }] = straight[..] else {
+        panic!("{straight:?}")
+    };
+    assert!(near(from, 4.0 - 0.95 * 0.5, 0.0, 0.0) && near(to, 0.0, 0.0, 0.0), "{from} {to}");
+    assert_eq!(forms(&scene("line = 'none'"), 0), []);
+    assert_eq!(forms(&scene("coil = false"), 0), []);
+}
+
+#[test]
+fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
+    let bar = "[body.bar]\nshape.box.size = [0.2, 1, 0.1]\nlocation = [0, -0.4, 0]\n[joint.pivot.hinge]\n
+               between = [[0, 0, 0], 'bar']\naxis = [0, 0, 2]";
+    let found = forms(bar, 0);
+    let [LinkForm::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
+    assert!((radius - 0.35 * 0.05).abs() < 1e-12, "{radius}");
+    // Half the thickness of the bar, and twice the radius more.
+    let half = 0.05 + 2.0 * radius;
+    assert!(near(from, 0.0, 0.0, -half) && near(to, 0.0, 0.0, half), "{from} {to}");
+
+    let bob = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [0, -2, 0]\n[joint.pivot.hinge]\n
+               between = [[0, 0, 0], 'bob']\naxis = [0, 0, 1]";
+    let found = forms(bob, 0);
+    let [LinkForm::Rod { ends: [from, to], radius: arm }, LinkForm::Rod { radius: axle, .. }] = found[..]
+    else {
+        panic!("{found:?}")
+    };
+    assert!(near(from, 0.0, -2.0 + 0.095, 0.0) && near(to, 0.0, 0.0, 0.0), "{from} {to}");
+    assert!(axle > arm, "{axle} {arm}");
+    assert_eq!(forms(&format!("{bob}\nlook = 'none'"), 0), []);
+}
+
+/// From rest at x = 1, under 2 m/s² for 1 s: to x = 2 but for the error of the method.
+#[test]
+fn a_rail_is_as_long_as_the_way_of_what_slides() {
+    let scene = |between: &str| {
+        format!(
+            "simulation = {{ duration = 1, integrator = 'rk4' }}\n[body.cart]\nshape.box.size = [0.4, 0.2, 0.2]\n
+             mass = 1\nlocation = [1, 0, 0]\nforce = [2, 0, 0]\n[joint.rail.slider]\nbetween = {between}\naxis = [1, 0, 0]"
+        )
+    };
+    for between in ["[[0, 0, 0], 'cart']", "['cart', [0, 0, 0]]"] {
+        for frame in [0, 25] {
+            let found = forms(&scene(between), frame);
+            let [LinkForm::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
+            let [left, right] = if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] };
+            assert!(
+                near(left, 1.0 - 1.3 * 0.2, 0.0, 0.0) && near(right, 2.0 + 1.3 * 0.2, 0.0, 0.0),
+                "{found:?}"
+            );
+        }
+    }
+}
