@@ -9,7 +9,6 @@ mod arrows;
 mod bar;
 mod beside;
 mod camera;
-#[cfg(test)]
 mod catenary;
 mod colors;
 mod framing;
@@ -23,6 +22,7 @@ mod links;
 mod not_drawn;
 pub(crate) mod number;
 mod plan;
+mod pulley;
 mod room;
 mod scope;
 mod screen;

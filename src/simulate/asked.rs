@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::vectors::{root, shown, surface};
 use super::{Frame, Moments};
-use crate::dynamics::{Anchor, BodySnapshot, Shape, Slider};
+use crate::dynamics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// How large what is asked for gets in a run.
@@ -78,7 +78,7 @@ pub struct AskedSpring {
 pub struct AskedSlider {
     /// The number of the joint.
     pub joint: usize,
-    slider: Slider,
+    way: Coordinate,
     /// How far the second end is from the first along the axis, m, where that is least.
     pub least: f64,
     /// The same where it is most, m.
@@ -133,10 +133,10 @@ impl Asked {
             }));
         }
         for (number, joint) in scene.joints.iter().enumerate() {
-            let JointKind::Slider(slider) = joint.kind else { continue };
+            let JointKind::Slider(slider) = &joint.kind else { continue };
             if joint.look.is_some() {
                 let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
-                asked.sliders.push(AskedSlider { joint: number, slider, least, most });
+                asked.sliders.push(AskedSlider { joint: number, way: slider.coordinate(), least, most });
             }
         }
         asked
@@ -200,10 +200,10 @@ impl AskedSlider {
             Some(id) => frame.body(id.index()).map(|body| (body.location, body.orientation)),
             None => Some((DVec3::ZERO, DQuat::IDENTITY)),
         };
-        let [first, second] = self.slider.between;
+        let [first, second] = self.way.between;
         let (Some(one), Some(other)) = (pose(first), pose(second)) else { return };
         let apart = second.place(|_| other) - first.place(|_| one);
-        let along = apart.dot(one.1 * self.slider.axis);
+        let along = apart.dot(one.1 * self.way.axis);
         self.least = self.least.min(along);
         self.most = self.most.max(along);
     }

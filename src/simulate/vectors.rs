@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::dynamics::{Anchor, BodySnapshot, Shape};
-use crate::scene::{Body, ForceKind, Quantity, Scene};
+use crate::dynamics::{Anchor, BodySnapshot, Pulley, Shape};
+use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// What an arrow of a body shows, in SI units.
 pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
@@ -41,8 +41,12 @@ pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
         ForceKind::Spring { links, look: Some(_) } => Some(links),
         _ => None,
     });
-    let joints = scene.joints.iter().filter(|joint| joint.look.is_some()).map(|joint| joint.kind.between());
-    links.flatten().map(|link| link.between).chain(joints).flatten().filter_map(|end| match end {
+    let joints = scene.joints.iter().filter(|joint| joint.look.is_some());
+    let joints = joints.flat_map(|joint| match &joint.kind {
+        JointKind::Pulley(Pulley { between, over, .. }) => [*between, *over].concat(),
+        kind => kind.between().to_vec(),
+    });
+    links.flatten().flat_map(|link| link.between).chain(joints).filter_map(|end| match end {
         Anchor::Point(point) => Some(point),
         Anchor::Body { .. } => None,
     })

@@ -6,7 +6,9 @@ mod plan;
 
 use glam::{DQuat, DVec3};
 
-use crate::dynamics::{Anchor, Shape};
+use super::catenary::hanging;
+use super::pulley::{Course, Turn};
+use crate::dynamics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
@@ -92,6 +94,8 @@ pub(super) struct Links {
     shapes: Vec<Shape>,
     /// How many times larger bodies are drawn than they are, by their numbers.
     scales: Vec<f64>,
+    /// The direction of gravity, a unit vector.
+    down: Option<DVec3>,
     /// The numbers of bodies with the numbers of the parts that are fastened to them, in order.
     of_bodies: Vec<(usize, usize)>,
     /// How thick the springs are, in the order of the forces and their links.
@@ -130,6 +134,12 @@ enum Form {
     /// A rod through a point. The direction, a unit vector, is in the axes of the point's body; `reach` says from where to where
     /// it goes along it.
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
+    /// A rope of a length, which hangs where it is slack.
+    Rope { between: [Anchor; 2], length: f64, radius: f64 },
+    /// The rope of a pulley, over its wheels.
+    OverWheels { pulley: Pulley, wheel: f64, radius: f64 },
+    /// One of the wheels of a pulley; its radius and half its width.
+    Wheel { pulley: Pulley, number: usize, wheel: f64, half_width: f64 },
 }
 
 impl Links {
@@ -143,7 +153,8 @@ impl Links {
         });
         let mut of_bodies: Vec<(usize, usize)> = ends.collect();
         of_bodies.sort_unstable();
-        Links { parts, shapes, scales, of_bodies, springs: plan::springs(scene) }
+        let down = scene.simulation.gravity.try_normalize();
+        Links { parts, shapes, scales, down, of_bodies, springs: plan::springs(scene) }
     }
 
     /// How thick the springs are, in the order of the forces and their links.
@@ -182,8 +193,30 @@ impl Links {
                 let along = turn(at, frame) * along;
                 LinkForm::Rod { ends: reach.map(|way| middle + way * along), radius }
             }
+            Form::Rope { between, length, radius } => {
+                let points = hanging(between.map(|end| self.place(end, frame)), length, self.down);
+                LinkForm::Rope { points, radius }
+            }
+            Form::OverWheels { pulley, wheel, radius } => {
+                let course = self.course(&pulley, wheel, frame);
+                LinkForm::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
+            }
+            Form::Wheel { pulley, number, wheel, half_width } => {
+                let Turn { centre, axis, .. } = *self.course(&pulley, wheel, frame).turns.get(number)?;
+                LinkForm::Rod {
+                    ends: [-half_width, half_width].map(|way| centre + way * axis),
+                    radius: wheel,
+                }
+            }
         };
         Some(Link { name: &part.name, form, color: part.color })
+    }
+
+    /// The course of the rope of a pulley whose wheels have a radius, m.
+    fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> Course {
+        let [from, to] = pulley.between.map(|end| self.place(end, frame));
+        let [first, second] = pulley.over.map(|end| self.place(end, frame));
+        Course::new([from, first, second, to], wheel)
     }
 
     /// Where an end is drawn, m: a point of a body that is drawn larger is farther from its centre.

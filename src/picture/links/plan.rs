@@ -3,12 +3,14 @@
 use glam::{DQuat, DVec3};
 
 use super::{Form, Part, SpringSize, room_for};
-use crate::dynamics::{Anchor, Hinge, Slider, Spring};
+use crate::dynamics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
 use crate::simulate::{Asked, AskedSlider, surface};
 
 /// The usual color of springs and joints.
 const STEEL: Color = Color([0.62, 0.64, 0.67]);
+/// The usual color of ropes.
+const HEMP: Color = Color([0.76, 0.64, 0.45]);
 
 /// The parts of all springs and joints that are drawn.
 pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
@@ -57,7 +59,7 @@ fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &m
 }
 
 /// The radius of a spring, m, and its length at rest or at the start between what it is fastened to, m. A coil is about as
-/// wide as half the smaller of the bodies at its ends; a straight line is as thick as a rod.
+/// wide as half the smaller of the bodies at its ends; a straight line is thinner than a rod.
 fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
     let [from, to] = link.between.map(|end| start(scene, end));
     let along = to - from;
@@ -81,7 +83,7 @@ fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
     let free = if free > 0.0 { free } else { length };
     let (of_body, of_length) = match look.line {
         SpringLine::Coil { .. } => (0.5, 0.12),
-        SpringLine::Straight => (0.1, 1.0 / 60.0),
+        SpringLine::Straight => (0.06, 1.0 / 100.0),
     };
     let radius = look.radius.unwrap_or_else(|| (of_body * smallest).min(of_length * free));
     // Bodies at the same place, with a spring without length.
@@ -98,8 +100,13 @@ fn usual_turns(usual: f64) -> u32 {
 /// The parts of a joint.
 fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSlider>, parts: &mut Vec<Part>) {
     let between = joint.kind.between();
-    let color = look.color.unwrap_or(STEEL);
-    let mut add = |form: Form| parts.push(Part { name: joint.name.clone(), between, form, color });
+    let is_rope = matches!(joint.kind, JointKind::Rope(_) | JointKind::Pulley(_));
+    let color = look.color.unwrap_or(if is_rope { HEMP } else { STEEL });
+    let mut add = |form: Form| {
+        // The wheels of a rope are not made of hemp.
+        let color = if matches!(form, Form::Wheel { .. }) { STEEL } else { color };
+        parts.push(Part { name: joint.name.clone(), between, form, color });
+    };
     match &joint.kind {
         JointKind::Rod(_) => {
             let [from, to] = between.map(|end| start(scene, end));
@@ -117,6 +124,23 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
             arms.iter().copied().for_each(&mut add);
             add(axle(scene, hinge, look, &arms));
         }
+        JointKind::Rope(Rope { length, .. }) => {
+            let radius = look.radius.unwrap_or_else(|| rope_radius(scene, between, *length));
+            knobs(between, 1.6 * radius).for_each(&mut add);
+            add(Form::Rope { between, length: *length, radius });
+        }
+        JointKind::Pulley(pulley) => {
+            let radius = look.radius.unwrap_or_else(|| rope_radius(scene, between, pulley.length));
+            let apart = start(scene, pulley.over[0]).distance(start(scene, pulley.over[1]));
+            let wheel = if apart > 0.0 { (6.0 * radius).min(0.4 * apart) } else { 6.0 * radius };
+            knobs(between, 1.6 * radius).for_each(&mut add);
+            for number in 0..2 {
+                add(Form::Wheel { pulley: *pulley, number, wheel, half_width: 1.5 * radius });
+            }
+            add(Form::OverWheels { pulley: *pulley, wheel, radius });
+        }
+        // The wheels are bodies.
+        JointKind::Gear(_) => {}
         JointKind::Slider(slider) => rail(scene, slider, look, travel).for_each(add),
     }
 }
@@ -136,6 +160,11 @@ fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
 /// A rod is a fifth as thick as the thinner of the bodies at its ends, and never thicker than a thirtieth of its length.
 fn rod_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.2 * thinnest(scene, between)).min(length / 30.0)
+}
+
+/// A rope is a tenth as thick as the thinner of the bodies at its ends, and never thicker than a hundredth of its length.
+fn rope_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
+    (0.1 * thinnest(scene, between)).min(length / 100.0)
 }
 
 /// Rods from bodies to the point of a joint, where that is outside of them.
@@ -165,18 +194,20 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     });
     let usual = || (0.35 * thinnest(scene, hinge.between)).max(1.5 * thickest);
     let radius = look.radius.unwrap_or_else(usual);
-    let through = hinge.between.into_iter().zip(hinge.axis).filter_map(|(end, axis)| {
+    let in_world = in_world(scene, hinge.between[0], hinge.axis());
+    let through = hinge.between.into_iter().filter_map(|end| {
         let Anchor::Body { id, at } = end else { return None };
         let body = &scene.bodies[id.index()];
+        let axis = body.start.orientation.conjugate() * in_world;
         let (drawn, at) = (body.drawn(), at * body.look.scale);
         let ways = [axis, -axis].map(|way| drawn.exit(at, way));
         ways.into_iter().flatten().reduce(f64::max)
     });
     let half = through.reduce(f64::min).unwrap_or(0.0).min(10.0 * radius) + 2.0 * radius;
-    Form::Bar { at: hinge.between[0], along: hinge.axis[0], reach: [-half, half], radius }
+    Form::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
 }
 
-/// The rail of a slider, as far as what slides goes in the run. It is fastened to the end that moves less: to a point of
+/// The rail of a slider, as far as its limits, or else as what slides goes in the run. It is fastened to the end that moves less: to a point of
 /// the world, if one is. An arm joins them where the rail does not go through what slides.
 fn rail(
     scene: &Scene,
@@ -192,9 +223,8 @@ fn rail(
     } else {
         (first, second, slider.axis)
     };
-    let (least, most) = travel
-        .filter(|travel| travel.least <= travel.most)
-        .map_or((0.0, 0.0), |travel| (travel.least, travel.most));
+    let travel = travel.map(|travel| [travel.least, travel.most]).filter(|[least, most]| least <= most);
+    let [least, most] = slider.freedom.limits.or(travel).unwrap_or([0.0; 2]);
     let direction = in_world(scene, base, along);
     // The point of the rail beside which the centre of what slides is, from its own point on, and how far it reaches from there.
     let (foot, beyond, arm) = match rider {
