@@ -10,6 +10,7 @@ mod common;
 mod conservation;
 mod dense;
 mod energy;
+mod events;
 mod gravitation;
 mod guided;
 mod joints;

@@ -37,15 +37,17 @@ impl Solver {
             }
             None => return (f64::INFINITY, 0),
         };
+        self.largest_rate = self.largest_rate.max(size);
         let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Tie;
-        let mut force = 0.0;
         if self.modes.iter().zip(&self.laws).any(pulls) {
             self.factorise(false);
             self.is_ready = true;
             model.sum(t, state, loads);
             let mut accelerations = vec![0.0; n];
-            force = self.react_seeing(t, state, loads, &mut accelerations);
+            let size = self.react_seeing(t, state, loads, &mut accelerations);
+            self.largest_acceleration = self.largest_acceleration.max(size);
         }
+        let (size, force) = (self.largest_rate, self.largest_acceleration);
         let part = |value: f64, of: f64, tolerated: f64| {
             if of > 0.0 { value / of / tolerated + 1.0 } else { 1.0 }
         };

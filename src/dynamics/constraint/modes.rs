@@ -120,6 +120,8 @@ impl Solver {
             }
             None => return 0.0,
         };
+        self.largest_rate = self.largest_rate.max(size);
+        let size = self.largest_rate;
         let slight = SLIGHT * size;
         let is_hit = |i: usize, rate: f64| touched[i] && rate < -slight;
         if !(0..n).any(|i| is_hit(i, before[i])) {
@@ -154,7 +156,7 @@ impl Solver {
         }
         let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
         solver::push(structure, jacobian, unknown, model, state);
-        solver::book(rows, unknown, state);
+        solver::book(rows.iter().map(|row| row.rate), unknown, state);
         // The work of the impulses is ½ Λ (c' before + c' after), beside what guides and motors have given.
         let mut taken = 0.0;
         for i in 0..n {
@@ -177,6 +179,8 @@ impl Solver {
             self.is_ready = true;
             model.sum(t, state, loads);
             let size = self.react_seeing(t, state, loads, &mut accelerations);
+            self.largest_acceleration = self.largest_acceleration.max(size);
+            let size = self.largest_acceleration;
             let wrong = |i: usize| match (self.modes[i], self.laws[i]) {
                 _ if !can_hold[i] => 0.0,
                 (Mode::Held, Law::Stop) => -self.unknown[i] * self.weight(i),

@@ -41,11 +41,16 @@ pub(in crate::dynamics) struct Solver {
     pub(super) jacobian: Vec<Direction>,
     /// The Jacobian at the beginning of the step, for methods that kick along it.
     first: Vec<Direction>,
+    /// ∂c/∂t of the rows then.
+    first_rates: Vec<f64>,
     /// What each row may do, and what it does at present.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
     /// Whether some row may do anything but hold.
     pub(super) has_modes: bool,
+    /// The largest sizes of the terms of c' and c'' so far: what is slight against them has come from rounding.
+    pub(super) largest_rate: f64,
+    pub(super) largest_acceleration: f64,
     /// Which rows take part in this step: those that hold, but for those that others imply.
     pub(super) held: Vec<bool>,
     /// What is solved for.
@@ -203,6 +208,8 @@ impl Solver {
         }
         self.is_ready = false;
         self.first.clone_from(&self.jacobian);
+        self.first_rates.clear();
+        self.first_rates.extend(self.rows.iter().map(|row| row.rate));
         let mut trial = std::mem::take(&mut self.trial);
         trial.clone_from(state);
         model.place(t + dt, &mut trial);
@@ -228,7 +235,7 @@ impl Solver {
             self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), first, unknown, .. } = &*self else { break };
             push(structure, first, unknown, model, state);
-            book(&self.rows, &self.unknown, state);
+            book(self.first_rates.iter().copied(), &self.unknown, state);
         }
         self.trial = trial;
         self.blame(model, t + dt);
@@ -298,7 +305,7 @@ impl Solver {
             unknown.iter_mut().for_each(|rate| *rate = -*rate);
             factor.solve(unknown);
             push(structure, jacobian, unknown, model, state);
-            book(rows, unknown, state);
+            book(rows.iter().map(|row| row.rate), unknown, state);
             move_members(structure, jacobian, unknown, members);
         }
     }
@@ -327,7 +334,8 @@ impl Solver {
         let Some(structure) = &self.structure else { return };
         let mut failed = None;
         for place in &structure.places {
-            for row in place.row..place.row + place.rows {
+            // An open stop may be passed in a step that is tried.
+            for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
                 let is_kept = missing <= FAILURE * self.rows[row].scale;
                 if !is_kept && failed.is_none_or(|(_, most)| missing > most) {
@@ -505,9 +513,9 @@ pub(super) fn products(places: &[Place], jacobian: &[Direction], members: &[Memb
 }
 
 /// Books the work of the impulses Λ of rows that move with time: Λ J v, since J v + ∂c/∂t = 0.
-pub(super) fn book(rows: &[Row], impulses: &[f64], state: &mut State) {
-    for (row, impulse) in rows.iter().zip(impulses) {
-        state.accounts.motors -= impulse * row.rate;
+pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &mut State) {
+    for (rate, impulse) in rates.zip(impulses) {
+        state.accounts.motors -= impulse * rate;
     }
 }
 
