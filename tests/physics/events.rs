@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, METHODS, Method, Motor, Pulley, RigidBody, Rod, Rope, Servo,
-    Shape, Slider, Target, UniformGravity, World,
+    Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, METHODS, Method, Motor, Pulley, RigidBody, Rod, Rope,
+    Servo, Shape, Slider, Target, UniformGravity, World,
 };
 
 use crate::common::{ball, method};
@@ -70,7 +70,8 @@ fn a_rope_takes_what_leads_along_it_when_it_becomes_taut() {
         let now = 0.5 * v.length_squared() + G * x.y;
         assert!((now - energy).abs() < slack, "{}: {now} {energy}", method.name);
         let taken = world.balance().accounts.limits;
-        let loss = -0.5 * (speed * 0.8f64).powi(2);
+        let along = speed * 0.8;
+        let loss = -0.5 * along * along;
         assert!((taken - loss).abs() < slack, "{}: {taken} {loss}", method.name);
         assert!(world.balance().drift.abs() < slack, "{}: {:?}", method.name, world.balance());
     }
@@ -120,7 +121,12 @@ fn a_rope_at_rest_carries_a_weight() {
         let bob = world.add(ball().with_location(DVec3::NEG_Y));
         world.add_constraint(Rope { between: [origin(), Anchor::centre(bob)], length: 1.0 });
         world.advance_to(10.0);
-        assert!(world.location(bob).distance(DVec3::NEG_Y) < 1e-12, "{}: {}", method.name, world.location(bob));
+        assert!(
+            world.location(bob).distance(DVec3::NEG_Y) < 1e-12,
+            "{}: {}",
+            method.name,
+            world.location(bob)
+        );
         assert_eq!(world.steps(), 1000, "{}", method.name);
     }
 }
@@ -140,7 +146,8 @@ fn a_limit_stops_a_hinge_and_takes_its_energy() {
         // 0.5 rad are reached after √(2 · 0.5 · 0.5 / 1) s, with 0.5 J.
         world.advance_to(3.0);
         assert!(spin(&world, wheel).abs() < 1e-12);
-        let turned = world.orientation(wheel).angle_between(DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2));
+        let turned =
+            world.orientation(wheel).angle_between(DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2));
         assert!((turned - 0.5).abs() < 1e-7, "{}: {turned}", method.name);
         let balance = world.balance();
         let slack = if method.order == 1 { 1e-3 } else { 1e-9 };
@@ -248,7 +255,12 @@ fn a_servo_swings_as_a_damped_spring() {
     let mut world = world(method("rk4"), 1e-3);
     let wheel = wheel(&mut world, DVec3::ZERO);
     let hinge = axle(&world, wheel, Freedom::default());
-    world.add_force(Servo { coordinate: hinge.coordinate(), target: Arc::new(One), stiffness: 4.5, damping: 0.5 });
+    world.add_force(Servo {
+        coordinate: hinge.coordinate(),
+        target: Arc::new(One),
+        stiffness: 4.5,
+        damping: 0.5,
+    });
     world.add_constraint(hinge);
     world.advance_to(1.7);
     let (decay, omega) = (0.5, (9.0f64 - 0.25).sqrt());
@@ -347,7 +359,8 @@ fn events_keep_the_order_of_a_method() {
         let bob = world.add(ball().with_location(DVec3::new(0.6, -0.3, 0.1)).with_velocity(DVec3::Z * 0.5));
         world.add_constraint(Rope { between: [origin(), Anchor::centre(bob)], length: 1.0 });
         let lever = world.add(
-            RigidBody::new(&Shape::Box { size: DVec3::new(1.0, 0.1, 0.1) }, 1.0).with_location(DVec3::new(0.5, 0.0, 5.0)),
+            RigidBody::new(&Shape::Box { size: DVec3::new(1.0, 0.1, 0.1) }, 1.0)
+                .with_location(DVec3::new(0.5, 0.0, 5.0)),
         );
         let at = Anchor::Body { id: lever, at: DVec3::X * -0.5 };
         let freedom = Freedom { limits: Some([-1.0, 1.0]), motor: None };
@@ -367,7 +380,11 @@ fn events_keep_the_order_of_a_method() {
     for method in METHODS {
         let errors = [256, 512].map(|steps| crate::common::distance(&end(method, steps), &exact));
         let slope = libm::log2(errors[0] / errors[1]);
-        assert!((slope - f64::from(method.order)).abs() < 0.5, "{}: order {slope}, errors {errors:?}", method.name);
+        assert!(
+            (slope - f64::from(method.order)).abs() < 0.5,
+            "{}: order {slope}, errors {errors:?}",
+            method.name
+        );
     }
 }
 

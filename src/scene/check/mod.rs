@@ -292,7 +292,7 @@ fn build(
     if !context.forces_are_wrong {
         effect::check(&root, &bodies, &forces, context);
     }
-    let joints = joint::read(&root, &bodies, simulation.method, context);
+    let joints = joint::read(&root, &bodies, &simulation, context);
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Coordinate, Freedom, Motor, Servo};
+use crate::scene::check::motion;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
 use crate::scene::joint::Course;
@@ -35,6 +36,7 @@ impl Reader<'_, '_> {
         let limits = self.limits(view, words);
         let Some(motor) = view.variant("motor") else { return (Freedom { limits, motor: None }, None) };
         if let Some(value) = motor.timed(words.value) {
+            motion::finite(motor.raw(words.value), self.simulation, self.context);
             let target = Arc::new(Course { value, unit: words.unit });
             let servo = motor.number("stiffness").map(|stiffness| Servo {
                 coordinate,

@@ -10,9 +10,9 @@ use super::end;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Method, Rod, Servo, Slider};
+use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
-use crate::scene::{Body, Joint, JointKind, JointLook};
+use crate::scene::{Body, Joint, JointKind, JointLook, Simulation};
 
 /// Ends that are so far apart at the start, as a part of the joint's size, have been written with few digits.
 const NEARLY: f64 = 1e-9;
@@ -23,7 +23,7 @@ const TOO_FAR: f64 = 1e-3;
 pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
-    method: &Method,
+    simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
@@ -32,8 +32,9 @@ pub(super) fn read(
     let (gears, others): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
     for (name, span, view) in others.into_iter().chain(gears) {
-        let mut reader = Reader { name, span, bodies, context };
+        let mut reader = Reader { name, span, bodies, simulation, context };
         let Some((kind, servo)) = reader.kind(&view, &joints) else { continue };
+        let method = simulation.method;
         if !method.constraints {
             let message = format!("the integrator `{}` keeps no joints", method.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
@@ -66,6 +67,7 @@ struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
+    simulation: &'a Simulation,
     context: &'a mut Context<'c>,
 }
 
