@@ -428,3 +428,28 @@ fn a_rope_beside_a_rod_does_no_harm() {
         assert!(world.balance().drift.abs() < slack, "{}: {:?}", method.name, world.balance());
     }
 }
+
+/// The light end of an Atwood machine is drawn up to its wheel and stops there, and the heavy one with it.
+#[test]
+fn a_pulley_ends_at_its_wheels() {
+    for method in METHODS {
+        let mut world = falling(method, 1e-3);
+        let sphere = |mass: f64| RigidBody::new(&Shape::Sphere { radius: 0.1 }, mass);
+        let light = world.add(sphere(1.0).with_location(DVec3::new(-1.0, -2.0, 0.0)));
+        let heavy = world.add(sphere(3.0).with_location(DVec3::new(1.0, -2.0, 0.0)));
+        let over = [Anchor::Point(DVec3::NEG_X), Anchor::Point(DVec3::X)];
+        let between = [Anchor::centre(light), Anchor::centre(heavy)];
+        world.add_constraint(Pulley { between, over, ratio: 1.0, length: 4.0 });
+        world.advance_to(3.0);
+        let expected = [-4.0 * Pulley::NEAREST, -4.0 + 4.0 * Pulley::NEAREST];
+        for (id, expected) in [light, heavy].into_iter().zip(expected) {
+            assert!((world.location(id).y - expected).abs() < 1e-12, "{}: {}", method.name, world.location(id));
+            assert!(world.velocity(id).length() < 1e-12, "{}", method.name);
+        }
+        let balance = world.balance();
+        // What the heavy one has more than the light one gains.
+        let slack = if method.order == 1 { 0.1 } else { 1e-9 };
+        let lost = -2.0 * G * (2.0 - 4.0 * Pulley::NEAREST);
+        assert!((balance.accounts.limits - lost).abs() < slack, "{}: {balance:?} {lost}", method.name);
+    }
+}

@@ -4,7 +4,8 @@ use super::super::{Anchor, BodyId};
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass and friction from one end over two points to the other end. It can be slack.
+/// A rope without mass and friction from one end over two points to the other end. It can be slack. An end that is drawn up to
+/// the point over which its rope runs stops there: a hundredth of the rope's length before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulley {
     /// The two ends of the rope.
@@ -18,6 +19,9 @@ pub struct Pulley {
 }
 
 impl Pulley {
+    /// How near an end can come to the point over which its rope runs, as part of the rope's length.
+    pub const NEAREST: f64 = 0.01;
+
     fn ends(&self) -> [Anchor; 4] {
         [self.over[0], self.between[0], self.over[1], self.between[1]]
     }
@@ -29,14 +33,14 @@ impl Constraint for Pulley {
     }
 
     fn rows(&self) -> usize {
-        1
+        3
     }
 
     fn law(&self, _: usize) -> Law {
         Law::Stop
     }
 
-    /// c = ℓ − |d₁| − r |d₂| ≥ 0, with d the ways from the points to the ends.
+    /// c = ℓ − |d₁| − r |d₂| ≥ 0, with d the ways from the points to the ends, and |d| − ε ≥ 0 for both.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let [a, b, c, d] = End::all(self.ends(), members);
         let ways = [([a, b], 1.0), ([c, d], self.ratio)];
@@ -46,6 +50,10 @@ impl Constraint for Pulley {
         };
         let scale = ways.iter().fold(self.length, |scale, (way, _)| scale.max(way.scale));
         equations.row(0, self.length - sum(|way| way.length), -sum(|way| way.bias), scale);
-        ways.iter().for_each(|(way, factor)| way.write(-factor, 0, equations));
+        for (i, (way, factor)) in ways.iter().enumerate() {
+            way.write(-factor, 0, equations);
+            equations.row(1 + i, way.length - Pulley::NEAREST * self.length, way.bias, way.scale.max(self.length));
+            way.write(1.0, 1 + i, equations);
+        }
     }
 }

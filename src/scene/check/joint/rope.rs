@@ -25,7 +25,7 @@ impl Reader<'_, '_> {
             self.context.diagnostics.push(error.help("say how long it is: `length = 1`"));
             return None;
         }
-        self.reaches(view, length, distance, "its ends are", "the rope");
+        self.reaches(view, distance, "its ends are", "the rope");
         Some(Rope { between, length: length.max(distance) })
     }
 
@@ -34,26 +34,28 @@ impl Reader<'_, '_> {
         let [first, second] = view.list("over")? else { return None };
         let over = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
         let ratio = view.number("ratio").unwrap_or(1.0);
-        let mut ways = [0.0; 2];
-        for ((way, end), (point, node)) in
-            ways.iter_mut().zip(between).zip(over.into_iter().zip([first, second]))
-        {
-            *way = end::place(end, self.bodies).distance(end::place(point, self.bodies));
-            if *way == 0.0 {
+        let way = |i: usize| end::place(between[i], self.bodies).distance(end::place(over[i], self.bodies));
+        let ways = [way(0), way(1)];
+        let needed = ways[0] + ratio * ways[1];
+        let length = view.number("length").unwrap_or(needed).max(needed);
+        for (way, node) in ways.into_iter().zip([first, second]) {
+            let nearest = Pulley::NEAREST * length;
+            if way < nearest {
                 let message = format!("the pulley `{}` has an end where its rope runs over", self.name);
-                let error = Diagnostic::error(Code::BadJoint, message).at(node.span, "an end is here, too");
-                self.context.diagnostics.push(error.help("the rope needs a way from each point to its end"));
+                let label = format!("an end is {} m from here", about(way));
+                let help = format!("an end stops {} m before the point over which its rope runs", about(nearest));
+                let error = Diagnostic::error(Code::BadJoint, message).at(node.span, label);
+                self.context.diagnostics.push(error.help(help));
                 return None;
             }
         }
-        let needed = ways[0] + ratio * ways[1];
-        let length = view.number("length").unwrap_or(needed);
-        self.reaches(view, length, needed, "its parts are", "the rope of the pulley");
-        Some(Pulley { between, over, ratio, length: length.max(needed) })
+        self.reaches(view, needed, "its parts are", "the rope of the pulley");
+        Some(Pulley { between, over, ratio, length })
     }
 
     /// Says it where a rope is too short.
-    fn reaches(&mut self, view: &View<'_>, length: f64, needed: f64, what: &str, whose: &str) {
+    fn reaches(&mut self, view: &View<'_>, needed: f64, what: &str, whose: &str) {
+        let length = view.number("length").unwrap_or(needed);
         if needed <= length * (1.0 + NEARLY) {
             return;
         }
