@@ -443,7 +443,12 @@ fn a_pulley_ends_at_its_wheels() {
         world.advance_to(3.0);
         let expected = [-4.0 * Pulley::NEAREST, -4.0 + 4.0 * Pulley::NEAREST];
         for (id, expected) in [light, heavy].into_iter().zip(expected) {
-            assert!((world.location(id).y - expected).abs() < 1e-12, "{}: {}", method.name, world.location(id));
+            assert!(
+                (world.location(id).y - expected).abs() < 1e-12,
+                "{}: {}",
+                method.name,
+                world.location(id)
+            );
             assert!(world.velocity(id).length() < 1e-12, "{}", method.name);
         }
         let balance = world.balance();

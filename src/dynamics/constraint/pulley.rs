@@ -52,7 +52,12 @@ impl Constraint for Pulley {
         equations.row(0, self.length - sum(|way| way.length), -sum(|way| way.bias), scale);
         for (i, (way, factor)) in ways.iter().enumerate() {
             way.write(-factor, 0, equations);
-            equations.row(1 + i, way.length - Pulley::NEAREST * self.length, way.bias, way.scale.max(self.length));
+            equations.row(
+                1 + i,
+                way.length - Pulley::NEAREST * self.length,
+                way.bias,
+                way.scale.max(self.length),
+            );
             way.write(1.0, 1 + i, equations);
         }
     }

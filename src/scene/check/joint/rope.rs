@@ -43,7 +43,8 @@ impl Reader<'_, '_> {
             if way < nearest {
                 let message = format!("the pulley `{}` has an end where its rope runs over", self.name);
                 let label = format!("an end is {} m from here", about(way));
-                let help = format!("an end stops {} m before the point over which its rope runs", about(nearest));
+                let help =
+                    format!("an end stops {} m before the point over which its rope runs", about(nearest));
                 let error = Diagnostic::error(Code::BadJoint, message).at(node.span, label);
                 self.context.diagnostics.push(error.help(help));
                 return None;
