@@ -17,20 +17,19 @@ pub(super) struct Factor {
     /// Their values.
     pub(super) values: Vec<f64>,
     rows: Vec<usize>,
-    /// The first later row in which a column of L has an entry: the elimination tree.
-    parent: Vec<usize>,
-    /// Where each column of L begins.
+    /// Where the entries of each row of L begin in `entries`; one more for the end.
+    entry_start: Vec<usize>,
+    /// The entries of L, row by row; in a row, those on which others depend come first.
+    entries: Vec<Entry>,
+    /// Where each column of L begins in `lower`; one more for the end.
     start: Vec<usize>,
-    /// How many entries each column of L has by now.
-    filled: Vec<usize>,
+    /// L, column by column: the rows of its entries, and their values.
     lower_rows: Vec<usize>,
     lower: Vec<f64>,
     /// 1/D; 0 for a row that is left out.
     inverse: Vec<f64>,
-    // Room to work in.
+    /// Room to work in; all zero between two calls.
     work: Vec<f64>,
-    mark: Vec<usize>,
-    path: Vec<usize>,
 }
 
 /// Where the values of a column stand.
@@ -38,6 +37,14 @@ pub(super) struct Factor {
 pub(super) struct Column {
     pub(super) first: usize,
     pub(super) end: usize,
+}
+
+/// An entry of L.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    column: usize,
+    /// Its place in `lower`.
+    at: usize,
 }
 
 const NONE: usize = usize::MAX;
@@ -63,27 +70,42 @@ impl Factor {
         factor
     }
 
-    /// Finds the pattern of L.
+    /// Finds the pattern of L. A row has an entry wherever a way up the elimination tree leads from an entry of the matrix.
     fn plan(&mut self, n: usize) {
-        self.parent = vec![NONE; n];
-        self.mark = vec![NONE; n];
+        // The first later row in which a column of L has an entry: the elimination tree.
+        let mut parent = vec![NONE; n];
+        let mut mark = vec![NONE; n];
         let mut count = vec![0; n];
+        let mut path = vec![0; n];
         for k in 0..n {
-            self.mark[k] = k;
+            self.entry_start.push(self.entries.len());
+            mark[k] = k;
             let Column { first, end } = self.columns[k];
+            let mut top = n;
             for p in first..end {
                 let mut i = self.rows[p];
-                while self.mark[i] != k {
-                    if self.parent[i] == NONE {
-                        self.parent[i] = k;
+                let mut length = 0;
+                while mark[i] != k {
+                    if parent[i] == NONE {
+                        parent[i] = k;
                     }
-                    count[i] += 1;
-                    self.mark[i] = k;
-                    i = self.parent[i];
+                    path[length] = i;
+                    length += 1;
+                    mark[i] = k;
+                    i = parent[i];
+                }
+                while length > 0 {
+                    length -= 1;
+                    top -= 1;
+                    path[top] = path[length];
                 }
             }
+            for &column in &path[top..] {
+                self.entries.push(Entry { column, at: count[column] });
+                count[column] += 1;
+            }
         }
-        self.start = Vec::with_capacity(n + 1);
+        self.entry_start.push(self.entries.len());
         let mut total = 0;
         for entries in count {
             self.start.push(total);
@@ -92,78 +114,59 @@ impl Factor {
         self.start.push(total);
         self.lower_rows = vec![0; total];
         self.lower = vec![0.0; total];
-        self.filled = vec![0; n];
+        for k in 0..n {
+            for entry in &mut self.entries[self.entry_start[k]..self.entry_start[k + 1]] {
+                entry.at += self.start[entry.column];
+                self.lower_rows[entry.at] = k;
+            }
+        }
         self.inverse = vec![0.0; n];
         self.work = vec![0.0; n];
-        self.path = vec![0; n];
     }
 
     /// Factorises the values. `held` says which rows take part; where `choose` is set, those that others imply are taken out
     /// of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
-        let n = held.len();
-        self.mark.fill(NONE);
+        let Factor { columns, values, rows, entry_start, entries, start, lower_rows, lower, inverse, work } =
+            self;
         for (k, held) in held.iter_mut().enumerate() {
-            let mut top = n;
-            self.work[k] = 0.0;
-            self.mark[k] = k;
-            self.filled[k] = 0;
-            let Column { first, end } = self.columns[k];
-            // The pattern of row k of L: the ways up the tree from the entries of column k.
-            for p in first..end {
-                let mut i = self.rows[p];
-                self.work[i] += self.values[p];
-                let mut length = 0;
-                while self.mark[i] != k {
-                    self.path[length] = i;
-                    length += 1;
-                    self.mark[i] = k;
-                    i = self.parent[i];
-                }
-                while length > 0 {
-                    length -= 1;
-                    top -= 1;
-                    self.path[top] = self.path[length];
-                }
+            let Column { first, end } = columns[k];
+            for (&row, value) in rows[first..end].iter().zip(&values[first..end]) {
+                work[row] = *value;
             }
-            let diagonal = self.work[k];
+            let diagonal = std::mem::take(&mut work[k]);
             let mut pivot = diagonal;
-            self.work[k] = 0.0;
-            for at in top..n {
-                let i = self.path[at];
-                let value = self.work[i];
-                self.work[i] = 0.0;
-                let (begin, end) = (self.start[i], self.start[i] + self.filled[i]);
-                for p in begin..end {
-                    self.work[self.lower_rows[p]] -= self.lower[p] * value;
+            for &Entry { column, at } in &entries[entry_start[k]..entry_start[k + 1]] {
+                let value = std::mem::take(&mut work[column]);
+                let begin = start[column];
+                for (&row, factor) in lower_rows[begin..at].iter().zip(&lower[begin..at]) {
+                    work[row] -= factor * value;
                 }
-                let scaled = value * self.inverse[i];
+                let scaled = value * inverse[column];
                 pivot -= scaled * value;
-                self.lower_rows[end] = k;
-                self.lower[end] = scaled;
-                self.filled[i] += 1;
+                lower[at] = scaled;
             }
             if choose && pivot <= IMPLIED * diagonal {
                 *held = false;
             }
             // A pivot that rounding has made negative would turn a force around.
-            self.inverse[k] = if *held && pivot > 0.0 { 1.0 / pivot } else { 0.0 };
+            inverse[k] = if *held && pivot > 0.0 { 1.0 / pivot } else { 0.0 };
         }
     }
 
     /// Solves A x = b for the rows that take part; the other entries of x are 0.
     pub(super) fn solve(&self, x: &mut [f64]) {
-        let n = x.len();
-        for i in 0..n {
+        let columns = || self.start.windows(2).map(|pair| pair[0]..pair[1]);
+        for (i, column) in columns().enumerate() {
             let value = x[i];
-            for p in self.start[i]..self.start[i] + self.filled[i] {
-                x[self.lower_rows[p]] -= self.lower[p] * value;
+            for (&row, factor) in self.lower_rows[column.clone()].iter().zip(&self.lower[column]) {
+                x[row] -= factor * value;
             }
         }
-        for i in (0..n).rev() {
-            let mut value = x[i] * self.inverse[i];
-            for p in self.start[i]..self.start[i] + self.filled[i] {
-                value -= self.lower[p] * x[self.lower_rows[p]];
+        for ((i, column), inverse) in columns().enumerate().zip(&self.inverse).rev() {
+            let mut value = x[i] * inverse;
+            for (&row, factor) in self.lower_rows[column.clone()].iter().zip(&self.lower[column]) {
+                value -= factor * x[row];
             }
             // Of a row that is left out, the column of L is zero, and so is what stands here.
             x[i] = value;
