@@ -33,7 +33,7 @@ impl Solver {
         let mut rates = vec![0.0; n];
         let size = match &self.structure {
             Some(structure) => {
-                solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut rates)
+                solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates)
             }
             None => return (f64::INFINITY, 0),
         };

@@ -5,6 +5,7 @@
 //! hold at present), and since the order of its sums must not depend on the processor.
 
 use super::structure::Structure;
+use super::{Direction, Member};
 
 /// Below this part of its own diagonal, what is left of a row has come from rounding: other rows imply it.
 const IMPLIED: f64 = 1e-11;
@@ -17,6 +18,9 @@ pub(super) struct Factor {
     /// Their values.
     pub(super) values: Vec<f64>,
     rows: Vec<usize>,
+    /// Where the couplings of each direction of the Jacobian begin in `couplings`; one more for the end.
+    coupling_start: Vec<usize>,
+    couplings: Vec<Coupling>,
     /// Where the entries of each row of L begin in `entries`; one more for the end.
     entry_start: Vec<usize>,
     /// The entries of L, row by row; in a row, those on which others depend come first.
@@ -39,6 +43,15 @@ pub(super) struct Column {
     pub(super) end: usize,
 }
 
+/// A product of two directions of a body: that of the row of a column, and that of a row before it.
+#[derive(Clone, Copy, Debug)]
+struct Coupling {
+    /// The value to which it belongs.
+    value: usize,
+    /// The direction in the row before.
+    other: usize,
+}
+
 /// An entry of L.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
@@ -54,17 +67,31 @@ impl Factor {
     pub(super) fn new(structure: &Structure) -> Factor {
         let n = structure.rows;
         let mut factor = Factor { columns: Vec::with_capacity(n), ..Factor::default() };
+        let mut couplings = vec![Vec::new(); structure.directions];
         for (place, neighbours) in structure.places.iter().zip(&structure.neighbours) {
             for row in 0..place.rows {
                 let first = factor.rows.len();
+                let own = place.direction + row * place.bodies.len();
                 for neighbour in neighbours {
                     let other = &structure.places[neighbour.place];
                     let end = (other.row + other.rows).min(place.row + row + 1);
-                    factor.rows.extend(other.row..end);
+                    for other_row in 0..end - other.row {
+                        let before = other.direction + other_row * other.bodies.len();
+                        for &(theirs, mine) in &neighbour.shared {
+                            let coupling = Coupling { value: factor.rows.len(), other: before + theirs };
+                            couplings[own + mine].push(coupling);
+                        }
+                        factor.rows.push(other.row + other_row);
+                    }
                 }
                 factor.columns.push(Column { first, end: factor.rows.len() });
             }
         }
+        for of_direction in couplings {
+            factor.coupling_start.push(factor.couplings.len());
+            factor.couplings.extend(of_direction);
+        }
+        factor.coupling_start.push(factor.couplings.len());
         factor.values = vec![0.0; factor.rows.len()];
         factor.plan(n);
         factor
@@ -124,10 +151,22 @@ impl Factor {
         self.work = vec![0.0; n];
     }
 
+    /// Sets the values to J M⁻¹ Jᵀ; `member_of` are the bodies to which the directions belong.
+    pub(super) fn assemble(&mut self, jacobian: &[Direction], member_of: &[usize], members: &[Member]) {
+        self.values.fill(0.0);
+        let couplings = self.coupling_start.windows(2).map(|pair| &self.couplings[pair[0]..pair[1]]);
+        for ((direction, &member), couplings) in jacobian.iter().zip(member_of).zip(couplings) {
+            let weighed = members[member].weigh(direction);
+            for &Coupling { value, other } in couplings {
+                self.values[value] += jacobian[other].dot(&weighed);
+            }
+        }
+    }
+
     /// Factorises the values. `held` says which rows take part; where `choose` is set, those that others imply are taken out
     /// of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
-        let Factor { columns, values, rows, entry_start, entries, start, lower_rows, lower, inverse, work } =
+        let Factor { columns, values, rows, entry_start, entries, start, lower_rows, lower, inverse, work, .. } =
             self;
         for (k, held) in held.iter_mut().enumerate() {
             let Column { first, end } = columns[k];

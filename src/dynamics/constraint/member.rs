@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::super::model::is_isotropic;
 use super::super::{Anchor, Model, State};
-use super::Members;
+use super::{Direction, Members};
 
 /// A body of a constraint at one moment.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,28 +24,51 @@ pub struct Member {
 }
 
 impl Member {
+    /// Body `i`, at no moment yet.
+    pub(super) fn new(i: usize, model: &Model) -> Member {
+        let inverse_mass = model.inverse_mass()[i];
+        let is_movable = inverse_mass != 0.0;
+        let inverse_inertia = if is_movable { model.inverse_inertia()[i] } else { DVec3::ZERO };
+        let inverse_inertia = DMat3::from_diagonal(inverse_inertia);
+        Member { inverse_mass, inverse_inertia, ..Member::default() }
+    }
+
     /// Body `i` of a state.
     pub(super) fn of(i: usize, model: &Model, state: &State) -> Member {
-        let orientation = state.orientation[i];
+        let mut member = Member::new(i, model);
+        member.follow(i, model, state);
+        member
+    }
+
+    /// Takes what changes with time from a state.
+    pub(super) fn follow(&mut self, i: usize, model: &Model, state: &State) {
+        let (orientation, angular_momentum) = (state.orientation[i], state.angular_momentum[i]);
         let axes = model.principal_axes(i);
-        let inverse_mass = model.inverse_mass()[i];
+        self.location = state.location[i];
+        self.velocity = state.velocity[i];
+        self.orientation = if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() };
         let principal = model.inverse_inertia()[i];
-        let inverse_inertia = if inverse_mass == 0.0 {
-            DMat3::ZERO
-        } else if is_isotropic(principal) {
-            DMat3::from_diagonal(principal)
-        } else {
-            let turn = DMat3::from_quat(orientation);
-            turn * DMat3::from_diagonal(principal) * turn.transpose()
-        };
-        Member {
-            location: state.location[i],
-            velocity: state.velocity[i],
-            orientation: if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() },
-            angular_velocity: model.angular_velocity(i, state),
-            inverse_mass,
-            inverse_inertia,
+        // Without a preferred axis, the inertia is the same in any orientation.
+        if is_isotropic(principal) {
+            self.angular_velocity = principal.x * angular_momentum;
+            return;
         }
+        let turn = DMat3::from_quat(orientation);
+        let back = turn.transpose();
+        self.angular_velocity = turn * (principal * (back * angular_momentum));
+        if self.inverse_mass != 0.0 {
+            self.inverse_inertia = turn * (DMat3::from_diagonal(principal) * back);
+        }
+    }
+
+    /// M⁻¹ times a direction.
+    pub(super) fn weigh(&self, direction: &Direction) -> Direction {
+        Direction { linear: self.inverse_mass * direction.linear, angular: self.turn(direction.angular) }
+    }
+
+    /// I⁻¹ times a vector, which is zero for most ends at the centre of a body.
+    pub(super) fn turn(&self, vector: DVec3) -> DVec3 {
+        if vector == DVec3::ZERO { vector } else { self.inverse_inertia * vector }
     }
 }
 
@@ -70,6 +93,7 @@ pub(super) struct End {
 
 impl End {
     /// The ends of a constraint; `members` are its bodies, each once, in the order of the ends.
+    #[inline(always)]
     pub(super) fn all<const N: usize>(anchors: [Anchor; N], members: &Members<'_>) -> [End; N] {
         let mut next = 0;
         let mut slots = [None; N];
@@ -99,9 +123,21 @@ impl End {
         }
     }
 
+    #[inline(always)]
     fn on(member: &Member, body: usize, at: DVec3) -> End {
-        let arm = if at == DVec3::ZERO { at } else { member.orientation * at };
         let omega = member.angular_velocity;
+        if at == DVec3::ZERO {
+            return End {
+                body: Some(body),
+                location: member.location,
+                velocity: member.velocity,
+                centripetal: DVec3::ZERO,
+                arm: DVec3::ZERO,
+                orientation: member.orientation,
+                angular_velocity: omega,
+            };
+        }
+        let arm = member.orientation * at;
         let turning = omega.cross(arm);
         End {
             body: Some(body),

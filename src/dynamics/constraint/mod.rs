@@ -96,6 +96,13 @@ pub struct Direction {
     pub angular: DVec3,
 }
 
+impl Direction {
+    /// The sum of the products of all components.
+    fn dot(&self, other: &Direction) -> f64 {
+        self.linear.dot(other.linear) + self.angular.dot(other.angular)
+    }
+}
+
 /// The bodies of a constraint at one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Members<'a> {

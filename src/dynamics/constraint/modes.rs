@@ -90,7 +90,7 @@ impl Solver {
         self.measure(model, t, state);
         let mut rates = vec![0.0; self.rows.len()];
         if let Some(structure) = &self.structure {
-            solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut rates);
+            solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
         }
         let mut can_hold = vec![false; self.rows.len()];
         for i in 0..self.rows.len() {
@@ -116,7 +116,7 @@ impl Solver {
         }
         let size = match &self.structure {
             Some(structure) => {
-                solver::rates(&structure.places, &self.jacobian, &self.members, &self.rows, &mut before)
+                solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut before)
             }
             None => return 0.0,
         };
@@ -142,7 +142,7 @@ impl Solver {
             };
             moved.clone_from(&members);
             solver::move_members(structure, jacobian, unknown, moved);
-            solver::rates(&structure.places, jacobian, moved, &self.rows, &mut after);
+            solver::rates(structure, jacobian, moved, &self.rows, &mut after);
             let wrong = |i: usize| match self.modes[i] {
                 Mode::Held if touched[i] => -self.unknown[i] * self.weight(i),
                 Mode::Open if touched[i] => -after[i],

@@ -112,7 +112,7 @@ impl Solver {
             // The power λ J v, since J v + ∂c/∂t = 0.
             loads.power.motors -= multiplier * row.rate;
         }
-        for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
             let i = structure.bodies[member];
             loads.force[i] += multiplier * direction.linear;
             loads.torque[i] += multiplier * direction.angular;
@@ -133,10 +133,10 @@ impl Solver {
             } else {
                 let gyroscopic = member.angular_velocity.cross(state.angular_momentum[i]);
                 member.velocity = member.inverse_mass * loads.force[i];
-                member.angular_velocity = member.inverse_inertia * (loads.torque[i] - gyroscopic);
+                member.angular_velocity = member.turn(loads.torque[i] - gyroscopic);
             }
         }
-        let mut size = products(&structure.places, jacobian, members, unknown);
+        let mut size = products(structure, jacobian, members, unknown);
         for (value, row) in unknown.iter_mut().zip(&*rows) {
             size = size.max(row.bias.abs());
             *value = -(*value + row.bias);
@@ -161,7 +161,7 @@ impl Solver {
             return size;
         };
         move_members(structure, jacobian, unknown, members);
-        products(&structure.places, jacobian, members, accelerations);
+        products(structure, jacobian, members, accelerations);
         for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {
             *acceleration += row.bias;
         }
@@ -182,7 +182,7 @@ impl Solver {
                 _ => 0.0,
             };
         }
-        for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
             let (i, member) = (structure.bodies[member], &members[member]);
             loads.force[i] += multiplier * direction.linear;
             loads.torque[i] += multiplier * direction.angular;
@@ -277,10 +277,10 @@ impl Solver {
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
             };
-            for_each_direction(&structure.places, jacobian, unknown, |member, direction, multiplier| {
+            for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
                 let (i, member) = (structure.bodies[member], &members[member]);
                 state.location[i] += multiplier * member.inverse_mass * direction.linear;
-                let turn = member.inverse_inertia * (multiplier * direction.angular);
+                let turn = member.turn(multiplier * direction.angular);
                 if turn != DVec3::ZERO {
                     state.orientation[i] = (DQuat::from_scaled_axis(turn) * state.orientation[i]).normalize();
                 }
@@ -294,7 +294,7 @@ impl Solver {
         };
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let scale = rates(&structure.places, jacobian, members, rows, unknown);
+            let scale = rates(structure, jacobian, members, rows, unknown);
             let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
             let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
             // A NaN ends it as well.
@@ -358,7 +358,7 @@ impl Solver {
         let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
         let structure = Structure::of(model.constraints(), |body| model.is_present(body), can_move);
         self.factor = Factor::new(&structure);
-        self.members = vec![Member::default(); structure.bodies.len()];
+        self.members = structure.bodies.iter().map(|&body| Member::new(body, model)).collect();
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
         self.jacobian = vec![Direction::default(); structure.directions];
@@ -380,7 +380,7 @@ impl Solver {
     pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
         let Some(structure) = &self.structure else { return };
         for (member, &i) in self.members.iter_mut().zip(&structure.bodies) {
-            *member = Member::of(i, model, state);
+            member.follow(i, model, state);
         }
         for place in &structure.places {
             let bodies = place.bodies.len();
@@ -413,27 +413,7 @@ impl Solver {
     /// Factorises J M⁻¹ Jᵀ of what was measured last.
     pub(super) fn factorise(&mut self, choose: bool) {
         let Some(structure) = &self.structure else { return };
-        for (own, neighbours) in structure.places.iter().zip(&structure.neighbours) {
-            for row in 0..own.rows {
-                let mut at = self.factor.columns[own.row + row].first;
-                for neighbour in neighbours {
-                    let other = &structure.places[neighbour.place];
-                    let count = other.rows.min((own.row + row + 1).saturating_sub(other.row));
-                    for other_row in 0..count {
-                        let mut sum = 0.0;
-                        for &(theirs, mine) in &neighbour.shared {
-                            let a = &self.jacobian[other.direction + other_row * other.bodies.len() + theirs];
-                            let b = &self.jacobian[own.direction + row * own.bodies.len() + mine];
-                            let member = &self.members[own.bodies[mine]];
-                            sum += member.inverse_mass * a.linear.dot(b.linear)
-                                + a.angular.dot(member.inverse_inertia * b.angular);
-                        }
-                        self.factor.values[at] = sum;
-                        at += 1;
-                    }
-                }
-            }
-        }
+        self.factor.assemble(&self.jacobian, &structure.member_of, &self.members);
         self.factor.compute(&mut self.held, choose);
     }
 }
@@ -445,29 +425,25 @@ pub(super) fn move_members(
     multipliers: &[f64],
     members: &mut [Member],
 ) {
-    for_each_direction(&structure.places, jacobian, multipliers, |member, direction, multiplier| {
+    for_each_direction(structure, jacobian, multipliers, |member, direction, multiplier| {
         let member = &mut members[member];
         member.velocity += multiplier * member.inverse_mass * direction.linear;
-        member.angular_velocity += member.inverse_inertia * (multiplier * direction.angular);
+        member.angular_velocity += member.turn(multiplier * direction.angular);
     });
 }
 
 /// Calls back with each direction of the Jacobian, its member and the multiplier of its row.
 pub(super) fn for_each_direction(
-    places: &[Place],
+    structure: &Structure,
     jacobian: &[Direction],
     multipliers: &[f64],
     mut act: impl FnMut(usize, &Direction, f64),
 ) {
-    for place in places {
-        let width = place.bodies.len();
-        for row in 0..place.rows {
-            let multiplier = multipliers[place.row + row];
-            if multiplier != 0.0 {
-                let first = place.direction + row * width;
-                for (direction, &member) in jacobian[first..first + width].iter().zip(&place.bodies) {
-                    act(member, direction, multiplier);
-                }
+    for (row, &multiplier) in structure.row_start.windows(2).zip(multipliers) {
+        if multiplier != 0.0 {
+            let row = row[0]..row[1];
+            for (direction, &member) in jacobian[row.clone()].iter().zip(&structure.member_of[row]) {
+                act(member, direction, multiplier);
             }
         }
     }
@@ -475,13 +451,13 @@ pub(super) fn for_each_direction(
 
 /// c' = J v + ∂c/∂t for the velocities of the members; the largest sum of the sizes of its terms.
 pub(super) fn rates(
-    places: &[Place],
+    structure: &Structure,
     jacobian: &[Direction],
     members: &[Member],
     rows: &[Row],
     out: &mut [f64],
 ) -> f64 {
-    let mut largest = products(places, jacobian, members, out);
+    let mut largest = products(structure, jacobian, members, out);
     for (rate, row) in out.iter_mut().zip(rows) {
         *rate += row.rate;
         largest = largest.max(row.rate.abs());
@@ -491,23 +467,25 @@ pub(super) fn rates(
 
 /// J v for the velocities of the members, or J a where accelerations stand in their place; the largest sum of the sizes of its
 /// terms.
-pub(super) fn products(places: &[Place], jacobian: &[Direction], members: &[Member], out: &mut [f64]) -> f64 {
+pub(super) fn products(
+    structure: &Structure,
+    jacobian: &[Direction],
+    members: &[Member],
+    out: &mut [f64],
+) -> f64 {
     let mut largest = 0.0_f64;
-    for place in places {
-        let width = place.bodies.len();
-        for row in 0..place.rows {
-            let first = place.direction + row * width;
-            let (mut sum, mut size) = (0.0, 0.0);
-            for (direction, &member) in jacobian[first..first + width].iter().zip(&place.bodies) {
-                let member = &members[member];
-                let (moving, turning) =
-                    (direction.linear.dot(member.velocity), direction.angular.dot(member.angular_velocity));
-                sum += moving + turning;
-                size += moving.abs() + turning.abs();
-            }
-            out[place.row + row] = sum;
-            largest = largest.max(size);
+    for (row, out) in structure.row_start.windows(2).zip(out) {
+        let row = row[0]..row[1];
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (direction, &member) in jacobian[row.clone()].iter().zip(&structure.member_of[row]) {
+            let member = &members[member];
+            let moving = direction.linear.dot(member.velocity);
+            let turning = direction.angular.dot(member.angular_velocity);
+            sum += moving + turning;
+            size += moving.abs() + turning.abs();
         }
+        *out = sum;
+        largest = largest.max(size);
     }
     largest
 }
@@ -527,7 +505,7 @@ pub(super) fn push(
     model: &Model,
     state: &mut State,
 ) {
-    for_each_direction(&structure.places, jacobian, impulses, |member, direction, impulse| {
+    for_each_direction(structure, jacobian, impulses, |member, direction, impulse| {
         let i = structure.bodies[member];
         let inverse_mass = model.inverse_mass()[i];
         if inverse_mass != 0.0 {

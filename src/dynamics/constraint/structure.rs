@@ -16,6 +16,10 @@ pub(super) struct Structure {
     pub(super) rows: usize,
     /// The number of directions of all constraints: rows times bodies.
     pub(super) directions: usize,
+    /// The body of each direction, as a place in `bodies`.
+    pub(super) member_of: Vec<usize>,
+    /// Where the directions of each row begin; one more for the end.
+    pub(super) row_start: Vec<usize>,
     /// For each constraint, those before it that share a body that can move, and itself at last.
     pub(super) neighbours: Vec<Vec<Neighbour>>,
 }
@@ -82,8 +86,13 @@ impl Structure {
             let (row, direction) = (structure.rows, structure.directions);
             structure.rows += rows;
             structure.directions += rows * bodies.len();
+            for i in 0..rows {
+                structure.row_start.push(direction + i * bodies.len());
+                structure.member_of.extend(&bodies);
+            }
             structure.places.push(Place { constraint, row, rows, direction, bodies });
         }
+        structure.row_start.push(structure.directions);
         for (place, &i) in order.iter().enumerate() {
             let mut before: Vec<usize> = graph[i].iter().map(|&other| place_of[other]).collect();
             before.retain(|&other| other < place);

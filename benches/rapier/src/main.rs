@@ -1,0 +1,119 @@
+//! A hanging chain, here and in rapier's multibody joints: the processor time of a step, measured in one run.
+//!
+//! Both have the same bodies and the same gravity: balls of 1 kg, 1 m apart, each held at that distance from the one before it.
+//! Here that is a rod, or a ball joint at the centre of the ball before; there it is a hinge, with which the chain swings in a
+//! plane and has the fewest coordinates, or a spherical joint. What drags on joints there by default is off. Neither has
+//! contacts, and rapier computes on one thread.
+//!
+//! `cargo run --release --manifest-path benches/rapier/Cargo.toml`
+
+use glam::DVec3;
+use jabuka::dynamics::{Anchor, Ball, Method, Rod, Shape, UniformGravity, World};
+use rapier3d_f64::dynamics::IntegrationParameters;
+use rapier3d_f64::prelude::{
+    GenericJoint, PhysicsWorld, RevoluteJointBuilder, RigidBodyBuilder, SphericalJointBuilder, Vector,
+};
+use rustix::time::{ClockId, clock_gettime};
+
+const STEP: f64 = 1e-3;
+const RADIUS: f64 = 0.1;
+const GRAVITY: f64 = 9.81;
+
+/// How the links are joined here.
+#[derive(Clone, Copy)]
+enum Link {
+    Rod,
+    Ball,
+}
+
+fn main() {
+    println!("milliseconds of the processor for a step of {STEP} s; where the first ball is after 20 steps, m");
+    for links in [100, 1000] {
+        println!("chain of {links}");
+        let best = theirs("hinges", links, RevoluteJointBuilder::new(Vector::Z).into());
+        theirs("spherical joints", links, SphericalJointBuilder::new().into());
+        for (link, name) in [(Link::Rod, "rods"), (Link::Ball, "ball joints")] {
+            for method in ["euler-cromer", "velocity-verlet", "rk4"] {
+                let time = ours(&format!("{name}, {method}"), links, link, method);
+                println!("    {:.0} times as fast as rapier's hinges", best / time);
+            }
+        }
+    }
+}
+
+fn ours(name: &str, links: u32, link: Link, method: &str) -> f64 {
+    let mut world = World::new();
+    world.set_integrator(Method::by_name(method).unwrap());
+    world.add_force(UniformGravity { acceleration: -GRAVITY * DVec3::Y });
+    let mut last = None;
+    let mut first = None;
+    for i in 1..=links {
+        let ball = jabuka::dynamics::RigidBody::new(&Shape::Sphere { radius: RADIUS }, 1.0);
+        let ball = world.add(ball.with_location(DVec3::X * f64::from(i)));
+        let end = last.map_or(Anchor::Point(DVec3::ZERO), Anchor::centre);
+        match link {
+            Link::Rod => world.add_constraint(Rod { between: [end, Anchor::centre(ball)], length: 1.0 }),
+            Link::Ball => {
+                let socket = Anchor::Body { id: ball, at: DVec3::NEG_X };
+                world.add_constraint(Ball { between: [end, socket] });
+            }
+        }
+        last = Some(ball);
+        first = first.or(last);
+    }
+    let time = time(|| world.step(STEP));
+    let at = world.location(first.unwrap());
+    report(&format!("here, {name}"), time, [at.x, at.y]);
+    time
+}
+
+fn theirs(name: &str, links: u32, joint: GenericJoint) -> f64 {
+    let mut world = PhysicsWorld::new();
+    world.gravity = Vector::Y * -GRAVITY;
+    world.integration_parameters = IntegrationParameters { dt: STEP, ..IntegrationParameters::default() };
+    let mut last = world.insert_body(RigidBodyBuilder::fixed());
+    let mut first = None;
+    let mut handle = None;
+    for i in 1..=links {
+        let inertia = Vector::splat(0.4 * RADIUS * RADIUS);
+        let ball = RigidBodyBuilder::dynamic()
+            .translation(Vector::X * f64::from(i))
+            .can_sleep(false)
+            .additional_mass_properties(rapier3d_f64::prelude::MassProperties::new(
+                Vector::ZERO,
+                1.0,
+                inertia,
+            ));
+        let ball = world.insert_body(ball);
+        let mut joint = joint;
+        joint.set_local_anchor2(-Vector::X);
+        handle = world.insert_multibody_joint(last, ball, joint);
+        last = ball;
+        first = first.or(Some(ball));
+    }
+    let (multibody, _) = world.multibody_joints.get_mut(handle.unwrap()).unwrap();
+    multibody.damping_mut().fill(0.0);
+    let time = time(|| world.step());
+    let at = world.bodies[first.unwrap()].translation();
+    report(&format!("rapier, {name}"), time, [at.x, at.y]);
+    time
+}
+
+fn report(name: &str, time: f64, at: [f64; 2]) {
+    println!("  {name:32} {time:10.3}   ({:.6}, {:.6})", at[0], at[1]);
+}
+
+/// The fastest of 20 steps, ms.
+fn time(mut step: impl FnMut()) -> f64 {
+    let now = || {
+        let now = clock_gettime(ClockId::ThreadCPUTime);
+        now.tv_sec as f64 * 1e3 + now.tv_nsec as f64 * 1e-6
+    };
+    let mut best = f64::INFINITY;
+    for _ in 0..20 {
+        let start = now();
+        step();
+        best = best.min(now() - start);
+    }
+    best
+}
