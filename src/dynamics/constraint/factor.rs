@@ -4,6 +4,8 @@
 //! own, and not that of a crate, since rows must be left out while it runs (those that others imply, and those that do not
 //! hold at present), and since the order of its sums must not depend on the processor.
 
+use std::ops::Range;
+
 use super::structure::Structure;
 use super::{Direction, Member};
 
@@ -13,49 +15,55 @@ const IMPLIED: f64 = 1e-11;
 /// A matrix and its factors; both keep their patterns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {
-    /// The entries on and above the diagonal, column by column.
-    pub(super) columns: Vec<Column>,
-    /// Their values.
-    pub(super) values: Vec<f64>,
-    rows: Vec<usize>,
+    lines: Vec<Line>,
+    /// The matrix: the entries on and above the diagonal, column by column.
+    matrix: Vec<Entry>,
     /// Where the couplings of each direction of the Jacobian begin in `couplings`; one more for the end.
     coupling_start: Vec<usize>,
     couplings: Vec<Coupling>,
-    /// Where the entries of each row of L begin in `entries`; one more for the end.
-    entry_start: Vec<usize>,
     /// The entries of L, row by row; in a row, those on which others depend come first.
-    entries: Vec<Entry>,
-    /// Where each column of L begins in `lower`; one more for the end.
-    start: Vec<usize>,
-    /// L, column by column: the rows of its entries, and their values.
-    lower_rows: Vec<usize>,
-    lower: Vec<f64>,
+    crossings: Vec<Crossing>,
+    /// L, column by column.
+    lower: Vec<Entry>,
     /// 1/D; 0 for a row that is left out.
     inverse: Vec<f64>,
     /// Room to work in; all zero between two calls.
     work: Vec<f64>,
 }
 
-/// Where the values of a column stand.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Column {
-    pub(super) first: usize,
-    pub(super) end: usize,
+/// Where what belongs to a row stands.
+#[derive(Clone, Debug)]
+struct Line {
+    /// The column of the matrix.
+    column: Range<usize>,
+    /// The row of L.
+    crossings: Range<usize>,
+    /// The column of L.
+    below: Range<usize>,
+}
+
+/// An entry of a column.
+#[derive(Clone, Copy, Debug, Default)]
+struct Entry {
+    row: usize,
+    value: f64,
 }
 
 /// A product of two directions of a body: that of the row of a column, and that of a row before it.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
-    /// The value to which it belongs.
-    value: usize,
+    /// The entry of the matrix to which it belongs.
+    entry: usize,
     /// The direction in the row before.
     other: usize,
 }
 
-/// An entry of L.
+/// An entry of L, as a row sees it.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct Crossing {
     column: usize,
+    /// Where the column begins in `lower`.
+    first: usize,
     /// Its place in `lower`.
     at: usize,
 }
@@ -65,12 +73,12 @@ const NONE: usize = usize::MAX;
 impl Factor {
     /// Room for the matrix J M⁻¹ Jᵀ of a structure. Its columns hold the blocks of the neighbours in their order.
     pub(super) fn new(structure: &Structure) -> Factor {
-        let n = structure.rows;
-        let mut factor = Factor { columns: Vec::with_capacity(n), ..Factor::default() };
+        let mut factor = Factor::default();
         let mut couplings = vec![Vec::new(); structure.directions];
+        let mut columns = Vec::with_capacity(structure.rows);
         for (place, neighbours) in structure.places.iter().zip(&structure.neighbours) {
             for row in 0..place.rows {
-                let first = factor.rows.len();
+                let first = factor.matrix.len();
                 let own = place.direction + row * place.bodies.len();
                 for neighbour in neighbours {
                     let other = &structure.places[neighbour.place];
@@ -78,13 +86,13 @@ impl Factor {
                     for other_row in 0..end - other.row {
                         let before = other.direction + other_row * other.bodies.len();
                         for &(theirs, mine) in &neighbour.shared {
-                            let coupling = Coupling { value: factor.rows.len(), other: before + theirs };
+                            let coupling = Coupling { entry: factor.matrix.len(), other: before + theirs };
                             couplings[own + mine].push(coupling);
                         }
-                        factor.rows.push(other.row + other_row);
+                        factor.matrix.push(Entry { row: other.row + other_row, value: 0.0 });
                     }
                 }
-                factor.columns.push(Column { first, end: factor.rows.len() });
+                columns.push(first..factor.matrix.len());
             }
         }
         for of_direction in couplings {
@@ -92,25 +100,23 @@ impl Factor {
             factor.couplings.extend(of_direction);
         }
         factor.coupling_start.push(factor.couplings.len());
-        factor.values = vec![0.0; factor.rows.len()];
-        factor.plan(n);
+        factor.plan(columns);
         factor
     }
 
     /// Finds the pattern of L. A row has an entry wherever a way up the elimination tree leads from an entry of the matrix.
-    fn plan(&mut self, n: usize) {
+    fn plan(&mut self, columns: Vec<Range<usize>>) {
+        let n = columns.len();
         // The first later row in which a column of L has an entry: the elimination tree.
         let mut parent = vec![NONE; n];
         let mut mark = vec![NONE; n];
         let mut count = vec![0; n];
         let mut path = vec![0; n];
-        for k in 0..n {
-            self.entry_start.push(self.entries.len());
+        for (k, column) in columns.into_iter().enumerate() {
             mark[k] = k;
-            let Column { first, end } = self.columns[k];
             let mut top = n;
-            for p in first..end {
-                let mut i = self.rows[p];
+            for entry in &self.matrix[column.clone()] {
+                let mut i = entry.row;
                 let mut length = 0;
                 while mark[i] != k {
                     if parent[i] == NONE {
@@ -127,63 +133,64 @@ impl Factor {
                     path[top] = path[length];
                 }
             }
+            let first = self.crossings.len();
             for &column in &path[top..] {
-                self.entries.push(Entry { column, at: count[column] });
+                self.crossings.push(Crossing { column, first: 0, at: count[column] });
                 count[column] += 1;
             }
+            self.lines.push(Line { column, crossings: first..self.crossings.len(), below: 0..0 });
         }
-        self.entry_start.push(self.entries.len());
-        let mut total = 0;
-        for entries in count {
-            self.start.push(total);
-            total += entries;
+        let mut first = 0;
+        for (line, entries) in self.lines.iter_mut().zip(count) {
+            line.below = first..first + entries;
+            first += entries;
         }
-        self.start.push(total);
-        self.lower_rows = vec![0; total];
-        self.lower = vec![0.0; total];
-        for k in 0..n {
-            for entry in &mut self.entries[self.entry_start[k]..self.entry_start[k + 1]] {
-                entry.at += self.start[entry.column];
-                self.lower_rows[entry.at] = k;
+        self.lower = vec![Entry::default(); first];
+        for (row, line) in self.lines.iter().enumerate() {
+            for crossing in &mut self.crossings[line.crossings.clone()] {
+                crossing.first = self.lines[crossing.column].below.start;
+                crossing.at += crossing.first;
+                self.lower[crossing.at].row = row;
             }
         }
         self.inverse = vec![0.0; n];
         self.work = vec![0.0; n];
     }
 
-    /// Sets the values to J M⁻¹ Jᵀ; `member_of` are the bodies to which the directions belong.
-    pub(super) fn assemble(&mut self, jacobian: &[Direction], member_of: &[usize], members: &[Member]) {
-        self.values.fill(0.0);
-        let couplings = self.coupling_start.windows(2).map(|pair| &self.couplings[pair[0]..pair[1]]);
-        for ((direction, &member), couplings) in jacobian.iter().zip(member_of).zip(couplings) {
-            let weighed = members[member].weigh(direction);
-            for &Coupling { value, other } in couplings {
-                self.values[value] += jacobian[other].dot(&weighed);
+    /// Sets the matrix to J M⁻¹ Jᵀ.
+    pub(super) fn assemble(&mut self, jacobian: &[Direction], members: &[Member]) {
+        self.matrix.iter_mut().for_each(|entry| entry.value = 0.0);
+        for (direction, couplings) in jacobian.iter().zip(self.coupling_start.windows(2)) {
+            let weighed = members[direction.member].weigh(direction);
+            for &Coupling { entry, other } in &self.couplings[couplings[0]..couplings[1]] {
+                self.matrix[entry].value += jacobian[other].dot(&weighed);
             }
         }
     }
 
-    /// Factorises the values. `held` says which rows take part; where `choose` is set, those that others imply are taken out
+    /// An entry on the diagonal of the matrix.
+    pub(super) fn diagonal(&self, row: usize) -> f64 {
+        self.matrix[self.lines[row].column.end - 1].value
+    }
+
+    /// Factorises the matrix. `held` says which rows take part; where `choose` is set, those that others imply are taken out
     /// of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
-        let Factor { columns, values, rows, entry_start, entries, start, lower_rows, lower, inverse, work, .. } =
-            self;
-        for (k, held) in held.iter_mut().enumerate() {
-            let Column { first, end } = columns[k];
-            for (&row, value) in rows[first..end].iter().zip(&values[first..end]) {
-                work[row] = *value;
+        let Factor { lines, matrix, crossings, lower, inverse, work, .. } = self;
+        for ((k, line), held) in lines.iter().enumerate().zip(held) {
+            for entry in &matrix[line.column.clone()] {
+                work[entry.row] = entry.value;
             }
             let diagonal = std::mem::take(&mut work[k]);
             let mut pivot = diagonal;
-            for &Entry { column, at } in &entries[entry_start[k]..entry_start[k + 1]] {
+            for &Crossing { column, first, at } in &crossings[line.crossings.clone()] {
                 let value = std::mem::take(&mut work[column]);
-                let begin = start[column];
-                for (&row, factor) in lower_rows[begin..at].iter().zip(&lower[begin..at]) {
-                    work[row] -= factor * value;
+                for entry in &lower[first..at] {
+                    work[entry.row] -= entry.value * value;
                 }
                 let scaled = value * inverse[column];
                 pivot -= scaled * value;
-                lower[at] = scaled;
+                lower[at].value = scaled;
             }
             if choose && pivot <= IMPLIED * diagonal {
                 *held = false;
@@ -195,17 +202,16 @@ impl Factor {
 
     /// Solves A x = b for the rows that take part; the other entries of x are 0.
     pub(super) fn solve(&self, x: &mut [f64]) {
-        let columns = || self.start.windows(2).map(|pair| pair[0]..pair[1]);
-        for (i, column) in columns().enumerate() {
+        for (i, line) in self.lines.iter().enumerate() {
             let value = x[i];
-            for (&row, factor) in self.lower_rows[column.clone()].iter().zip(&self.lower[column]) {
-                x[row] -= factor * value;
+            for entry in &self.lower[line.below.clone()] {
+                x[entry.row] -= entry.value * value;
             }
         }
-        for ((i, column), inverse) in columns().enumerate().zip(&self.inverse).rev() {
+        for ((i, line), inverse) in self.lines.iter().enumerate().zip(&self.inverse).rev() {
             let mut value = x[i] * inverse;
-            for (&row, factor) in self.lower_rows[column.clone()].iter().zip(&self.lower[column]) {
-                value -= factor * x[row];
+            for entry in &self.lower[line.below.clone()] {
+                value -= entry.value * x[entry.row];
             }
             // Of a row that is left out, the column of L is zero, and so is what stands here.
             x[i] = value;

@@ -23,47 +23,81 @@ pub struct Member {
     pub(super) inverse_inertia: DMat3,
 }
 
+/// What does not change with time about a body of a constraint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nature {
+    body: usize,
+    inverse_mass: f64,
+    /// I⁻¹ in its principal axes.
+    inverse_inertia: DVec3,
+    is_isotropic: bool,
+    /// The rotation that takes its own axes to its principal axes, where they differ.
+    turned: Option<DQuat>,
+}
+
+impl Nature {
+    pub(super) fn of(body: usize, model: &Model) -> Nature {
+        let (axes, inverse_inertia) = (model.principal_axes(body), model.inverse_inertia()[body]);
+        Nature {
+            body,
+            inverse_mass: model.inverse_mass()[body],
+            inverse_inertia,
+            is_isotropic: is_isotropic(inverse_inertia),
+            turned: (axes != DQuat::IDENTITY).then(|| axes.conjugate()),
+        }
+    }
+}
+
 impl Member {
-    /// Body `i`, at no moment yet.
-    pub(super) fn new(i: usize, model: &Model) -> Member {
-        let inverse_mass = model.inverse_mass()[i];
-        let is_movable = inverse_mass != 0.0;
-        let inverse_inertia = if is_movable { model.inverse_inertia()[i] } else { DVec3::ZERO };
+    /// A body, at no moment yet.
+    pub(super) fn new(nature: &Nature) -> Member {
+        let inverse_mass = nature.inverse_mass;
+        let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
         let inverse_inertia = DMat3::from_diagonal(inverse_inertia);
         Member { inverse_mass, inverse_inertia, ..Member::default() }
     }
 
     /// Body `i` of a state.
     pub(super) fn of(i: usize, model: &Model, state: &State) -> Member {
-        let mut member = Member::new(i, model);
-        member.follow(i, model, state);
+        let nature = Nature::of(i, model);
+        let mut member = Member::new(&nature);
+        member.follow(&nature, state);
         member
     }
 
-    /// Takes what changes with time from a state.
-    pub(super) fn follow(&mut self, i: usize, model: &Model, state: &State) {
-        let (orientation, angular_momentum) = (state.orientation[i], state.angular_momentum[i]);
-        let axes = model.principal_axes(i);
+    /// Takes from a state what changes with time. Says whether the place is another one.
+    pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
+        let i = nature.body;
+        let angular_momentum = state.angular_momentum[i];
+        let orientation = match nature.turned {
+            None => state.orientation[i],
+            Some(turned) => state.orientation[i] * turned,
+        };
+        let has_moved = self.location != state.location[i] || self.orientation != orientation;
         self.location = state.location[i];
         self.velocity = state.velocity[i];
-        self.orientation = if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() };
-        let principal = model.inverse_inertia()[i];
-        // Without a preferred axis, the inertia is the same in any orientation.
-        if is_isotropic(principal) {
-            self.angular_velocity = principal.x * angular_momentum;
-            return;
+        self.orientation = orientation;
+        if nature.is_isotropic {
+            // The inertia is the same in any orientation.
+            self.angular_velocity = nature.inverse_inertia.x * angular_momentum;
+            return has_moved;
         }
-        let turn = DMat3::from_quat(orientation);
+        let turn = DMat3::from_quat(state.orientation[i]);
         let back = turn.transpose();
-        self.angular_velocity = turn * (principal * (back * angular_momentum));
+        self.angular_velocity = turn * (nature.inverse_inertia * (back * angular_momentum));
         if self.inverse_mass != 0.0 {
-            self.inverse_inertia = turn * (DMat3::from_diagonal(principal) * back);
+            self.inverse_inertia = turn * (DMat3::from_diagonal(nature.inverse_inertia) * back);
         }
+        has_moved
     }
 
     /// M⁻¹ times a direction.
     pub(super) fn weigh(&self, direction: &Direction) -> Direction {
-        Direction { linear: self.inverse_mass * direction.linear, angular: self.turn(direction.angular) }
+        Direction {
+            linear: self.inverse_mass * direction.linear,
+            angular: self.turn(direction.angular),
+            ..*direction
+        }
     }
 
     /// I⁻¹ times a vector, which is zero for most ends at the centre of a body.

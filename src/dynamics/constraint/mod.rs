@@ -94,6 +94,8 @@ pub struct Direction {
     pub linear: DVec3,
     /// ∂c/∂φ, world axes.
     pub angular: DVec3,
+    /// Its body, as a place among the members.
+    member: usize,
 }
 
 impl Direction {
@@ -154,7 +156,9 @@ impl Equations<'_> {
     fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[row] = Row { violation, rate: 0.0, bias, scale };
         let first = row * self.bodies;
-        self.jacobian[first..first + self.bodies].fill(Direction::default());
+        for direction in &mut self.jacobian[first..first + self.bodies] {
+            (direction.linear, direction.angular) = (DVec3::ZERO, DVec3::ZERO);
+        }
     }
 
     /// Says how fast a row changes with time itself.

@@ -35,7 +35,7 @@ impl Way {
         let apart = b.location - a.location;
         let length = apart.length();
         // Two ends at the same point have no direction; any one leads them apart.
-        let u = if length > 0.0 { apart / length } else { DVec3::Y };
+        let u = if length > 0.0 { apart * length.recip() } else { DVec3::Y };
         let rate = b.velocity - a.velocity;
         let across = rate - rate.dot(u) * u;
         let bias =

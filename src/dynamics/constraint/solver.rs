@@ -11,7 +11,7 @@ use glam::{DQuat, DVec3};
 use super::super::integrator::drift_body;
 use super::super::{Breakdown, Loads, Model, Motion, State};
 use super::factor::Factor;
-use super::member::Member;
+use super::member::{Member, Nature};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
 use super::{Direction, Equations, Law, Members, Row};
@@ -32,6 +32,7 @@ pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
+    natures: Vec<Nature>,
     /// The members at the beginning of the step, and when that is, s.
     origin: Vec<Member>,
     begun: f64,
@@ -58,6 +59,10 @@ pub(in crate::dynamics) struct Solver {
     trial: State,
     /// Whether rows and factors are those of the state that comes next.
     pub(super) is_ready: bool,
+    /// Whether there are factors near enough for the step that is being settled.
+    is_factorised: bool,
+    /// When rows and Jacobian were measured.
+    measured: f64,
     pub(super) failure: Option<Breakdown>,
 }
 
@@ -82,6 +87,8 @@ impl Solver {
         self.measure(model, t, state);
         self.origin.clone_from(&self.members);
         self.begun = t;
+        // Some rows are measured from the beginning of the step.
+        self.measured = f64::NAN;
         self.hold();
         self.is_ready = true;
     }
@@ -256,18 +263,16 @@ impl Solver {
 
     pub(super) fn settle_places(&mut self, model: &Model, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
-        let mut is_factorised = false;
+        self.is_factorised = false;
         for _ in 0..ITERATIONS {
-            self.measure(model, t, state);
+            self.measure_places(model, t, state);
             let worst = self.worst();
             let is_slow = worst > 0.1 * before;
-            let is_there = worst <= ROUNDING || (worst < FAILURE && is_slow);
-            if !is_factorised || (is_slow && !is_there) {
-                self.factorise(false);
-                is_factorised = true;
-            }
-            if is_there {
+            if worst <= ROUNDING || (worst < FAILURE && is_slow) {
                 return;
+            }
+            if !self.is_factorised || is_slow {
+                self.factorise(false);
             }
             before = worst;
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
@@ -289,11 +294,11 @@ impl Solver {
     }
 
     pub(super) fn settle_velocities(&mut self, model: &Model, state: &mut State) {
-        let Solver { structure: Some(structure), members, jacobian, unknown, factor, rows, .. } = self else {
-            return;
-        };
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
+            let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self else {
+                return;
+            };
             let scale = rates(structure, jacobian, members, rows, unknown);
             let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
             let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
@@ -302,6 +307,13 @@ impl Solver {
                 return;
             }
             before = worst;
+            if !self.is_factorised {
+                self.factorise(false);
+            }
+            let Solver { structure: Some(structure), members, jacobian, unknown, factor, rows, .. } = self
+            else {
+                return;
+            };
             unknown.iter_mut().for_each(|rate| *rate = -*rate);
             factor.solve(unknown);
             push(structure, jacobian, unknown, model, state);
@@ -326,7 +338,7 @@ impl Solver {
 
     /// J M⁻¹ Jᵀ of one row, as it was factorised last.
     pub(super) fn weight(&self, row: usize) -> f64 {
-        self.factor.values[self.factor.columns[row].end - 1]
+        self.factor.diagonal(row)
     }
 
     /// Notes the equation that is off by most, if that is too much.
@@ -358,10 +370,12 @@ impl Solver {
         let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
         let structure = Structure::of(model.constraints(), |body| model.is_present(body), can_move);
         self.factor = Factor::new(&structure);
-        self.members = structure.bodies.iter().map(|&body| Member::new(body, model)).collect();
+        self.natures = structure.bodies.iter().map(|&body| Nature::of(body, model)).collect();
+        self.members = self.natures.iter().map(Member::new).collect();
+        self.measured = f64::NAN;
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
-        self.jacobian = vec![Direction::default(); structure.directions];
+        self.jacobian = structure.places.iter().flat_map(Place::directions).collect();
         let places = structure.places.iter();
         let laws = |place: &Place| {
             let constraint = model.constraints()[place.constraint].clone();
@@ -378,21 +392,38 @@ impl Solver {
 
     /// Measures all equations at a state.
     pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
-        let Some(structure) = &self.structure else { return };
-        for (member, &i) in self.members.iter_mut().zip(&structure.bodies) {
-            member.follow(i, model, state);
+        for (member, nature) in self.members.iter_mut().zip(&self.natures) {
+            member.follow(nature, state);
         }
+        self.measure_members(model, t);
+    }
+
+    /// Measures all equations at a state, or only how it moves where they have been measured at these places and this time last.
+    fn measure_places(&mut self, model: &Model, t: f64, state: &State) {
+        let mut has_moved = t.to_bits() != self.measured.to_bits();
+        for (member, nature) in self.members.iter_mut().zip(&self.natures) {
+            has_moved |= member.follow(nature, state);
+        }
+        if has_moved {
+            self.measure_members(model, t);
+        }
+    }
+
+    fn measure_members(&mut self, model: &Model, t: f64) {
+        let Solver { structure: Some(structure), members, origin, begun, rows, jacobian, .. } = self else {
+            return;
+        };
         for place in &structure.places {
             let bodies = place.bodies.len();
             let mut equations = Equations {
-                rows: &mut self.rows[place.row..place.row + place.rows],
-                jacobian: &mut self.jacobian[place.direction..place.direction + place.rows * bodies],
+                rows: &mut rows[place.row..place.row + place.rows],
+                jacobian: &mut jacobian[place.direction..place.direction + place.rows * bodies],
                 bodies,
             };
-            let (origin, begun) = (&self.origin, self.begun);
-            let members = Members { all: &self.members, of: &place.bodies, time: t, origin, begun };
+            let members = Members { all: members, of: &place.bodies, time: t, origin, begun: *begun };
             model.constraints()[place.constraint].measure(&members, &mut equations);
         }
+        self.measured = t;
     }
 
     /// The largest violation as a part of its scale; a NaN counts as endless.
@@ -412,9 +443,9 @@ impl Solver {
 
     /// Factorises J M⁻¹ Jᵀ of what was measured last.
     pub(super) fn factorise(&mut self, choose: bool) {
-        let Some(structure) = &self.structure else { return };
-        self.factor.assemble(&self.jacobian, &structure.member_of, &self.members);
+        self.factor.assemble(&self.jacobian, &self.members);
         self.factor.compute(&mut self.held, choose);
+        self.is_factorised = true;
     }
 }
 
@@ -441,10 +472,9 @@ pub(super) fn for_each_direction(
 ) {
     for (row, &multiplier) in structure.row_start.windows(2).zip(multipliers) {
         if multiplier != 0.0 {
-            let row = row[0]..row[1];
-            for (direction, &member) in jacobian[row.clone()].iter().zip(&structure.member_of[row]) {
-                act(member, direction, multiplier);
-            }
+            jacobian[row[0]..row[1]]
+                .iter()
+                .for_each(|direction| act(direction.member, direction, multiplier));
         }
     }
 }
@@ -475,10 +505,9 @@ pub(super) fn products(
 ) -> f64 {
     let mut largest = 0.0_f64;
     for (row, out) in structure.row_start.windows(2).zip(out) {
-        let row = row[0]..row[1];
         let (mut sum, mut size) = (0.0, 0.0);
-        for (direction, &member) in jacobian[row.clone()].iter().zip(&structure.member_of[row]) {
-            let member = &members[member];
+        for direction in &jacobian[row[0]..row[1]] {
+            let member = &members[direction.member];
             let moving = direction.linear.dot(member.velocity);
             let turning = direction.angular.dot(member.angular_velocity);
             sum += moving + turning;

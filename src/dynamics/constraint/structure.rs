@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::Constraint;
+use super::{Constraint, Direction};
 
 /// What does not change with time: the places of all rows and blocks.
 #[derive(Clone, Debug, Default)]
@@ -16,8 +16,6 @@ pub(super) struct Structure {
     pub(super) rows: usize,
     /// The number of directions of all constraints: rows times bodies.
     pub(super) directions: usize,
-    /// The body of each direction, as a place in `bodies`.
-    pub(super) member_of: Vec<usize>,
     /// Where the directions of each row begin; one more for the end.
     pub(super) row_start: Vec<usize>,
     /// For each constraint, those before it that share a body that can move, and itself at last.
@@ -37,6 +35,14 @@ pub(super) struct Place {
     pub(super) direction: usize,
     /// Its bodies, as places in [`Structure::bodies`].
     pub(super) bodies: Vec<usize>,
+}
+
+impl Place {
+    /// Its directions, in which nothing is known but the bodies.
+    pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
+        let rows = std::iter::repeat_n(&self.bodies, self.rows);
+        rows.flatten().map(|&member| Direction { member, ..Direction::default() })
+    }
 }
 
 /// A constraint that shares bodies with another.
@@ -88,7 +94,6 @@ impl Structure {
             structure.directions += rows * bodies.len();
             for i in 0..rows {
                 structure.row_start.push(direction + i * bodies.len());
-                structure.member_of.extend(&bodies);
             }
             structure.places.push(Place { constraint, row, rows, direction, bodies });
         }
