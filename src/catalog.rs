@@ -6,7 +6,7 @@ use crate::dynamics::METHODS;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{BodyMeasure, Finish, MATERIALS, Preset, RunMeasure};
+use crate::scene::{BodyMeasure, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
 
 /// Things of one sort to choose from.
 pub struct Category {
@@ -59,7 +59,8 @@ fn functions() -> Vec<(&'static str, String)> {
 fn measures() -> Vec<(&'static str, String)> {
     let run = RunMeasure::ALL.iter().map(|(name, _, what)| (*name, (*what).to_owned()));
     let body = BodyMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a body: {what}")));
-    run.chain(body).collect()
+    let joint = JointMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a joint: {what}")));
+    run.chain(body).chain(joint).collect()
 }
 
 /// What a table of which exactly one key is given can be, with the keys of each.

@@ -19,7 +19,7 @@ use sha2::{Digest, Sha256};
 
 use super::KEPT;
 use super::digest::Key;
-use crate::simulate::{Recording, Store};
+use crate::simulate::{Counts, Recording, Store};
 
 const FORMAT: &[u8; 8] = b"jabuka 1";
 /// The bytes of the entry of a page.
@@ -84,7 +84,7 @@ pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
 }
 
 /// Opens the run of a key, and notes that it is used now.
-pub(super) fn open(path: &Path, key: Key, bodies: usize) -> io::Result<Recording> {
+pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recording> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     let mut head = [0; 40];
@@ -110,7 +110,7 @@ pub(super) fn open(path: &Path, key: Key, bodies: usize) -> io::Result<Recording
     let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
     // Where it cannot be noted, the run counts as older than it is.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
-    Recording::with_index(bodies, index, Box::new(Kept { file, pages }))
+    Recording::with_index(counts, index, Box::new(Kept { file, pages }))
 }
 
 /// The pages of a file.

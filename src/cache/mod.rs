@@ -20,7 +20,7 @@ use std::{env, fs, io};
 
 use crate::dynamics::Effort;
 use crate::scene::Scene;
-use crate::simulate::{Frame, Moments, Recorded, Recorder, Recording, SimulateError};
+use crate::simulate::{Counts, Frame, Moments, Recorded, Recorder, Recording, SimulateError};
 
 pub use spill::Spill;
 
@@ -138,7 +138,7 @@ impl Cache {
     pub fn find(&self, scene: &Scene, moments: &Moments) -> Option<Recording> {
         let path = self.path(scene, moments)?;
         let key = digest::of(scene, moments);
-        let opened = file::open(&path, key, scene.bodies.len());
+        let opened = file::open(&path, key, Counts::of(scene));
         if opened.is_err() {
             // If it is not there, there is nothing to remove.
             let _: io::Result<()> = fs::remove_file(&path);

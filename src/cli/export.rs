@@ -5,7 +5,7 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{ExportError, Exported, write_csv, write_glb};
+use jabuka::export::{ExportError, Exported, write_csv, write_glb, write_joints};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
 use jabuka::simulate::{Moments, Recorded, Selection};
@@ -25,6 +25,9 @@ pub(super) struct Arguments {
     /// The file to write: FILE.csv or FILE.glb
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// Write what the joints do, as a table: their forces and torques, and not where the bodies are
+    #[arg(long)]
+    joints: bool,
     /// Take only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
@@ -59,6 +62,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let format = Format::of(&arguments.output)?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
     say::spared(Kept::of_scene(&scene).check(&arguments.output))?;
+    if arguments.joints && matches!(format, Format::Glb) {
+        return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
+    }
+    if arguments.joints && scene.joints.is_empty() {
+        return Err(Failure::Usage("this scene has no joints".to_owned()));
+    }
     let frames = scene.simulation.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
     if let Some(last) = selection.last().filter(|last| *last >= frames) {
@@ -83,9 +92,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn table(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
-    let rows = whole(&arguments.output, |file| write_csv(run, selection, file))?;
     let scene = run.scene();
     let times = selection.count_within(scene.simulation.frames());
+    if arguments.joints {
+        let rows = whole(&arguments.output, |file| write_joints(run, selection, file))?;
+        return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));
+    }
+    let rows = whole(&arguments.output, |file| write_csv(run, selection, file))?;
     Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Balance, BodyId};
+use super::{Balance, BodyId, Reaction};
 
 /// All bodies at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub struct Snapshot {
     pub time: f64,
     /// The bodies that are there, in the order of their ids.
     pub bodies: Vec<BodySnapshot>,
+    /// What constraints do to the bodies, in the order in which they were added.
+    pub reactions: Vec<Reaction>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
 }

@@ -1,7 +1,7 @@
 //! The equations of motion, as a method of integration sees them.
 
 use super::constraint::Solver;
-use super::{Loads, Model, State};
+use super::{Loads, Model, Reaction, State};
 
 /// Bodies, the forces on them, and the constraints that hold them together.
 pub struct System<'a> {
@@ -32,6 +32,12 @@ impl<'a> System<'a> {
         self.model.sum(t, state, loads);
         self.solver.react(self.model, t, state, loads);
         self.model.bear(state, loads);
+    }
+
+    /// What each constraint does at the moment that was evaluated last.
+    #[must_use]
+    pub fn reactions(&self) -> Vec<Reaction> {
+        self.solver.reactions(self.model)
     }
 
     /// Places the bodies whose motion is given where they are at time `t`, and then [evaluates](Self::evaluate).

@@ -346,8 +346,9 @@ fn picture(
         angular_velocity: model.angular_velocity(id, state),
         force: loads.force[id],
     };
+    let reactions = system.reactions();
     let present = (0..state.len()).filter(|&id| model.is_present(id));
-    Snapshot { time, bodies: present.map(body).collect(), balance }
+    Snapshot { time, bodies: present.map(body).collect(), reactions, balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

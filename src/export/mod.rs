@@ -3,7 +3,9 @@
 mod csv;
 mod error;
 mod glb;
+mod joints;
 
 pub use self::csv::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::glb::{Exported, write_glb};
+pub use self::joints::{JOINT_HEADER, write_joints};

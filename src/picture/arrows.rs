@@ -4,21 +4,40 @@ use glam::{DQuat, DVec3};
 
 use super::beside;
 use super::camera::Placed;
-use crate::dynamics::BodySnapshot;
-use crate::scene::{Body, Color, Quantity, Scene};
-use crate::simulate::{Frame, axis, root, shown};
+use crate::dynamics::{BodyId, BodySnapshot};
+use crate::scene::{self, Body, Color, Quantity, Scene};
+use crate::simulate::{Frame, JointEnd, axis, root, shown};
 
-/// The colors of arrows, in the order of [`Quantity::ALL`]: those of no usual body, and far apart for any eye.
-const COLORS: [Color; 3] = [Color([0.03, 0.30, 0.70]), Color([0.93, 0.50, 0.04]), Color([0.76, 0.08, 0.48])];
+/// The colors of arrows, by the numbers of their quantities: those of no usual body, and far apart for any eye.
+const COLORS: [Color; Quantity::COUNT] = [
+    Color([0.03, 0.30, 0.70]),
+    Color([0.93, 0.50, 0.04]),
+    Color([0.76, 0.08, 0.48]),
+    Color([0.05, 0.48, 0.30]),
+];
 /// The same before a dark background.
-const LIGHT_COLORS: [Color; 3] =
-    [Color([0.35, 0.72, 1.0]), Color([1.0, 0.70, 0.25]), Color([1.0, 0.45, 0.80])];
+const LIGHT_COLORS: [Color; Quantity::COUNT] =
+    [Color([0.35, 0.72, 1.0]), Color([1.0, 0.70, 0.25]), Color([1.0, 0.45, 0.80]), Color([0.45, 0.95, 0.65])];
 
-/// An arrow for a vector of a body.
+/// What an arrow belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bearer {
+    /// The body with this number.
+    Body(usize),
+    /// A joint.
+    Joint {
+        /// Its number.
+        joint: usize,
+        /// The body of its second end, or else of its first.
+        body: Option<usize>,
+    },
+}
+
+/// An arrow for a vector of a body or of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrow {
-    /// The number of the body.
-    pub body: usize,
+    /// What it belongs to.
+    pub bearer: Bearer,
     /// What it shows.
     pub quantity: Quantity,
     /// Where it begins, m.
@@ -53,8 +72,8 @@ pub(super) const HEAD: f64 = 3.2;
 /// An arrow that is shorter than this part of the width of the picture is less than a tenth of a pixel long.
 const NOTHING: f64 = 5e-5;
 
-/// How long arrows without a scale are for one unit of velocity, acceleration and force, m.
-pub(super) type Scales = [f64; 3];
+/// How long arrows without a scale are for one unit of each quantity, m.
+pub(super) type Scales = [f64; Quantity::COUNT];
 
 /// The arrows and axes of a scene.
 #[derive(Clone, Debug)]
@@ -63,8 +82,21 @@ pub(super) struct Arrows {
     bodies: Vec<(usize, Body)>,
     /// Their arrows, in the order of the bodies.
     arrows: Vec<Planned>,
+    /// The arrows of joints.
+    of_joints: Vec<OfJoint>,
     /// The longest vector of each kind whose arrows have no scale, in its own unit.
-    longest: [f64; 3],
+    longest: [f64; Quantity::COUNT],
+}
+
+/// An arrow of a joint.
+#[derive(Clone, Debug)]
+struct OfJoint {
+    bearer: Bearer,
+    end: JointEnd,
+    quantity: Quantity,
+    /// Its length for one unit of the quantity, m, if it is given.
+    scale: Option<f64>,
+    color: Color,
 }
 
 /// An arrow of one of the bodies.
@@ -91,12 +123,12 @@ pub(super) struct ArrowSizes {
 }
 
 /// The scales of arrows in a picture that shows a width of `view` (m), if the longest vectors are as given.
-fn scales(longest: [f64; 3], view: f64) -> Scales {
+fn scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
 }
 
 /// Round [`scales`], which do not change with every small edit of a scene.
-pub(super) fn round_scales(longest: [f64; 3], view: f64) -> Scales {
+pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     scales(longest, view).map(round_down)
 }
 
@@ -109,7 +141,7 @@ pub(super) fn round_down(number: f64) -> f64 {
 }
 
 impl Arrows {
-    pub(super) fn new(scene: &Scene, longest: [f64; 3]) -> Arrows {
+    pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT]) -> Arrows {
         let shows =
             |body: &Body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some);
         let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| shows(body));
@@ -117,13 +149,23 @@ impl Arrows {
         let colors = if scene.environment.is_dark() { LIGHT_COLORS } else { COLORS };
         let mut arrows = Vec::new();
         for (of, (_, body)) in bodies.iter().enumerate() {
-            for (kind, quantity) in Quantity::ALL.into_iter().enumerate() {
+            for (kind, quantity) in Quantity::OF_BODIES.into_iter().enumerate() {
                 let Some(arrow) = body.showing.arrows[kind] else { continue };
                 let color = arrow.color.unwrap_or(colors[kind]);
                 arrows.push(Planned { of, quantity, kind, scale: arrow.scale, color });
             }
         }
-        Arrows { bodies, arrows, longest }
+        let of_joints = scene.joints.iter().enumerate().flat_map(|(number, joint)| {
+            let [first, second] = joint.kind.between().map(|end| end.body().map(BodyId::index));
+            let bearer = Bearer::Joint { joint: number, body: second.or(first) };
+            Quantity::OF_JOINTS.into_iter().zip(joint.arrows).filter_map(move |(quantity, arrow)| {
+                let scene::Arrow { scale, color } = arrow?;
+                let color = color.unwrap_or(colors[quantity.number()]);
+                Some(OfJoint { bearer, end: JointEnd::new(scene, number), quantity, scale, color })
+            })
+        });
+        let of_joints = of_joints.collect();
+        Arrows { bodies, arrows, of_joints, longest }
     }
 
     /// The sizes in all pictures of a camera that stands still, by scales for which it has made room.
@@ -140,7 +182,22 @@ impl Arrows {
     pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
-        of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect()
+        let mut arrows: Vec<Arrow> =
+            of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect();
+        arrows.extend(self.of_joints.iter().filter_map(|arrow| {
+            let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
+            let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.quantity.number()]);
+            let OfJoint { bearer, quantity, color, .. } = *arrow;
+            is_seen(from, to, sizes).then_some(Arrow {
+                bearer,
+                quantity,
+                from,
+                to,
+                radius: sizes.radius,
+                color,
+            })
+        }));
+        arrows
     }
 
     /// The axes of a frame.
@@ -178,10 +235,15 @@ impl Arrows {
         let vector = shown(arrow.quantity, body, at);
         let from = root(body, at, vector);
         let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.kind]);
-        let is_seen = to.is_finite() && from.distance(to) > NOTHING * sizes.view;
         let Planned { quantity, color, .. } = *arrow;
-        is_seen.then_some(Arrow { body: *number, quantity, from, to, radius: sizes.radius, color })
+        let bearer = Bearer::Body(*number);
+        is_seen(from, to, sizes).then_some(Arrow { bearer, quantity, from, to, radius: sizes.radius, color })
     }
+}
+
+/// Whether an arrow is long enough to be drawn.
+fn is_seen(from: DVec3, to: DVec3, sizes: ArrowSizes) -> bool {
+    to.is_finite() && from.distance(to) > NOTHING * sizes.view
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::room::{Rectangle, Room};
 use super::screen::{Screen, Spot};
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
-use crate::dynamics::{Balance, BodySnapshot, find};
+use crate::dynamics::{Balance, BodySnapshot, Reaction, find};
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
@@ -46,12 +46,20 @@ struct Moment<'a> {
     frame: usize,
     balance: Option<&'a Balance>,
     bodies: &'a [BodySnapshot],
+    /// What the joints do; of ghosts, that is not kept.
+    reactions: &'a [Reaction],
 }
 
 impl<'a> Moment<'a> {
     /// The moment of a frame.
     fn now(frame: &'a Frame) -> Moment<'a> {
-        Moment { time: frame.time, frame: frame.index, balance: Some(&frame.balance), bodies: &frame.bodies }
+        Moment {
+            time: frame.time,
+            frame: frame.index,
+            balance: Some(&frame.balance),
+            bodies: &frame.bodies,
+            reactions: &frame.reactions,
+        }
     }
 }
 
@@ -120,7 +128,7 @@ impl Labels {
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
                 let bodies = std::slice::from_ref(&ghost.body);
-                let then = Moment { time: ghost.time, frame: 0, balance: None, bodies };
+                let then = Moment { time: ghost.time, frame: 0, balance: None, bodies, reactions: &[] };
                 let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
                 texts.extend(text.map(|text| (number, text)));
             }
@@ -264,6 +272,9 @@ impl Labels {
             Measure::Body(number, measure) => {
                 let at = find(moment.bodies, number);
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
+            }
+            Measure::Joint(number, measure) => {
+                moment.reactions.get(number).map_or(f64::NAN, |reaction| measure.of(reaction))
             }
         }
     }

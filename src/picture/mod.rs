@@ -32,7 +32,7 @@ mod tests;
 mod text;
 mod trails;
 
-pub use arrows::{Arrow, Axes};
+pub use arrows::{Arrow, Axes, Bearer};
 pub use bar::Bar;
 pub use camera::{Lens, Placed};
 pub use colors::{of_look, pale};

@@ -102,7 +102,7 @@ pub(super) fn find(
     let mut found = Found::default();
     for arrow in &survey.asked.arrows {
         let body = &scene.bodies[arrow.body];
-        let kind = Quantity::ALL.iter().position(|quantity| *quantity == arrow.quantity);
+        let kind = Quantity::OF_BODIES.iter().position(|quantity| *quantity == arrow.quantity);
         let scale = kind.and_then(|kind| body.showing.arrows[kind]?.scale);
         let fit = (arrow.longest > 0.0).then(|| round_down(LONGEST * view / arrow.longest));
         let why = match (arrow.lost, scale, fit) {

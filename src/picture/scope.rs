@@ -4,7 +4,7 @@
 use super::camera::{Eye, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
 use super::plan::reads_ground;
-use crate::scene::{Body, Camera, Follow, Projection, Scene};
+use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
 /// The largest body is well seen if it is as wide as this part of the picture: 4 pixels of 1280.
@@ -45,7 +45,7 @@ impl Scope {
     /// What a camera of a scene frames.
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
         let Some((all, starts)) = survey.spans.split_last() else {
-            let arrows: [Reach; 3] = Default::default();
+            let arrows: [Reach; Quantity::COUNT] = Default::default();
             let span = Span { until: 0.0, bounds: NOTHING, moving: NOTHING, seen: NOTHING, arrows };
             return Scope { camera: camera.clone(), span, whole: NOTHING, part: Part::Whole };
         };

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Link, LinkForm, Part, Plan, Text};
+use super::{Bearer, Link, LinkForm, Part, Plan, Text};
 use crate::scene::{Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -336,4 +336,43 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
         assert_eq!(begin, plank.location + plank.orientation * DVec3::new(1.0, 0.05, 0.1));
         assert_eq!(end, moon.location + moon.orientation * DVec3::new(0.0, -0.2, 0.0));
     }
+}
+
+#[test]
+fn a_label_tells_what_a_joint_does() {
+    let (scene, plan) = plan(
+        "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
+        [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1
+        [joint.clamp.fixed]\nbetween = [[3, 0, 0], 'arm']
+        [joint.string.rod]\nbetween = [[0, 0, 0], 'bob']
+        [label.note]\ntext = '${joint.string.force:.3} ${-joint.string.fx + joint.string.fy:.1} ${joint.clamp.tz:.2} ${2*bob.y}'",
+    );
+    let frame = frames(&scene).nth(20).unwrap();
+    let [ref note] = plan.texts(&frame)[..] else { panic!("there is one") };
+    assert_eq!(note.says, "30.000 30.0 10.00 –4");
+}
+
+/// The force on the bob is along its rod; the scale is that of all forces.
+#[test]
+fn a_joint_has_arrows_for_its_force_and_its_torque() {
+    let (scene, plan) = plan(
+        "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
+        [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1
+        [joint.string.rod]\nbetween = [[0, 0, 0], 'bob']\narrows.force = true
+        [joint.clamp.fixed]\nbetween = ['arm', [3, 0, 0]]\narrows.force.scale = 0.05
+        arrows.torque = { scale = 0.1, color = 'red' }",
+    );
+    let frame = frames(&scene).nth(20).unwrap();
+    let [string, force, torque] = plan.arrows(&frame)[..] else { panic!("three are asked for") };
+    assert_eq!(string.bearer, Bearer::Joint { joint: 0, body: Some(0) });
+    // From the surface of the bob towards the pivot.
+    assert!(string.from.abs_diff_eq(DVec3::new(0.0, -1.9, 0.0), 1e-9), "{string:?}");
+    assert!((string.to - string.from).normalize().abs_diff_eq(DVec3::Y, 1e-9), "{string:?}");
+    // What the arm weighs, on the world; and its torque about the clamp.
+    assert!((force.to - force.from).abs_diff_eq(DVec3::NEG_Y * 0.5, 1e-9), "{force:?}");
+    assert!(torque.from.abs_diff_eq(DVec3::X * 3.0, 1e-9), "{torque:?}");
+    assert!((torque.to - torque.from).abs_diff_eq(DVec3::NEG_Z, 1e-9), "{torque:?}");
+    assert_eq!(torque.color.0, [1.0, 0.0, 0.0]);
 }

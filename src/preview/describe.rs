@@ -278,7 +278,8 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         .bodies
         .iter()
         .any(|body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some));
-    let joints = scene.joints.iter().any(|joint| joint.look.is_some());
+    let joints =
+        scene.joints.iter().any(|joint| joint.look.is_some() || joint.arrows.iter().any(Option::is_some));
     let springs = scene
         .forces
         .iter()

@@ -15,7 +15,8 @@ use crate::dynamics::Effort;
 use crate::output::OutputError;
 use crate::picture::Plan;
 use crate::simulate::{
-    Bounds, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, SimulateError, Survey,
+    Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, SimulateError,
+    Survey,
 };
 use crate::{Run, RunError, Scene};
 
@@ -81,7 +82,7 @@ impl Simulation {
         pulse: impl Fn() + Send + 'static,
     ) -> io::Result<Arc<Simulation>> {
         let moments = Moments::of(&scene);
-        let empty = Recording::new(scene.bodies.len(), Box::new(Spill::unnamed()));
+        let empty = Recording::new(Counts::of(&scene), Box::new(Spill::unnamed()));
         let run = Arc::new(Simulation {
             id,
             recording: Mutex::new(Arc::new(empty)),

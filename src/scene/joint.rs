@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Color;
 use super::timed::Timed;
+use super::{Arrow, Color};
 use crate::dynamics::{
     Anchor, Ball, Constraint, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider, Target,
 };
@@ -19,6 +19,8 @@ pub struct Joint {
     pub servo: Option<Servo>,
     /// How it is drawn, if it is.
     pub look: Option<JointLook>,
+    /// Arrows for what it does, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).
+    pub arrows: [Option<Arrow>; 2],
 }
 
 /// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the number of a body of the scene.

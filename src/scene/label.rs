@@ -2,6 +2,7 @@
 
 use super::Color;
 use super::expression::Program;
+use crate::dynamics::Reaction;
 
 /// A text in the picture.
 #[derive(Clone, Debug)]
@@ -137,6 +138,8 @@ pub enum Measure {
     Run(RunMeasure),
     /// A number of the body with this number in the scene.
     Body(usize, BodyMeasure),
+    /// A number of the joint with this number in the scene.
+    Joint(usize, JointMeasure),
 }
 
 /// A number of the whole run at a moment.
@@ -215,6 +218,52 @@ impl BodyMeasure {
         ("momentum", BodyMeasure::Momentum, "the size of its momentum, kg·m/s"),
         ("kinetic", BodyMeasure::Kinetic, "its kinetic energy, of translation and rotation, J"),
     ];
+}
+
+/// A number of a joint at a moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointMeasure {
+    /// The size of its force, N.
+    ForceMagnitude,
+    /// A component of its force, N.
+    Force(usize),
+    /// The size of its torque, N·m.
+    TorqueMagnitude,
+    /// A component of its torque, N·m.
+    Torque(usize),
+}
+
+impl JointMeasure {
+    /// All of them, each with its name in formulas and what it is.
+    pub const ALL: [(&'static str, JointMeasure, &'static str); 8] = [
+        ("joint.NAME.force", JointMeasure::ForceMagnitude, "the size of its force on its second end, N"),
+        ("joint.NAME.fx", JointMeasure::Force(0), "its force on its second end, N"),
+        ("joint.NAME.fy", JointMeasure::Force(1), "its force on its second end, N"),
+        ("joint.NAME.fz", JointMeasure::Force(2), "its force on its second end, N"),
+        (
+            "joint.NAME.torque",
+            JointMeasure::TorqueMagnitude,
+            "the size of its torque on its second end, about that point, N·m",
+        ),
+        ("joint.NAME.tx", JointMeasure::Torque(0), "its torque on its second end, N·m"),
+        ("joint.NAME.ty", JointMeasure::Torque(1), "its torque on its second end, N·m"),
+        ("joint.NAME.tz", JointMeasure::Torque(2), "its torque on its second end, N·m"),
+    ];
+
+    /// What each is called behind the name of a joint.
+    pub fn names() -> impl Iterator<Item = (&'static str, JointMeasure)> {
+        JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
+    }
+
+    /// Its value for what a joint does.
+    pub fn of(self, reaction: &Reaction) -> f64 {
+        match self {
+            JointMeasure::ForceMagnitude => reaction.force.length(),
+            JointMeasure::Force(axis) => reaction.force[axis],
+            JointMeasure::TorqueMagnitude => reaction.torque.length(),
+            JointMeasure::Torque(axis) => reaction.torque[axis],
+        }
+    }
 }
 
 /// A bar in the picture that shows a length.

@@ -37,8 +37,8 @@ pub(crate) use color::names as color_names;
 pub use force::{Force, ForceKind};
 pub use joint::{Course, Joint, JointKind, JointLook};
 pub use label::{
-    BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure, ScaleBar,
-    Side,
+    BodyMeasure, Corner, Format, Grid, GridPlane, JointMeasure, Label, LabelPlace, Measure, Piece,
+    RunMeasure, ScaleBar, Side,
 };
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{

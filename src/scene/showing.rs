@@ -5,7 +5,7 @@ use super::Color;
 /// What is shown of a body beside itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Showing {
-    /// Arrows for its vectors, in the order of [`Quantity::ALL`].
+    /// Arrows for its vectors, in the order of [`Quantity::OF_BODIES`].
     pub arrows: [Option<Arrow>; 3],
     /// Its own axes.
     pub axes: Option<BodyAxes>,
@@ -15,20 +15,33 @@ pub struct Showing {
     pub trail: Option<Trail>,
 }
 
-/// A vector of a body that an arrow can show.
+/// A vector of a body or of a joint that an arrow can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Its velocity, m/s.
     Velocity,
     /// The sum of the forces on it by its mass, m/s².
     Acceleration,
-    /// The sum of the forces on it, N.
+    /// The sum of the forces on a body, or the force of a joint on its second end, N.
     Force,
+    /// The torque of a joint on its second end, N m.
+    Torque,
 }
 
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
+    /// How many there are.
+    pub const COUNT: usize = 4;
+
+    /// Those of bodies.
+    pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
+
+    /// Those of joints.
+    pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
+
+    /// Its number among all, in the order of the enum.
+    pub fn number(self) -> usize {
+        self as usize
+    }
 
     /// Its name in scenes.
     pub fn name(self) -> &'static str {
@@ -36,6 +49,7 @@ impl Quantity {
             Quantity::Velocity => "velocity",
             Quantity::Acceleration => "acceleration",
             Quantity::Force => "force",
+            Quantity::Torque => "torque",
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 /// How large what is asked for gets in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Asked {
-    /// The arrows, in the order of their bodies and of [`Quantity::ALL`].
+    /// The arrows, in the order of their bodies and of [`Quantity::OF_BODIES`].
     pub arrows: Vec<AskedArrow>,
     /// The trails, in the order of their bodies.
     pub trails: Vec<AskedTrail>,
@@ -109,7 +109,7 @@ impl Asked {
         };
         let mut asked = Asked::default();
         for (number, body) in scene.bodies.iter().enumerate() {
-            for (quantity, arrow) in Quantity::ALL.into_iter().zip(body.showing.arrows) {
+            for (quantity, arrow) in Quantity::OF_BODIES.into_iter().zip(body.showing.arrows) {
                 let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
                 asked.arrows.extend(arrow);
             }
@@ -184,7 +184,8 @@ impl AskedGhosts {
 impl AskedArrow {
     fn see(&mut self, body: &Body, frame: &BodySnapshot, time: f64) {
         let vector = shown(self.quantity, body, frame);
-        let scale = body.showing.arrows.iter().zip(Quantity::ALL).find(|(_, kind)| *kind == self.quantity);
+        let scale =
+            body.showing.arrows.iter().zip(Quantity::OF_BODIES).find(|(_, kind)| *kind == self.quantity);
         let scale = scale.and_then(|(arrow, _)| arrow.as_ref()?.scale).unwrap_or(1.0);
         if (root(body, frame, vector) + vector * scale).is_finite() {
             self.longest = self.longest.max(vector.length());

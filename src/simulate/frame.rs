@@ -1,7 +1,7 @@
 //! What can be seen at one moment.
 
 use super::Past;
-use crate::dynamics::{Balance, BodySnapshot, Snapshot, find};
+use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot, find};
 
 /// What can be seen at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Frame {
     pub time: f64,
     /// The bodies that are there, in the order of the scene.
     pub bodies: Vec<BodySnapshot>,
+    /// What the joints do to the bodies, in the order of the scene.
+    pub reactions: Vec<Reaction>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
     /// What has been before, as far as the scene asks for it.
@@ -21,8 +23,8 @@ pub struct Frame {
 impl Frame {
     /// The frame of a moment, without what has been before.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
-        let Snapshot { time, bodies, balance } = moment;
-        Frame { index, time, bodies, balance, past: Past::default() }
+        let Snapshot { time, bodies, reactions, balance } = moment;
+        Frame { index, time, bodies, reactions, balance, past: Past::default() }
     }
 
     /// A body, by its number in the scene; none if it is not there.

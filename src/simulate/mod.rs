@@ -49,12 +49,12 @@ pub use overlap::Overlap;
 pub use past::{Ghost, Passed, Past, Way};
 pub use reach::Reach;
 pub use record::{Recorded, Recorder};
-pub use recording::{MemoryStore, Reader, Recording, Store};
+pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use span::{Bounds, Span};
 pub use survey::{Corrected, Crossing, Survey, Surveyor, survey};
 pub(crate) use vectors::anchors;
-pub use vectors::{axis, root, shown, surface};
+pub use vectors::{JointEnd, axis, root, shown, surface};
 
 /// That a run left the numbers: what is asked for cannot be computed with this step and method.
 #[derive(Clone, Debug, PartialEq)]

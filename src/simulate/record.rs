@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::frames::within;
 use super::past::History;
-use super::recording::{MemoryStore, Recording, Store};
+use super::recording::{Counts, MemoryStore, Recording, Store};
 use super::simulation::{Entry, Simulation};
 use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, Surveyor};
 use crate::dynamics::{Dynamics, Effort};
@@ -172,7 +172,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn of(scene: &'a Scene, simulation: Simulation<'a>, store: Box<dyn Store>) -> Recorder<'a> {
-        let recording = Arc::new(Recording::new(scene.bodies.len(), store));
+        let recording = Arc::new(Recording::new(Counts::of(scene), store));
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording }
     }
 

@@ -30,8 +30,19 @@ pub struct Span {
     pub moving: Bounds,
     /// The box around all bodies, their axes, their arrows of a given scale, and the fixed points of springs.
     pub seen: Bounds,
-    /// How far arrows without a scale reach, in the order of [`Quantity::ALL`].
-    pub arrows: [Reach; 3],
+    /// How far arrows without a scale reach, by the numbers of their quantities.
+    pub arrows: [Reach; Quantity::COUNT],
+}
+
+/// An arrow of a joint at a moment.
+pub(super) struct JointArrow {
+    pub(super) quantity: Quantity,
+    /// Its length for one unit, m, if that is given.
+    pub(super) scale: Option<f64>,
+    /// Where it begins, m.
+    pub(super) root: DVec3,
+    /// What it shows.
+    pub(super) vector: DVec3,
 }
 
 /// The spans of a run whose frames are seen one after another.
@@ -43,12 +54,13 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// Adds a frame at a time (s), with the bodies that still count.
+    /// Adds a frame at a time (s), with the bodies that still count, and the arrows of joints.
     pub(super) fn see<'a>(
         &mut self,
         scene: &Scene,
         time: f64,
         bodies: impl Iterator<Item = &'a BodySnapshot>,
+        joints: impl Iterator<Item = JointArrow>,
     ) {
         for frame in bodies {
             let body = &scene.bodies[frame.id];
@@ -65,6 +77,7 @@ impl Spans {
             span.see_showing(here, body, frame);
         }
         let Some((span, _)) = &mut self.now else { return };
+        span.see_joints(joints);
         span.until = time;
         let grown = |last: &Span| span.seen.diagonal() > GROWTH * last.seen.diagonal();
         if self.kept.last().is_none_or(grown) {
@@ -94,11 +107,21 @@ impl Spans {
 }
 
 impl Span {
+    /// Adds arrows of joints.
+    fn see_joints(&mut self, arrows: impl Iterator<Item = JointArrow>) {
+        for JointArrow { quantity, scale, root, vector } in arrows {
+            match scale {
+                Some(scale) => self.seen = self.seen.union_if_finite(root + vector * scale),
+                None => self.arrows[quantity.number()].add(root, vector),
+            }
+        }
+    }
+
     /// Adds a body, what is drawn on it, and its arrows.
     fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) {
         let mut seen = self.seen.union(here);
         for ((quantity, arrow), reach) in
-            Quantity::ALL.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
+            Quantity::OF_BODIES.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
         {
             let Some(arrow) = arrow else { continue };
             let vector = shown(quantity, body, frame);

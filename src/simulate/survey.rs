@@ -6,10 +6,11 @@ use glam::DVec3;
 
 use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
-use super::span::Spans;
+use super::span::{JointArrow, Spans};
+use super::vectors::JointEnd;
 use super::{Bounds, Frame, Frames, SimulateError, Span, world};
 use crate::dynamics::{BodySnapshot, RigidBody, Shape};
-use crate::scene::{Body, Scene};
+use crate::scene::{Arrow, Body, Joint, Quantity, Scene};
 
 /// What is known of a run as a whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,6 +118,8 @@ pub struct Surveyor<'a> {
     overlaps: Watch<'a>,
     corrected: Option<Corrected>,
     asked: Asked,
+    /// The arrows of joints: where they begin, what they show, and their scales.
+    joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
@@ -142,6 +145,7 @@ impl<'a> Surveyor<'a> {
             overlaps: Watch::new(scene),
             corrected: None,
             asked: Asked::new(scene),
+            joint_arrows: joint_arrows(scene),
             error: 0.0,
             largest_kinetic: 0.0,
         }
@@ -165,7 +169,11 @@ impl<'a> Surveyor<'a> {
         self.asked.see(scene, frame);
         // A body that has gone through a plane is behind the scenery: the camera need not follow it.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
-        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts));
+        let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
+            let (root, vector) = end.arrow(*quantity, frame)?;
+            Some(JointArrow { quantity: *quantity, scale: *scale, root, vector })
+        });
+        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints);
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;
         if error_now.abs() > self.error.abs() {
@@ -194,6 +202,19 @@ impl<'a> Surveyor<'a> {
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.bounds()
     }
+}
+
+/// The arrows of joints that a scene asks for.
+fn joint_arrows(scene: &Scene) -> Vec<(JointEnd, Quantity, Option<f64>)> {
+    let joints = scene.joints.iter().enumerate();
+    let of_joint = |(number, joint): (usize, &Joint)| {
+        let arrows = Quantity::OF_JOINTS.into_iter().zip(joint.arrows);
+        let arrow = move |(quantity, arrow): (Quantity, Option<Arrow>)| {
+            Some((JointEnd::new(scene, number), quantity, arrow?.scale))
+        };
+        arrows.filter_map(arrow)
+    };
+    joints.flat_map(of_joint).collect()
 }
 
 /// The bodies that forces move: only these can go through a plane. A scene of many planes has few of them.

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::Frame;
 use crate::dynamics::{Anchor, BodySnapshot, Pulley, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
@@ -12,6 +13,8 @@ pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
         Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
         Quantity::Acceleration => frame.force / body.start.mass,
         Quantity::Force => frame.force,
+        // Only joints show it.
+        Quantity::Torque => DVec3::ZERO,
     }
 }
 
@@ -25,6 +28,50 @@ pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
 pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     let along = vector.normalize_or_zero();
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
+}
+
+/// The end of a joint at which its arrows begin.
+#[derive(Clone, Debug)]
+pub struct JointEnd {
+    /// The number of the joint.
+    joint: usize,
+    /// The second end, as it is drawn.
+    end: Anchor,
+    /// The shape of the body of which that is the centre.
+    shape: Option<Shape>,
+}
+
+impl JointEnd {
+    /// That of a joint of a scene.
+    pub fn new(scene: &Scene, joint: usize) -> JointEnd {
+        let (end, shape) = match scene.joints[joint].kind.between()[1] {
+            end @ Anchor::Point(_) => (end, None),
+            end @ Anchor::Body { id, at } => {
+                let body = &scene.bodies[id.index()];
+                let shape = end.is_centre().then(|| body.drawn());
+                (Anchor::Body { id, at: at * body.look.scale }, shape)
+            }
+        };
+        JointEnd { joint, end, shape }
+    }
+
+    /// What an arrow shows, in SI units, and where it begins, m: at the surface of a body in whose centre the end is. None while
+    /// the body is away.
+    pub fn arrow(&self, quantity: Quantity, frame: &Frame) -> Option<(DVec3, DVec3)> {
+        let reaction = frame.reactions.get(self.joint)?;
+        let vector = match quantity {
+            Quantity::Force => reaction.force,
+            Quantity::Torque => reaction.torque,
+            Quantity::Velocity | Quantity::Acceleration => DVec3::ZERO,
+        };
+        let Some(id) = self.end.body() else {
+            return Some((self.end.place(|_| (DVec3::ZERO, DQuat::IDENTITY)), vector));
+        };
+        let body = frame.body(id.index())?;
+        let along = vector.normalize_or_zero();
+        let depth = self.shape.as_ref().map_or(0.0, |shape| surface(shape, body.orientation, along));
+        Some((self.end.place(|_| (body.location, body.orientation)) + along * depth, vector))
+    }
 }
 
 /// How long an axis of a body is drawn, m, if it is.

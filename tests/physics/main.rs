@@ -15,6 +15,7 @@ mod gravitation;
 mod guided;
 mod joints;
 mod order;
+mod reactions;
 mod rotation;
 mod same_bits;
 mod springs;

@@ -16,6 +16,10 @@ impl Constraint for Ball {
         parts::bodies(&self.between)
     }
 
+    fn second_end(&self) -> Anchor {
+        self.between[1]
+    }
+
     fn rows(&self) -> usize {
         3
     }

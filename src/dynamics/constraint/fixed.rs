@@ -20,6 +20,10 @@ impl Constraint for Fixed {
         parts::bodies(&self.between)
     }
 
+    fn second_end(&self) -> Anchor {
+        self.between[1]
+    }
+
     fn rows(&self) -> usize {
         6
     }

@@ -25,6 +25,10 @@ impl Constraint for Gear {
         parts::bodies(&self.ends())
     }
 
+    fn second_end(&self) -> Anchor {
+        self.joints[1].between[1]
+    }
+
     fn rows(&self) -> usize {
         1
     }

@@ -52,6 +52,10 @@ impl Constraint for Hinge {
         parts::bodies(&self.between)
     }
 
+    fn second_end(&self) -> Anchor {
+        self.between[1]
+    }
+
     fn rows(&self) -> usize {
         5 + self.freedom.rows()
     }

@@ -16,6 +16,7 @@ mod member;
 mod modes;
 mod parts;
 mod pulley;
+mod reaction;
 mod rod;
 mod rope;
 mod servo;
@@ -31,6 +32,7 @@ pub use gear::Gear;
 pub use hinge::Hinge;
 pub use member::Member;
 pub use pulley::Pulley;
+pub use reaction::Reaction;
 pub use rod::Rod;
 pub use rope::Rope;
 pub use servo::Servo;
@@ -39,7 +41,7 @@ pub(super) use solver::Solver;
 
 use glam::DVec3;
 
-use super::BodyId;
+use super::{Anchor, BodyId};
 
 /// What holds bodies together.
 ///
@@ -47,6 +49,9 @@ use super::BodyId;
 pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// The bodies that it concerns, each once.
     fn bodies(&self) -> Vec<BodyId>;
+
+    /// The end on which its force and its torque are counted: the second one.
+    fn second_end(&self) -> Anchor;
 
     /// The number of its equations.
     fn rows(&self) -> usize;

@@ -32,6 +32,10 @@ impl Constraint for Pulley {
         parts::bodies(&self.ends())
     }
 
+    fn second_end(&self) -> Anchor {
+        self.between[1]
+    }
+
     fn rows(&self) -> usize {
         3
     }

@@ -18,6 +18,10 @@ impl Constraint for Rope {
         parts::bodies(&self.between)
     }
 
+    fn second_end(&self) -> Anchor {
+        self.between[1]
+    }
+
     fn rows(&self) -> usize {
         1
     }

@@ -1,18 +1,18 @@
 //! Arrows for velocity, acceleration and force, and the axes of bodies.
 
-use std::sync::Arc;
-
 use super::super::{sdl::Style, text};
+use super::Names;
 use super::color;
 use crate::dynamics::BodySnapshot;
-use crate::picture::{Arrow, Axes, Plan};
+use crate::picture::{Arrow, Axes, Bearer, Plan};
 use crate::simulate::Frame;
 
-/// Appends the arrows and axes of all bodies, whose names are given; those of a body stand together.
-pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>], style: Style) {
+/// Appends the arrows and axes of all bodies and joints, whose names are given; those of a body stand together.
+pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'_>, style: Style) {
     let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
-        while let Some(before) = arrows.next_if(|arrow| arrow.body <= its.body) {
+        let is_before = |arrow: &Arrow| matches!(arrow.bearer, Bearer::Body(body) if body <= its.body);
+        while let Some(before) = arrows.next_if(is_before) {
             arrow(out, &before, names, style);
         }
         axes(out, &its, names, style);
@@ -26,21 +26,21 @@ pub(super) fn write_ghost(
     plan: &Plan,
     frame: &Frame,
     ghost: &BodySnapshot,
-    names: &[Arc<str>],
+    names: Names<'_>,
     style: Style,
 ) {
     plan.ghost_arrows_in_front(frame, ghost).iter().for_each(|its| arrow(out, its, names, style));
 }
 
-fn axes(out: &mut String, axes: &Axes, names: &[Arc<str>], style: Style) {
+fn axes(out: &mut String, axes: &Axes, names: Names<'_>, style: Style) {
     out.push_str("object { Axes scale ");
     style.length(out, axes.length);
     out.push(' ');
     style.matrix(out, axes.orientation, axes.location);
-    out.push_str(&format!(" no_shadow }} // {}, axes\n", text::comment(&names[axes.body])));
+    out.push_str(&format!(" no_shadow }} // {}, axes\n", text::comment(&names.bodies[axes.body])));
 }
 
-fn arrow(out: &mut String, arrow: &Arrow, names: &[Arc<str>], style: Style) {
+fn arrow(out: &mut String, arrow: &Arrow, names: Names<'_>, style: Style) {
     // That one is never seen is said once for the run.
     if !style.can_tell(arrow.from, arrow.to) {
         return;
@@ -51,6 +51,10 @@ fn arrow(out: &mut String, arrow: &Arrow, names: &[Arc<str>], style: Style) {
     style.point(out, arrow.to);
     out.push_str(", ");
     style.length(out, arrow.radius);
-    let (color, name) = (color(arrow.color, style), text::comment(&names[arrow.body]));
+    let name = match arrow.bearer {
+        Bearer::Body(body) => &*names.bodies[body],
+        Bearer::Joint { joint, .. } => &names.joints[joint],
+    };
+    let (color, name) = (color(arrow.color, style), text::comment(name));
     out.push_str(&format!(", {color}) // {name}, {}\n", arrow.quantity.name()));
 }

@@ -30,13 +30,22 @@ pub(super) struct Showing {
     trails: Trails,
     /// The lines of the grid, if the camera stands still.
     grid: String,
+    /// The names of the joints, if they have arrows.
+    joints: Vec<String>,
     style: Style,
+}
+
+/// The names of what has arrows, by number.
+#[derive(Clone, Copy)]
+struct Names<'a> {
+    bodies: &'a [Arc<str>],
+    joints: &'a [String],
 }
 
 /// Which macros a scene needs, as templates see it.
 #[derive(Serialize)]
 pub(super) struct Shows {
-    /// Whether bodies have arrows.
+    /// Whether bodies or joints have arrows.
     arrows: bool,
     /// Whether springs are drawn as coils.
     coils: bool,
@@ -51,7 +60,8 @@ impl Shows {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
         Shows {
-            arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some)),
+            arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some))
+                || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
@@ -72,6 +82,7 @@ impl Showing {
             ghosts: Ghosts::new(scene, materials, meshes, style),
             trails: Trails::new(scene.output.layout, style),
             grid: plan.still_grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
+            joints: scene.joints.iter().map(|joint| joint.name.clone()).collect(),
             style,
         }
     }
@@ -89,13 +100,14 @@ impl Showing {
     /// Appends what is to be shown of a frame, whose bodies have the given names.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
+        let its = Names { bodies: names, joints: &self.joints };
         links::write(out, plan, frame, style);
         self.ghosts.write(out, plan, frame);
         for ghost in plan.ghosts(frame) {
-            arrows::write_ghost(out, plan, frame, &ghost.body, names, style);
+            arrows::write_ghost(out, plan, frame, &ghost.body, its, style);
         }
         self.trails.write(out, plan, frame, names);
-        arrows::write(out, plan, frame, names, style);
+        arrows::write(out, plan, frame, its, style);
         if let Some(Written { screen, grid, bar, labels }) = plan.written(frame) {
             out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));
             match plan.camera_moves() {

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use crate::dynamics::BodySnapshot;
-use crate::picture::arrows::Arrow;
+use crate::picture::arrows::{Arrow, Bearer};
 use crate::picture::in_front::lift_from_link;
 use crate::simulate::Frame;
 
@@ -15,7 +15,11 @@ impl Plan {
             let camera = self.eye.at(frame);
             for arrow in &mut arrows {
                 self.planes.lift(arrow, &camera);
-                for link in self.links.of_body(arrow.body, frame) {
+                let body = match arrow.bearer {
+                    Bearer::Body(body) => Some(body),
+                    Bearer::Joint { body, .. } => body,
+                };
+                for link in body.into_iter().flat_map(|body| self.links.of_body(body, frame)) {
                     lift_from_link(arrow, &link, &camera);
                 }
             }

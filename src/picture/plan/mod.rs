@@ -23,7 +23,7 @@ use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
 use crate::dynamics::BodySnapshot;
-use crate::scene::{Body, Camera, GridPlane, Scene};
+use crate::scene::{Body, Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// What all frames of a run, seen by one camera, have in common; made once.
@@ -101,10 +101,10 @@ impl Plan {
         let scenery = Scenery::new(scene, span.bounds, whole, view, scope.part);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| Ruler::new(scene, grid, &scenery, part, ink));
-        let longest = [0, 1, 2].map(|kind: usize| span.arrows[kind].largest);
+        let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);
         let scales = round_scales(longest, view);
         let mut seen = span.seen;
-        for tips in (0..3).filter_map(|kind| span.arrows[kind].tips(scales[kind])) {
+        for tips in (0..Quantity::COUNT).filter_map(|kind| span.arrows[kind].tips(scales[kind])) {
             seen = seen.union(tips);
         }
         if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {
@@ -214,7 +214,7 @@ impl Plan {
         self.lights_move
     }
 
-    /// The arrows of a frame, in the order of the bodies.
+    /// The arrows of a frame, in the order of the bodies, and then of the joints.
     pub fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
         self.arrows.arrows(frame, self.sizes(frame).arrows, &self.eye.at(frame))
     }
@@ -341,7 +341,7 @@ fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Quantity;
+    use crate::picture::Bearer;
     use crate::simulate::{Frames, survey};
 
     fn plan(keys: &str) -> (Plan, Frame) {
@@ -371,7 +371,7 @@ mod tests {
         let (plan, frame) = plan(keys);
         let ball = frame.bodies[0];
         let [arrow] = plan.arrows(&frame)[..] else { panic!("one is asked for") };
-        assert_eq!((arrow.body, arrow.quantity), (0, Quantity::Velocity));
+        assert_eq!((arrow.bearer, arrow.quantity), (Bearer::Body(0), Quantity::Velocity));
         assert!((arrow.from.distance(ball.location) - 0.1).abs() < 1e-9);
         assert!((arrow.to - arrow.from).abs_diff_eq(0.2 * ball.velocity, 1e-12));
         let [axes] = plan.axes(&frame)[..] else { panic!("they are asked for") };

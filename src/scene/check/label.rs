@@ -11,18 +11,23 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::{
-    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Label, LabelPlace, Measure, Piece, RunMeasure,
-    ScaleBar, Side,
+    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, JointMeasure, Label, LabelPlace, Measure,
+    Piece, RunMeasure, ScaleBar, Side,
 };
 
 /// The longest text of a label, bytes: what POV-Ray's strings hold, less what values may need.
 const MAX_LENGTH: usize = 160;
 
-pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Label> {
+pub(super) fn read(
+    root: &View<'_>,
+    bodies: &[Body],
+    joints: &[Joint],
+    context: &mut Context<'_>,
+) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
         let place = place_of(&view, bodies, context);
         let text = view.text("text").zip(view.span("text"));
-        let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, context));
+        let text = text.map(|(text, span)| pieces(text, span, root, place, (bodies, joints), context));
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
@@ -78,10 +83,10 @@ fn pieces(
     span: Span,
     root: &View<'_>,
     place: LabelPlace,
-    bodies: &[Body],
+    (bodies, joints): (&[Body], &[Joint]),
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
-    let mut reader = Reader { text, span, root, place, bodies, context };
+    let mut reader = Reader { text, span, root, place, bodies, joints, context };
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
         reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
@@ -109,6 +114,7 @@ struct Reader<'a, 'b, 'c> {
     root: &'a View<'b>,
     place: LabelPlace,
     bodies: &'a [Body],
+    joints: &'a [Joint],
     context: &'a mut Context<'c>,
 }
 
@@ -186,8 +192,26 @@ impl Reader<'_, '_, '_> {
         let joint = joint.unwrap_or('_').to_string();
         let mut plain = formula.to_owned();
         let mut dotted = Vec::new();
+        let mut taken = 0;
         for (at, _) in formula.match_indices('.') {
             let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            if at < taken {
+                continue;
+            }
+            if let Some(name) =
+                formula[..at].ends_with("joint").then(|| joint_name(&formula[at + 1..])).flatten()
+                && !formula[..at - "joint".len()].ends_with(is_part)
+            {
+                let begin = at - "joint".len();
+                let behind = at + 1 + name.len() + 1;
+                let rest = &formula[behind..];
+                taken = behind + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+                let measure = self.of_joint(name, start + at + 1, &formula[behind..taken])?;
+                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
+                plain.replace_range(begin..taken, &joined);
+                self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
+                continue;
+            }
             // The name of a copy ends with its indices: `ball[0]`, `brick[3,1]`.
             let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
             let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
@@ -236,18 +260,60 @@ impl Reader<'_, '_, '_> {
             let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
             plain.replace_range(begin..end, &joined);
             let measure = Measure::Body(number, known);
-            if dotted.iter().any(|(other, another)| *other == joined && *another != measure) {
-                let message = format!(
-                    "`{body}.{measure_name}` looks like another name in this formula",
-                    measure_name = &formula[at + 1..end]
-                );
-                let label = "write the two in `${…}` of their own";
-                self.report(Diagnostic::error(Code::LabelSyntax, message), start + begin..start + end, label);
-                return None;
-            }
-            dotted.push((joined, measure));
+            self.note(&mut dotted, joined, measure, &formula[begin..end], start + begin)?;
         }
         Some((plain, dotted))
+    }
+
+    /// Notes what a name stands for, as it is joined, unless another name of the formula looks the same then.
+    fn note(
+        &mut self,
+        dotted: &mut Vec<(String, Measure)>,
+        joined: String,
+        measure: Measure,
+        name: &str,
+        begin: usize,
+    ) -> Option<()> {
+        if dotted.iter().any(|(other, another)| *other == joined && *another != measure) {
+            let message = format!("`{name}` looks like another name in this formula");
+            let label = "write the two in `${…}` of their own";
+            self.report(Diagnostic::error(Code::LabelSyntax, message), begin..begin + name.len(), label);
+            return None;
+        }
+        dotted.push((joined, measure));
+        Some(())
+    }
+
+    /// A measure of a joint whose name begins at a place of the text.
+    fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
+        let Some(number) = self.joints.iter().position(|joint| joint.name == name) else {
+            let names = self.joints.iter().map(|joint| joint.name.as_str());
+            let near = crate::diagnostic::nearest(name, names.take(1000));
+            let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+            let error = Diagnostic::error(Code::UnknownName, format!("there is no joint `{name}`"));
+            self.report(error, begin..begin + name.len(), &label);
+            return None;
+        };
+        if let Some((_, known)) = JointMeasure::names().find(|(known, _)| *known == measure) {
+            return Some(Measure::Joint(number, known));
+        }
+        let names: Vec<&str> = JointMeasure::names().map(|(name, _)| name).collect();
+        let behind = begin + name.len() + 1;
+        let here = self.at(&(behind..behind + measure.len()));
+        let error = Diagnostic::error(
+            Code::UnknownName,
+            format!("a joint has no `{measure}` that a label could show"),
+        );
+        let known = format!("there are {}", crate::scene::grammar::quoted(&names));
+        let near = words::of_joint(measure).or_else(|| crate::diagnostic::nearest(measure, names));
+        self.context.diagnostics.push(match near {
+            Some(near) => {
+                let error = error.at(here, format!("did you mean `{near}`?")).help(known);
+                self.mended(error, here, near, measure.len())
+            }
+            None => error.at(here, "").help(known),
+        });
+        None
     }
 
     /// An error with the word that belongs at its place, unless that is all of an escaped text.
@@ -320,6 +386,19 @@ impl Reader<'_, '_, '_> {
         }
         None
     }
+}
+
+/// The name of the joint in `knee.force` or `string[3].force`: what stands before the point behind it.
+fn joint_name(text: &str) -> Option<&str> {
+    let letters = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?;
+    let indices = match text[letters..].strip_prefix('[') {
+        Some(rest) => rest.find(']')? + 2,
+        None => 0,
+    };
+    let name = &text[..letters + indices];
+    let measure = text[name.len()..].strip_prefix('.')?;
+    let is_name = !name.is_empty() && measure.starts_with(|c: char| c.is_ascii_alphabetic());
+    is_name.then_some(name)
 }
 
 /// A letter as POV-Ray's font has it; none: it has none. Dashes stand in for the minus sign, a raised point for its like.

@@ -311,7 +311,7 @@ fn build(
         lights: look::lights(&root, &simulation, context),
         simulation,
         environment: look::environment(&root, &bodies),
-        labels: label::read(&root, &bodies, context),
+        labels: label::read(&root, &bodies, &joints, context),
         scale_bar: label::scale_bar(&root),
         grid: label::grid(&root),
         output,

@@ -24,7 +24,7 @@ pub(super) fn of_body(
         _ => None,
     };
     let mut showing = Showing {
-        arrows: Quantity::ALL.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
+        arrows: Quantity::OF_BODIES.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
         axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.number("length") }),
         ghosts: view.variant("ghosts").and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
         trail: wanted(view, "trail").map(|trail| Trail {
@@ -57,7 +57,8 @@ fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>
     None
 }
 
-fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
+/// An arrow, if there is one.
+pub(super) fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
     let arrow = wanted(arrows, key)?;
     Some(Arrow { scale: arrow.number("scale"), color: arrow.color("color") })
 }

@@ -3,6 +3,7 @@
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::forces::END;
 use super::keys::{POSITIVE, VECTOR};
+use super::showing::JOINT_ARROWS;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
 pub(super) static JOINT: TableSpec = TableSpec {
@@ -77,7 +78,7 @@ static LOOK_TABLE: TableSpec = TableSpec {
 static BALL: TableSpec = TableSpec {
     noun: "a ball joint",
     rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the end that is a point of the world"), LOOK],
+    keys: &[between(PAIR), AT.default("the end that is a point of the world"), LOOK, JOINT_ARROWS],
 };
 
 static HINGE: TableSpec = TableSpec {
@@ -92,6 +93,7 @@ static HINGE: TableSpec = TableSpec {
             .also(&["limit", "range", "min_max"]),
         motor(&TURNING, "What turns it"),
         LOOK,
+        JOINT_ARROWS,
     ],
 };
 
@@ -107,13 +109,14 @@ static SLIDER: TableSpec = TableSpec {
             .also(&["limit", "range", "min_max"]),
         motor(&MOVING, "What moves it"),
         LOOK,
+        JOINT_ARROWS,
     ],
 };
 
 static FIXED: TableSpec = TableSpec {
     noun: "a fixed joint",
     rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the centre of the second"), LOOK],
+    keys: &[between(PAIR), AT.default("the centre of the second"), LOOK, JOINT_ARROWS],
 };
 
 static ROD: TableSpec = TableSpec {
@@ -128,6 +131,7 @@ static ROD: TableSpec = TableSpec {
             .default("as at the start")
             .also(&["distance", "l"]),
         LOOK,
+        JOINT_ARROWS,
     ],
 };
 
@@ -208,6 +212,7 @@ static ROPE: TableSpec = TableSpec {
             .default("their distance at the start")
             .also(&["distance", "max_length", "l"]),
         LOOK,
+        JOINT_ARROWS,
     ],
 };
 
@@ -232,6 +237,7 @@ static PULLEY: TableSpec = TableSpec {
             .unit("m")
             .default("as at the start"),
         LOOK,
+        JOINT_ARROWS,
     ],
 };
 
@@ -255,5 +261,6 @@ static GEAR: TableSpec = TableSpec {
         )
         .required()
         .also(&["factor"]),
+        JOINT_ARROWS,
     ],
 };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
-use crate::scene::{BodyMeasure, RunMeasure};
+use crate::scene::{BodyMeasure, JointMeasure, RunMeasure};
 
 /// All keys of the scene language, as Markdown.
 pub fn reference() -> String {
@@ -230,6 +230,9 @@ impl Page {
         }
         for (name, _, what) in BodyMeasure::ALL {
             let _ = writeln!(self.text, "| `ball.{name}` | {what} |");
+        }
+        for (name, _, what) in JointMeasure::ALL {
+            let _ = writeln!(self.text, "| `{name}` | {what} |");
         }
     }
 

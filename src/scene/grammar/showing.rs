@@ -14,6 +14,12 @@ static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 pub(super) const ARROWS: Key =
     Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it; parallel ones stand side by side")
         .also(&["vectors", "arrow"]);
+pub(super) const JOINT_ARROWS: Key = Key::new(
+    "arrows",
+    Table(&JOINT_ARROWS_TABLE),
+    "Arrows for what it does to its second end, from that point on; to the first it does the opposite",
+)
+.also(&["vectors", "arrow"]);
 pub(super) const AXES: Key =
     Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which turn with it")
         .default("false")
@@ -59,13 +65,24 @@ static ARROWS_TABLE: TableSpec = TableSpec {
     ],
 };
 
+static JOINT_ARROWS_TABLE: TableSpec = TableSpec {
+    noun: "a joint's arrows",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("force", ARROW, "Its force, magenta").default("false").also(&["f", "forces", "reaction"]),
+        Key::new("torque", ARROW, "Its torque, along the axis of that, green")
+            .default("false")
+            .also(&["moment", "torques"]),
+    ],
+};
+
 const ARROW: Kind = Either(&ARROW_KINDS);
 
 static ARROW_TABLE: TableSpec = TableSpec {
     noun: "an arrow",
     rule: Rule::Any,
     keys: &[
-        Key::new("scale", POSITIVE, "Its length for each m/s, m/s² or N")
+        Key::new("scale", POSITIVE, "Its length for each m/s, m/s², N or N·m")
             .unit("m")
             .default("the same for all of its kind, so that the longest is easily seen")
             .also(&["length", "factor", "size"]),

@@ -8,16 +8,19 @@
 //! | time; kinetic, potential, total energy; drift; linear momentum; angular momentum; the accounts | `f64` each |
 //! | the number of runs, and of each run: a mask, and for how many bodies that holds | `u32`; `u8`, `u32` |
 //! | of each body, the numbers that its mask names | `f64` each |
+//! | where there are joints: runs of masks, and numbers, in the same way | |
 //!
-//! A bit of a mask says that a column has changed: location, orientation, velocity, angular velocity, force. Before the
-//! first moment of a page, all numbers are those of a body at rest at the origin.
+//! A bit of a mask says that a column has changed: location, orientation, velocity, angular velocity, force; of a
+//! joint, force and torque. Before the first moment of a page, all numbers are those of a body at rest at the origin, and of a joint
+//! that does nothing.
 
 use std::io;
 
 use glam::{DQuat, DVec3};
 
 use super::super::simulation::Entry;
-use crate::dynamics::{Accounts, Balance, BodySnapshot, Snapshot};
+use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
+use crate::scene::Scene;
 
 /// The numbers before the bodies.
 const HEAD: usize = 11 + Accounts::NAMES.len();
@@ -36,26 +39,49 @@ const AT_REST: [f64; NUMBERS] = {
     numbers
 };
 
+/// Where each column of a joint begins, and after the last, where it ends.
+const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
+/// The numbers of a joint.
+const JOINT_NUMBERS: usize = 6;
+
+/// How many bodies and joints a run has.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    /// The number of bodies.
+    pub bodies: usize,
+    /// The number of joints.
+    pub joints: usize,
+}
+
+impl Counts {
+    /// Those of a scene.
+    pub fn of(scene: &Scene) -> Counts {
+        Counts { bodies: scene.bodies.len(), joints: scene.joints.len() }
+    }
+}
+
 /// Turns moments into bytes, one after another.
 pub(super) struct Encoder {
     last: Vec<[f64; NUMBERS]>,
+    joints: Vec<[f64; JOINT_NUMBERS]>,
     masks: Vec<u8>,
 }
 
 impl Encoder {
-    /// For so many bodies.
-    pub(super) fn new(bodies: usize) -> Encoder {
-        Encoder { last: vec![AT_REST; bodies], masks: Vec::new() }
+    /// For so many bodies and joints.
+    pub(super) fn new(Counts { bodies, joints }: Counts) -> Encoder {
+        Encoder { last: vec![AT_REST; bodies], joints: vec![[0.0; JOINT_NUMBERS]; joints], masks: Vec::new() }
     }
 
     /// A new page begins: it can be read without those before it.
     pub(super) fn begin_page(&mut self) {
         self.last.fill(AT_REST);
+        self.joints.fill([0.0; JOINT_NUMBERS]);
     }
 
     /// Appends a moment.
     pub(super) fn encode(&mut self, frame: Option<usize>, snapshot: &Snapshot, bytes: &mut Vec<u8>) {
-        let Self { last, masks } = self;
+        let Self { last, joints, masks } = self;
         let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
         bytes.extend_from_slice(&number.to_le_bytes());
         put(bytes, &[snapshot.time]);
@@ -72,50 +98,76 @@ impl Encoder {
         for body in &snapshot.bodies {
             let numbers = numbers_of(body);
             let last = &mut last[body.id];
-            let mut mask = 0;
-            for (column, range) in COLUMNS.windows(2).enumerate() {
-                let (new, old) = (&numbers[range[0]..range[1]], &last[range[0]..range[1]]);
-                // By their bits: -0 is not 0.
-                if new.iter().zip(old).any(|(new, old)| new.to_bits() != old.to_bits()) {
-                    mask |= 1 << column;
-                    put(bytes, new);
-                }
-            }
-            masks[body.id] = mask;
+            masks[body.id] = put_changed(bytes, &COLUMNS, &numbers, last);
             *last = numbers;
         }
-        let mut runs = Vec::new();
-        for run in masks.chunk_by(|a, b| a == b) {
-            runs.push(run[0]);
-            runs.extend_from_slice(&u32_of(run.len()).to_le_bytes());
+        put_runs(bytes, start, masks);
+        if joints.is_empty() {
+            return;
         }
-        let count = u32_of(runs.len() / 5).to_le_bytes();
-        bytes.splice(start..start, count.into_iter().chain(runs));
+        masks.clear();
+        let start = bytes.len();
+        // What has no reaction does nothing.
+        let reactions = snapshot.reactions.iter().copied().chain(std::iter::repeat(Reaction::default()));
+        for (last, Reaction { force, torque }) in joints.iter_mut().zip(reactions) {
+            let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+            masks.push(put_changed(bytes, &JOINT_COLUMNS, &numbers, last));
+            *last = numbers;
+        }
+        put_runs(bytes, start, masks);
     }
+}
+
+/// Appends the columns of some numbers that have changed; a mask that names them.
+fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[f64]) -> u8 {
+    let mut mask = 0;
+    for (column, range) in columns.windows(2).enumerate() {
+        let (new, old) = (&numbers[range[0]..range[1]], &last[range[0]..range[1]]);
+        // By their bits: -0 is not 0.
+        if new.iter().zip(old).any(|(new, old)| new.to_bits() != old.to_bits()) {
+            mask |= 1 << column;
+            put(bytes, new);
+        }
+    }
+    mask
+}
+
+/// Puts the runs of some masks at a place.
+fn put_runs(bytes: &mut Vec<u8>, start: usize, masks: &[u8]) {
+    let mut runs = Vec::new();
+    for run in masks.chunk_by(|a, b| a == b) {
+        runs.push(run[0]);
+        runs.extend_from_slice(&u32_of(run.len()).to_le_bytes());
+    }
+    let count = u32_of(runs.len() / 5).to_le_bytes();
+    bytes.splice(start..start, count.into_iter().chain(runs));
 }
 
 /// Reads a page from its beginning on.
 #[derive(Default)]
 pub(super) struct Decoder {
     last: Vec<[f64; NUMBERS]>,
+    joints: Vec<[f64; JOINT_NUMBERS]>,
     at: usize,
 }
 
 impl Decoder {
-    /// For so many bodies, at the beginning of a page.
-    pub(super) fn new(bodies: usize) -> Decoder {
-        Decoder { last: vec![AT_REST; bodies], at: 0 }
+    /// For so many bodies and joints, at the beginning of a page.
+    pub(super) fn new(Counts { bodies, joints }: Counts) -> Decoder {
+        Decoder { last: vec![AT_REST; bodies], joints: vec![[0.0; JOINT_NUMBERS]; joints], at: 0 }
     }
 
-    /// Goes back to the beginning of a page, of this or another recording of so many bodies.
+    /// Goes back to the beginning of a page, of this or another recording of so many.
     pub(super) fn begin_page(&mut self) {
         self.last.fill(AT_REST);
+        self.joints.fill([0.0; JOINT_NUMBERS]);
         self.at = 0;
     }
 
     /// The next moment.
     pub(super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
-        let (head, runs, mut values) = parts(page, &mut self.at)?;
+        let Parts { head, bodies: (runs, mut values), joints } =
+            parts(page, &mut self.at, self.joints.len())?;
         let mut bodies = Vec::with_capacity(self.last.len());
         let mut id = 0;
         for (mask, count) in runs {
@@ -125,39 +177,44 @@ impl Decoder {
                 continue;
             }
             for (id, last) in ids.clone().zip(self.last.get_mut(ids).ok_or_else(damaged)?) {
-                for (column, range) in COLUMNS.windows(2).enumerate() {
-                    if mask & (1 << column) != 0 {
-                        values = take(values, &mut last[range[0]..range[1]])?;
-                    }
-                }
+                values = take_changed(values, mask, &COLUMNS, last)?;
                 bodies.push(body_of(id, last));
             }
         }
-        Ok(head.entry(bodies))
+        let (runs, mut values) = joints;
+        let mut next = 0;
+        for (mask, count) in runs {
+            let them = self.joints.get_mut(next..next + count).ok_or_else(damaged)?;
+            next += count;
+            for last in them {
+                values = take_changed(values, mask, &JOINT_COLUMNS, last)?;
+            }
+        }
+        let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
+            force: DVec3::new(n[0], n[1], n[2]),
+            torque: DVec3::new(n[3], n[4], n[5]),
+        };
+        Ok(head.entry(bodies, self.joints.iter().map(reaction).collect()))
     }
 
-    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others is lost.
+    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others and of joints is
+    /// lost.
     pub(super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
-        let (head, runs, mut values) = parts(page, &mut self.at)?;
+        let Parts { head, bodies: (runs, mut values), .. } = parts(page, &mut self.at, self.joints.len())?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
             if mask != ABSENT && (id..id + count).contains(&wanted) {
-                let skipped = values.get(8 * width(mask) * (wanted - id)..).ok_or_else(damaged)?;
+                let skipped = values.get(8 * width(mask, &COLUMNS) * (wanted - id)..).ok_or_else(damaged)?;
                 let last = self.last.get_mut(wanted).ok_or_else(damaged)?;
-                values = skipped;
-                for (column, range) in COLUMNS.windows(2).enumerate() {
-                    if mask & (1 << column) != 0 {
-                        values = take(values, &mut last[range[0]..range[1]])?;
-                    }
-                }
+                take_changed(skipped, mask, &COLUMNS, last)?;
                 found = true;
                 break;
             }
-            values = values.get(8 * width(mask) * count..).ok_or_else(damaged)?;
+            values = values.get(8 * width(mask, &COLUMNS) * count..).ok_or_else(damaged)?;
             id += count;
         }
         let body = if found { vec![body_of(wanted, &self.last[wanted])] } else { Vec::new() };
-        Ok((head.entry(body), found))
+        Ok((head.entry(body, Vec::new()), found))
     }
 }
 
@@ -168,7 +225,7 @@ struct Head {
 }
 
 impl Head {
-    fn entry(self, bodies: Vec<BodySnapshot>) -> Entry {
+    fn entry(self, bodies: Vec<BodySnapshot>, reactions: Vec<Reaction>) -> Entry {
         let n = &self.numbers;
         let balance = Balance {
             kinetic: n[1],
@@ -179,47 +236,81 @@ impl Head {
             angular_momentum: DVec3::new(n[8], n[9], n[10]),
             accounts: Accounts::from_array(std::array::from_fn(|i| n[11 + i])),
         };
-        Entry { frame: self.frame, snapshot: Snapshot { time: n[0], bodies, balance } }
+        Entry { frame: self.frame, snapshot: Snapshot { time: n[0], bodies, reactions, balance } }
     }
 }
 
 /// A mask, and for how many bodies it holds.
 type Run = (u8, usize);
 
-/// The parts of the moment at a place of a page: its head, its runs, and the bytes of its values. The place becomes that
-/// of the moment after it.
-fn parts<'a>(page: &'a [u8], at: &mut usize) -> io::Result<(Head, Vec<Run>, &'a [u8])> {
+/// A moment in a page: of bodies and of joints, the runs and the bytes of the values.
+struct Parts<'a> {
+    head: Head,
+    bodies: (Vec<Run>, &'a [u8]),
+    joints: (Vec<Run>, &'a [u8]),
+}
+
+/// The parts of the moment at a place of a page of a run with so many joints. The place becomes that of the moment after it.
+fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
     let number = u32::from_le_bytes(*number);
     let mut numbers = [0.0; HEAD];
     let rest = take(rest, &mut numbers)?;
-    let (count, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let (bodies, mut rest) = runs_of(rest, &COLUMNS)?;
+    let mut of_joints = (Vec::new(), &rest[..0]);
+    if joints > 0 {
+        (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
+    }
+    *at = page.len() - rest.len();
+    let frame = (number != NO_FRAME).then_some(number as usize);
+    Ok(Parts { head: Head { frame, numbers }, bodies, joints: of_joints })
+}
+
+/// Runs, the bytes of their values, and what is behind them.
+type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
+
+/// Reads runs of masks that name columns.
+fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
+    let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
     let (runs, values) = rest.split_at_checked(count.saturating_mul(5)).ok_or_else(damaged)?;
     let run =
         |bytes: &[u8]| (bytes[0], u32::from_le_bytes([bytes[1], bytes[2], bytes[3], bytes[4]]) as usize);
     let runs: Vec<Run> = runs.chunks_exact(5).map(run).collect();
-    let numbers_of_bodies = runs
+    let numbers = runs
         .iter()
-        .fold(0usize, |sum, (mask, count)| sum.saturating_add(width(*mask).saturating_mul(*count)));
-    let values = values.get(..numbers_of_bodies.saturating_mul(8)).ok_or_else(damaged)?;
-    *at = page.len() - rest.len() + 5 * count + values.len();
-    let frame = (number != NO_FRAME).then_some(number as usize);
-    Ok((Head { frame, numbers }, runs, values))
+        .fold(0usize, |sum, (mask, count)| sum.saturating_add(width(*mask, columns).saturating_mul(*count)));
+    let (values, rest) = values.split_at_checked(numbers.saturating_mul(8)).ok_or_else(damaged)?;
+    Ok(((runs, values), rest))
 }
 
-/// How many numbers a body with this mask has.
-fn width(mask: u8) -> usize {
+/// How many numbers there are with this mask.
+fn width(mask: u8, columns: &[usize]) -> usize {
     if mask == ABSENT {
         return 0;
     }
-    COLUMNS
+    columns
         .windows(2)
         .enumerate()
         .filter(|(column, _)| mask & (1 << column) != 0)
         .map(|(_, r)| r[1] - r[0])
         .sum()
+}
+
+/// Reads the columns that a mask names, and gives what is behind them.
+fn take_changed<'a>(
+    mut values: &'a [u8],
+    mask: u8,
+    columns: &[usize],
+    last: &mut [f64],
+) -> io::Result<&'a [u8]> {
+    for (column, range) in columns.windows(2).enumerate() {
+        if mask & (1 << column) != 0 {
+            values = take(values, &mut last[range[0]..range[1]])?;
+        }
+    }
+    Ok(values)
 }
 
 fn put(bytes: &mut Vec<u8>, numbers: &[f64]) {
@@ -271,6 +362,8 @@ pub(super) fn damaged() -> io::Error {
 mod tests {
     use super::*;
 
+    const COUNTS: Counts = Counts { bodies: 3, joints: 2 };
+
     fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
         let body = |&(id, x): &(usize, f64)| BodySnapshot {
             id,
@@ -290,7 +383,14 @@ mod tests {
             accounts: Accounts { work: 5.0, motors: 6.0, limits: -7.0 },
         };
         let frame = (time > 1.5).then_some(7);
-        Entry { frame, snapshot: Snapshot { time, bodies: bodies.iter().map(body).collect(), balance } }
+        let reactions = vec![
+            Reaction::default(),
+            Reaction { force: DVec3::new(0.0, -0.0, 3.0), torque: DVec3::splat((time - 1.5).max(0.0)) },
+        ];
+        Entry {
+            frame,
+            snapshot: Snapshot { time, bodies: bodies.iter().map(body).collect(), reactions, balance },
+        }
     }
 
     /// Bodies come and go; -0 stays -0; what stays as it is takes no bytes but those of its run.
@@ -302,15 +402,15 @@ mod tests {
             entry(2.0, &[(1, 3.0), (2, 4.0)]),
             entry(3.0, &[]),
         ];
-        let (mut encoder, mut page, mut sizes) = (Encoder::new(3), Vec::new(), Vec::new());
+        let (mut encoder, mut page, mut sizes) = (Encoder::new(COUNTS), Vec::new(), Vec::new());
         for Entry { frame, snapshot } in &entries {
             let before = page.len();
             encoder.encode(*frame, snapshot, &mut page);
             sizes.push(page.len() - before);
         }
         let head = 4 + 8 * HEAD + 4;
-        assert_eq!(sizes[1], head + 3 * 5, "present, absent, present, and no number");
-        let mut decoder = Decoder::new(3);
+        assert_eq!(sizes[1], head + 3 * 5 + 4 + 5, "present, absent, present; two joints; and no number");
+        let mut decoder = Decoder::new(COUNTS);
         for entry in &entries {
             let found = decoder.decode(&page).unwrap();
             assert_eq!(found, *entry);
@@ -319,7 +419,7 @@ mod tests {
             }
         }
         assert!(decoder.decode(&page).is_err(), "after the end");
-        let mut decoder = Decoder::new(3);
+        let mut decoder = Decoder::new(COUNTS);
         for entry in &entries {
             let (found, is_there) = decoder.decode_one(&page, 2).unwrap();
             let expected: Vec<_> =
@@ -331,22 +431,22 @@ mod tests {
     #[test]
     fn what_is_cut_or_changed_never_panics() {
         let mut page = Vec::new();
-        let mut encoder = Encoder::new(3);
+        let mut encoder = Encoder::new(COUNTS);
         for Entry { frame, snapshot } in [entry(0.0, &[(0, 1.0), (2, 2.0)]), entry(2.0, &[(1, 3.0)])] {
             encoder.encode(frame, &snapshot, &mut page);
         }
         for cut in 0..page.len() {
-            let mut decoder = Decoder::new(3);
+            let mut decoder = Decoder::new(COUNTS);
             while decoder.decode(&page[..cut]).is_ok() {}
         }
         for at in 0..page.len() {
             let mut changed = page.clone();
             changed[at] ^= 0xff;
             for wanted in 0..3 {
-                let mut decoder = Decoder::new(3);
+                let mut decoder = Decoder::new(COUNTS);
                 (0..2).for_each(|_| drop(decoder.decode_one(&changed, wanted)));
             }
-            let mut decoder = Decoder::new(3);
+            let mut decoder = Decoder::new(COUNTS);
             (0..2).for_each(|_| drop(decoder.decode(&changed)));
         }
     }

@@ -13,6 +13,7 @@ use self::codec::{Decoder, Encoder, damaged};
 use super::simulation::Entry;
 use crate::dynamics::{BodySnapshot, Snapshot};
 
+pub use codec::Counts;
 pub use store::{MemoryStore, Store};
 
 /// A page is full after so many moments,
@@ -22,7 +23,7 @@ const BYTES: usize = 1 << 20;
 
 /// The moments of a run, from the first on. One writes, any number read.
 pub struct Recording {
-    bodies: usize,
+    counts: Counts,
     encoder: Mutex<Encoder>,
     contents: RwLock<Contents>,
     store: Box<dyn Store>,
@@ -43,19 +44,19 @@ struct Contents {
 }
 
 impl Recording {
-    /// That of a run of so many bodies which has not begun.
-    pub fn new(bodies: usize, store: Box<dyn Store>) -> Recording {
-        let (encoder, contents) = (Mutex::new(Encoder::new(bodies)), RwLock::default());
-        Recording { bodies, encoder, contents, store }
+    /// That of a run of so many bodies and joints which has not begun.
+    pub fn new(counts: Counts, store: Box<dyn Store>) -> Recording {
+        let (encoder, contents) = (Mutex::new(Encoder::new(counts)), RwLock::default());
+        Recording { counts, encoder, contents, store }
     }
 
     /// A recording that was [described](Self::index) before, of which the store has all pages.
     ///
     /// # Errors
     /// Where the description is not one.
-    pub fn with_index(bodies: usize, index: &[u8], store: Box<dyn Store>) -> io::Result<Recording> {
+    pub fn with_index(counts: Counts, index: &[u8], store: Box<dyn Store>) -> io::Result<Recording> {
         let contents = RwLock::new(Contents::from_bytes(index)?);
-        Ok(Recording { bodies, encoder: Mutex::new(Encoder::new(0)), contents, store })
+        Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
     }
 
     /// Adds the next moment.
@@ -107,7 +108,7 @@ impl Recording {
 
     /// A reader at the first moment.
     pub fn read(self: &Arc<Self>) -> Reader {
-        Reader { recording: Arc::clone(self), next: 0, page: None, decoder: Decoder::new(self.bodies), at: 0 }
+        Reader { recording: Arc::clone(self), next: 0, page: None, decoder: Decoder::new(self.counts), at: 0 }
     }
 
     fn encoder(&self) -> MutexGuard<'_, Encoder> {

@@ -8,11 +8,12 @@ use glam::DVec3;
 use super::Context;
 use super::end;
 use super::read::figure;
+use super::showing;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
-use crate::scene::{Body, Joint, JointKind, JointLook, Simulation};
+use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, Simulation};
 
 /// Ends that are so far apart at the start, as a part of the joint's size, have been written with few digits.
 const NEARLY: f64 = 1e-9;
@@ -40,7 +41,8 @@ pub(super) fn read(
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
             context.diagnostics.push(error.help("take another one: `simulation.integrator = \"rk4\"`"));
         }
-        joints.push(Joint { name: name.to_owned(), look: look(&view, &kind), kind, servo });
+        let arrows = arrows(&view);
+        joints.push(Joint { name: name.to_owned(), look: look(&view, &kind), kind, servo, arrows });
     }
     joints
 }
@@ -50,13 +52,22 @@ fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
 
+/// The kinds of joints.
+const KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
+
+/// The arrows for what the joint does.
+fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
+    let kind = KINDS.into_iter().find_map(|kind| view.variant(kind));
+    let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table("arrows"), quantity.name());
+    Quantity::OF_JOINTS.map(arrow)
+}
+
 /// How the joint is drawn, if it is.
 fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
     if matches!(kind, JointKind::Gear(_)) {
         return None;
     }
-    let kinds = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley"];
-    let kind = kinds.into_iter().find_map(|kind| view.variant(kind))?;
+    let kind = KINDS.into_iter().find_map(|kind| view.variant(kind))?;
     let look = kind.table("look");
     (kind.text("look") != Some("none"))
         .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })

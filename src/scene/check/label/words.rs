@@ -41,3 +41,18 @@ pub(super) fn of_run(word: &str) -> Option<&'static str> {
         _ => return None,
     })
 }
+
+/// The measure of a joint that a word means.
+pub(super) fn of_joint(word: &str) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "f" | "tension" | "reaction" | "load" | "pull" => "force",
+        "m" | "moment" | "tau" => "torque",
+        "force_x" => "fx",
+        "force_y" => "fy",
+        "force_z" => "fz",
+        "torque_x" => "tx",
+        "torque_y" => "ty",
+        "torque_z" => "tz",
+        _ => return None,
+    })
+}

@@ -1,0 +1,73 @@
+//! What constraints do to the bodies: their forces and torques.
+
+use glam::DVec3;
+
+use super::super::{Anchor, Model};
+use super::modes::Mode;
+use super::solver::Solver;
+use super::{Law, Member};
+
+/// What a constraint does to its second end, in world axes; to the first it does the opposite. It is zero while a body of the
+/// constraint is away, and of equations that others imply: these bear it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reaction {
+    /// The force on the second end, N.
+    pub force: DVec3,
+    /// The torque on it about the point where that end is, N m.
+    pub torque: DVec3,
+}
+
+impl Reaction {
+    /// The same force and torque, which count about another point: `way` leads from there to the present one.
+    fn about(self, way: DVec3) -> Reaction {
+        Reaction { torque: self.torque + way.cross(self.force), ..self }
+    }
+
+    fn add(&mut self, other: Reaction) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+}
+
+impl Solver {
+    /// What all constraints do at the moment at which forces were evaluated last, in the order in which they were added.
+    pub(in crate::dynamics) fn reactions(&self, model: &Model) -> Vec<Reaction> {
+        let mut all = vec![Reaction::default(); model.constraints().len()];
+        let Some(structure) = &self.structure else { return all };
+        for place in &structure.places {
+            let width = place.bodies.len();
+            // On each of the bodies, about its centre.
+            let mut on = vec![Reaction::default(); width];
+            for row in place.row..place.row + place.rows {
+                let multiplier = match (self.laws[row], self.modes[row]) {
+                    (Law::Drive { limit }, Mode::Pushed(sign)) => sign * limit,
+                    _ => self.unknown[row],
+                };
+                let first = place.direction + (row - place.row) * width;
+                for (on, direction) in on.iter_mut().zip(&self.jacobian[first..first + width]) {
+                    on.add(Reaction {
+                        force: multiplier * direction.linear,
+                        torque: multiplier * direction.angular,
+                    });
+                }
+            }
+            let member = |body: usize| -> &Member { &self.members[place.bodies[body]] };
+            all[place.constraint] = match model.constraints()[place.constraint].second_end() {
+                Anchor::Body { id, at } => {
+                    let is_it = |member: &usize| structure.bodies[*member] == id.index();
+                    let Some(body) = place.bodies.iter().position(is_it) else { continue };
+                    on[body].about(-(member(body).orientation * at))
+                }
+                // What holds the others pulls at the world.
+                Anchor::Point(point) => {
+                    let mut sum = Reaction::default();
+                    for (body, on) in on.into_iter().enumerate() {
+                        sum.add(on.about(member(body).location - point));
+                    }
+                    Reaction { force: -sum.force, torque: -sum.torque }
+                }
+            };
+        }
+        all
+    }
+}

@@ -1,0 +1,160 @@
+//! What joints do to their bodies, against closed forms.
+
+use glam::DVec3;
+use jabuka::dynamics::{
+    Anchor, Ball, BodyId, Dynamics, Fixed, Freedom, Hinge, METHODS, Method, Motor, Presence, Reaction, Rod,
+    Rope, Slider, UniformGravity, World,
+};
+
+use crate::common::{ball, method};
+
+const G: f64 = 9.81;
+
+/// A world with gravity, and a ball of 1 kg at a place.
+fn world(method: &'static Method, location: DVec3) -> (World, BodyId) {
+    let mut world = World::new();
+    world.set_integrator(method);
+    world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
+    let body = world.add(ball().with_location(location));
+    (world, body)
+}
+
+#[allow(clippy::unwrap_used, reason = "only tests call it")]
+fn reaction(world: &mut World) -> Reaction {
+    world.snapshot().unwrap().reactions[0]
+}
+
+fn is_near(found: DVec3, x: f64, y: f64, z: f64) -> bool {
+    found.abs_diff_eq(DVec3::new(x, y, z), 1e-11)
+}
+
+const ORIGIN: Anchor = Anchor::Point(DVec3::ZERO);
+
+fn methods() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| method.constraints)
+}
+
+#[test]
+fn what_hangs_is_held_by_its_weight() {
+    for method in methods() {
+        let hang = |hold: &dyn Fn(&mut World, [Anchor; 2])| {
+            let (mut world, body) = world(method, DVec3::NEG_Y);
+            hold(&mut world, [ORIGIN, Anchor::Body { id: body, at: DVec3::ZERO }]);
+            let before = reaction(&mut world);
+            world.advance_to(0.5);
+            [before, reaction(&mut world)]
+        };
+        let rod = hang(&|world, between| world.add_constraint(Rod { between, length: 1.0 }));
+        let rope = hang(&|world, between| world.add_constraint(Rope { between, length: 1.0 }));
+        for found in rod.into_iter().chain(rope) {
+            assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, 0.0, 0.0, 0.0), "{found:?}");
+        }
+    }
+    // A rope that is slack holds nothing.
+    let (mut slack, body) = world(method("rk4"), DVec3::NEG_Y);
+    slack.add_constraint(Rope { between: [ORIGIN, Anchor::centre(body)], length: 2.0 });
+    assert_eq!(reaction(&mut slack), Reaction::default());
+}
+
+/// T = m g cos θ + m v²/ℓ = m g (3 cos θ − 2 cos θ₀), by the energy of a swing from rest.
+#[test]
+fn the_tension_of_a_pendulum_is_that_of_its_swing_to_the_order_of_the_method() {
+    let start = 1.2;
+    let (sin, cos) = libm::sincos(start);
+    let error = |name: &str, h: f64, t: f64| {
+        let (mut world, body) = world(method(name), DVec3::new(sin, -cos, 0.0));
+        world.set_step(h);
+        world.add_constraint(Rod { between: [ORIGIN, Anchor::centre(body)], length: 1.0 });
+        world.advance_to(t);
+        let (place, velocity) = (world.location(body), world.velocity(body));
+        let found = reaction(&mut world);
+        // Towards the pivot, and right for its own angle and speed to rounding.
+        let own = -place.y * G + velocity.length_squared();
+        assert!((found.force + own * place).length() < 1e-11, "{found:?} {own}");
+        found.force.length() - G * (-3.0 * place.y - 2.0 * cos)
+    };
+    for t in [0.4, 0.9, 1.5] {
+        let [coarse, fine] = [0.02, 0.01].map(|h| error("rk4", h, t).abs());
+        // Kept energies lose a whole order: 2⁴ at least, less what the next order takes.
+        assert!(coarse < 1e-4 && fine < coarse / 12.0, "{t}: {coarse:e} {fine:e}");
+        let [coarse, fine] = [0.02, 0.01].map(|h| error("velocity-verlet", h, t).abs());
+        assert!(coarse < 0.05 && fine < coarse / 3.0, "{t}: {coarse:e} {fine:e}");
+    }
+}
+
+#[test]
+fn a_hinge_and_a_clamp_bear_the_torque_of_a_weight_beside_them() {
+    for method in methods() {
+        // The weight hangs below the axis z, and half a metre along it.
+        let r = DVec3::new(0.0, -1.0, 0.5);
+        let (mut hinged, body) = world(method, r);
+        let between = [ORIGIN, Anchor::Body { id: body, at: -r }];
+        hinged.add_constraint(Hinge::new(between, DVec3::Z, glam::DQuat::IDENTITY));
+        let found = reaction(&mut hinged);
+        assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, -0.5 * G, 0.0, 0.0), "{found:?}");
+
+        let r = DVec3::X * 2.0;
+        let (mut beam, body) = world(method, r);
+        let between = [ORIGIN, Anchor::Body { id: body, at: -r }];
+        beam.add_constraint(Fixed { between, turned: glam::DQuat::IDENTITY });
+        beam.advance_to(0.2);
+        let found = reaction(&mut beam);
+        assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, 0.0, 0.0, 2.0 * G), "{found:?}");
+    }
+}
+
+/// The same joint with its ends the other way round does the opposite; the world bears what a body does not.
+#[test]
+fn actions_are_opposite() {
+    let pair = |turned: bool| {
+        let (mut world, upper) = world(method("rk4"), DVec3::new(0.6, -0.8, 0.0));
+        let lower = world.add(ball().with_location(DVec3::new(1.4, -1.4, 0.3)));
+        let joint = DVec3::new(1.0, -1.0, 0.1);
+        let on = |id: BodyId, world: &World| Anchor::Body { id, at: joint - world.location(id) };
+        let mut between = [on(upper, &world), on(lower, &world)];
+        let mut top = [ORIGIN, Anchor::Body { id: upper, at: DVec3::new(-0.6, 0.8, 0.0) }];
+        if turned {
+            between.reverse();
+            top.reverse();
+        }
+        world.add_constraint(Fixed { between, turned: glam::DQuat::IDENTITY });
+        world.add_constraint(Ball { between: top });
+        world.advance_to(0.3);
+        world.snapshot().unwrap().reactions
+    };
+    let (plain, turned) = (pair(false), pair(true));
+    assert!(plain[0].torque.length() > 0.1 && plain[1].force.length() > G);
+    for (one, other) in plain.iter().zip(&turned) {
+        assert!((one.force + other.force).length() < 1e-9, "{one:?} {other:?}");
+        assert!((one.torque + other.torque).length() < 1e-9, "{one:?} {other:?}");
+    }
+}
+
+#[test]
+fn a_motor_that_is_too_weak_gives_what_it_has() {
+    let (mut world, body) = world(method("rk4"), DVec3::ZERO);
+    let freedom = Freedom { limits: None, motor: Some(Motor::Speed { speed: 1e3, limit: 0.25 }) };
+    let hinge = Hinge::new([ORIGIN, Anchor::centre(body)], DVec3::Z, glam::DQuat::IDENTITY);
+    world.add_constraint(hinge.with(freedom));
+    world.advance_to(0.1);
+    let found = reaction(&mut world);
+    assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, 0.0, 0.0, 0.25), "{found:?}");
+}
+
+/// A slider holds what it does not let move, and nothing along its axis.
+#[test]
+fn a_joint_whose_body_is_away_does_nothing() {
+    let (mut world, body) = world(method("rk4"), DVec3::ZERO);
+    world.limit(body, &Presence::during(&[[0.0, 0.5]]));
+    world.add_constraint(Slider {
+        between: [ORIGIN, Anchor::centre(body)],
+        axis: DVec3::new(0.6, 0.8, 0.0),
+        turned: glam::DQuat::IDENTITY,
+        freedom: Freedom::default(),
+    });
+    // m g less its part along the axis.
+    let found = reaction(&mut world);
+    assert!(is_near(found.force, -0.48 * G, 0.36 * G, 0.0), "{found:?}");
+    world.advance_to(1.0);
+    assert_eq!(reaction(&mut world), Reaction::default());
+}
