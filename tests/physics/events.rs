@@ -458,3 +458,24 @@ fn a_pulley_ends_at_its_wheels() {
         assert!((balance.accounts.limits - lost).abs() < slack, "{}: {balance:?} {lost}", method.name);
     }
 }
+
+/// A chain of slack ropes falls and becomes taut piece by piece. Ropes that hold at the same time are not hit in turn without
+/// end: an event takes some ten steps, and there are few.
+#[test]
+fn a_chain_of_ropes_has_few_events() {
+    let mut world = falling(method("rk4"), 2e-3);
+    let mut before = origin();
+    for i in 0..20 {
+        let k = f64::from(i);
+        let x = 0.2 * (k + 1.0) * libm::cos(0.3 * k);
+        let bob = world.add(ball().with_location(DVec3::new(x, 0.15 * libm::sin(1.7 * k), 0.0)));
+        world.add_constraint(Rope { between: [before, Anchor::centre(bob)], length: 1.2 });
+        before = Anchor::centre(bob);
+    }
+    for k in 1..=120 {
+        world.advance_to(0.05 * f64::from(k));
+        assert!(world.steps() < 3000 + 2000, "{} steps at {} s", world.steps(), world.time());
+    }
+    assert!(world.violation() < 1e-11);
+    assert!(world.balance().drift.abs() < 1e-3, "{:?}", world.balance());
+}

@@ -6,7 +6,7 @@ use super::modes::Mode;
 use super::solver::{self, Solver};
 
 /// An open stop may be passed by this part of its scale, and a speed by this part of the rates, before that is an event.
-const PASSED: f64 = 1e-12;
+pub(super) const PASSED: f64 = 1e-12;
 
 /// Multipliers may be on the wrong side by this part of the accelerations. It is more than what [`Solver::decide`] calls
 /// slight, so that each event changes something.

@@ -6,6 +6,8 @@
 //! with Unilateral Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
 
 use super::super::{Loads, Model, State};
+use super::events::PASSED;
+use super::member::Member;
 use super::solver::{self, Solver};
 use super::{Law, Row};
 
@@ -92,9 +94,15 @@ impl Solver {
         if let Some(structure) = &self.structure {
             solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
         }
+        let members = self.members.clone();
+        self.hold();
+        self.see_accelerations(model, t, state, loads, &members);
         let mut can_hold = vec![false; self.rows.len()];
         for i in 0..self.rows.len() {
-            let is_still = rates[i].abs() <= TOUCHED * size;
+            // What falls as far as a stop may be passed gets a rate of √(2 c'' c): such a rate is none, or two stops that both
+            // hold would be hit in turn without end.
+            let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
+            let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt());
             (self.modes[i], can_hold[i]) = match self.laws[i] {
                 Law::Tie => (Mode::Held, false),
                 Law::Stop if touched[i] && is_still => (Mode::Held, true),
@@ -103,7 +111,24 @@ impl Solver {
                 Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
             };
         }
-        self.go_on(model, t, state, loads, &can_hold);
+        self.go_on(model, t, state, loads, (&members, &can_hold));
+    }
+
+    /// c'' of each row, as the present modes make it. `members` are the bodies, which this uses up.
+    fn see_accelerations(
+        &mut self,
+        model: &Model,
+        t: f64,
+        state: &State,
+        loads: &mut Loads,
+        members: &[Member],
+    ) -> Vec<f64> {
+        let mut accelerations = vec![0.0; self.rows.len()];
+        self.members.copy_from_slice(members);
+        model.sum(t, state, loads);
+        let size = self.react_seeing(t, state, loads, &mut accelerations);
+        self.largest_acceleration = self.largest_acceleration.max(size);
+        accelerations
     }
 
     /// Takes the impulses of stops that are hit: those push, and after it nothing goes further into them. Gives the size of the
@@ -167,19 +192,22 @@ impl Solver {
     }
 
     /// Finds which of the rows that can hold go on doing so, by their accelerations.
-    fn go_on(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads, can_hold: &[bool]) {
+    fn go_on(
+        &mut self,
+        model: &Model,
+        t: f64,
+        state: &State,
+        loads: &mut Loads,
+        (members, can_hold): (&[Member], &[bool]),
+    ) {
         let n = self.rows.len();
         let is_free = can_hold.iter().all(|can| !can);
-        let mut accelerations = vec![0.0; n];
         for round in 0..rounds(n) {
             self.hold();
             if is_free {
                 return;
             }
-            self.is_ready = true;
-            model.sum(t, state, loads);
-            let size = self.react_seeing(t, state, loads, &mut accelerations);
-            self.largest_acceleration = self.largest_acceleration.max(size);
+            let accelerations = self.see_accelerations(model, t, state, loads, members);
             let size = self.largest_acceleration;
             let wrong = |i: usize| match (self.modes[i], self.laws[i]) {
                 _ if !can_hold[i] => 0.0,
