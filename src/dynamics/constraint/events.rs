@@ -2,8 +2,9 @@
 
 use super::super::{Breakdown, Loads, Model, State};
 use super::Law;
+use super::jacobian;
 use super::modes::Mode;
-use super::solver::{self, Solver};
+use super::solver::Solver;
 
 /// An open stop may be passed by this part of its scale, and a speed by this part of the rates, before that is an event.
 pub(super) const PASSED: f64 = 1e-12;
@@ -33,7 +34,7 @@ impl Solver {
         let mut rates = vec![0.0; n];
         let size = match &self.structure {
             Some(structure) => {
-                solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates)
+                jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates)
             }
             None => return (f64::INFINITY, 0),
         };

@@ -7,8 +7,9 @@
 
 use super::super::{Loads, Model, State};
 use super::events::PASSED;
+use super::jacobian;
 use super::member::Member;
-use super::solver::{self, Solver};
+use super::solver::Solver;
 use super::{Law, Row};
 
 /// What a row does.
@@ -92,7 +93,7 @@ impl Solver {
         self.measure(model, t, state);
         let mut rates = vec![0.0; self.rows.len()];
         if let Some(structure) = &self.structure {
-            solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
+            jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
         }
         let members = self.members.clone();
         self.hold();
@@ -141,7 +142,7 @@ impl Solver {
         }
         let size = match &self.structure {
             Some(structure) => {
-                solver::rates(structure, &self.jacobian, &self.members, &self.rows, &mut before)
+                jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut before)
             }
             None => return 0.0,
         };
@@ -166,8 +167,8 @@ impl Solver {
                 return size;
             };
             moved.clone_from(&members);
-            solver::move_members(structure, jacobian, unknown, moved);
-            solver::rates(structure, jacobian, moved, &self.rows, &mut after);
+            jacobian::move_members(structure, jacobian, unknown, moved);
+            jacobian::rates(structure, jacobian, moved, &self.rows, &mut after);
             let wrong = |i: usize| match self.modes[i] {
                 Mode::Held if touched[i] => -self.unknown[i] * self.weight(i),
                 Mode::Open if touched[i] => -after[i],
@@ -180,8 +181,8 @@ impl Solver {
             }
         }
         let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
-        solver::push(structure, jacobian, unknown, model, state);
-        solver::book(rows.iter().map(|row| row.rate), unknown, state);
+        jacobian::push(structure, jacobian, unknown, model, state);
+        jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
         // The work of the impulses is ½ Λ (c' before + c' after), beside what guides and motors have given.
         let mut taken = 0.0;
         for i in 0..n {

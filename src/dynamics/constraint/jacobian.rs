@@ -1,0 +1,104 @@
+//! Products with the Jacobian: rates and accelerations of rows, impulses and forces on bodies.
+
+use super::super::{Model, State};
+use super::member::Member;
+use super::structure::Structure;
+use super::{Direction, Row};
+
+/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to the accelerations in their place.
+pub(super) fn move_members(
+    structure: &Structure,
+    jacobian: &[Direction],
+    multipliers: &[f64],
+    members: &mut [Member],
+) {
+    for_each_direction(structure, jacobian, multipliers, |member, direction, multiplier| {
+        let member = &mut members[member];
+        member.velocity += multiplier * member.inverse_mass * direction.linear;
+        member.angular_velocity += member.turn(multiplier * direction.angular);
+    });
+}
+
+/// Calls back with each direction of the Jacobian, its member and the multiplier of its row.
+pub(super) fn for_each_direction(
+    structure: &Structure,
+    jacobian: &[Direction],
+    multipliers: &[f64],
+    mut act: impl FnMut(usize, &Direction, f64),
+) {
+    for (row, &multiplier) in structure.row_start.windows(2).zip(multipliers) {
+        if multiplier != 0.0 {
+            jacobian[row[0]..row[1]]
+                .iter()
+                .for_each(|direction| act(direction.member, direction, multiplier));
+        }
+    }
+}
+
+/// c' = J v + ∂c/∂t for the velocities of the members; the largest sum of the sizes of its terms.
+pub(super) fn rates(
+    structure: &Structure,
+    jacobian: &[Direction],
+    members: &[Member],
+    rows: &[Row],
+    out: &mut [f64],
+) -> f64 {
+    let mut largest = products(structure, jacobian, members, out);
+    for (rate, row) in out.iter_mut().zip(rows) {
+        *rate += row.rate;
+        largest = largest.max(row.rate.abs());
+    }
+    largest
+}
+
+/// J v for the velocities of the members, or J a where accelerations stand in their place; the largest sum of the sizes of its
+/// terms.
+pub(super) fn products(
+    structure: &Structure,
+    jacobian: &[Direction],
+    members: &[Member],
+    out: &mut [f64],
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for (row, out) in structure.row_start.windows(2).zip(out) {
+        let (mut sum, mut size) = (0.0, 0.0);
+        for direction in &jacobian[row[0]..row[1]] {
+            let member = &members[direction.member];
+            let moving = direction.linear.dot(member.velocity);
+            let turning = direction.angular.dot(member.angular_velocity);
+            sum += moving + turning;
+            size += moving.abs() + turning.abs();
+        }
+        *out = sum;
+        largest = largest.max(size);
+    }
+    largest
+}
+
+/// Books the work of the impulses Λ of rows that move with time: Λ J v, since J v + ∂c/∂t = 0.
+pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &mut State) {
+    for (rate, impulse) in rates.zip(impulses) {
+        state.accounts.motors -= impulse * rate;
+    }
+}
+
+/// Gives the bodies the impulses Jᵀ Λ. What guides a body bears the impulse on it, and so does its work, with the opposite sign.
+pub(super) fn push(
+    structure: &Structure,
+    jacobian: &[Direction],
+    impulses: &[f64],
+    model: &Model,
+    state: &mut State,
+) {
+    for_each_direction(structure, jacobian, impulses, |member, direction, impulse| {
+        let i = structure.bodies[member];
+        let inverse_mass = model.inverse_mass()[i];
+        if inverse_mass != 0.0 {
+            state.velocity[i] += impulse * inverse_mass * direction.linear;
+            state.angular_momentum[i] += impulse * direction.angular;
+        } else {
+            let turning = direction.angular.dot(model.angular_velocity(i, state));
+            state.accounts.work -= impulse * (direction.linear.dot(state.velocity[i]) + turning);
+        }
+    });
+}

@@ -1,0 +1,131 @@
+//! The way to where the constraints hold: the impulses of SHAKE and RATTLE, and the projections after a step.
+
+use glam::{DQuat, DVec3};
+
+use super::super::integrator::drift_body;
+use super::super::{Model, State};
+use super::jacobian::{book, for_each_direction, move_members, push, rates};
+use super::solver::{FAILURE, Solver};
+
+/// By how much an equation may fail to hold, as a part of its scale: a few roundings.
+const ROUNDING: f64 = 1e-15;
+
+/// Iterations contract by the square of the angle of a step at least; more would mean that they do not converge.
+const ITERATIONS: usize = 60;
+
+impl Solver {
+    /// Changes the velocities at the beginning of a step such that free bodies are where the constraints hold after it: the
+    /// impulses of SHAKE and RATTLE. The step has begun with [`begin`](Self::begin) at these places.
+    pub(in crate::dynamics) fn aim(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
+        if model.constraints().is_empty() {
+            return;
+        }
+        self.is_ready = false;
+        self.first.clone_from(&self.jacobian);
+        self.first_rates.clear();
+        self.first_rates.extend(self.rows.iter().map(|row| row.rate));
+        let mut trial = std::mem::take(&mut self.trial);
+        trial.clone_from(state);
+        model.place(t + dt, &mut trial);
+        let mut before = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
+            for &i in bodies.filter(|&&i| model.inverse_mass()[i] != 0.0) {
+                trial.location[i] = state.location[i];
+                trial.orientation[i] = state.orientation[i];
+                trial.velocity[i] = state.velocity[i];
+                trial.angular_momentum[i] = state.angular_momentum[i];
+                drift_body(model, dt, &mut trial, i);
+            }
+            self.measure(model, t + dt, &trial);
+            let worst = self.worst();
+            if worst <= ROUNDING || (worst < FAILURE && worst > 0.5 * before) {
+                break;
+            }
+            before = worst;
+            for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
+                *value = -row.violation / dt;
+            }
+            self.factor.solve(&mut self.unknown);
+            let Solver { structure: Some(structure), first, unknown, .. } = &*self else { break };
+            push(structure, first, unknown, model, state);
+            book(self.first_rates.iter().copied(), &self.unknown, state);
+        }
+        self.trial = trial;
+        self.blame(model, t + dt);
+    }
+
+    /// Moves the bodies the shortest way to where all constraints hold, as M measures it, and takes out of their velocities what
+    /// leads away from there.
+    pub(in crate::dynamics) fn settle(&mut self, model: &Model, t: f64, state: &mut State) {
+        if model.constraints().is_empty() {
+            return;
+        }
+        self.is_ready = false;
+        self.plan(model);
+        self.settle_places(model, t, state);
+        self.blame(model, t);
+        self.settle_velocities(model, state);
+    }
+
+    pub(super) fn settle_places(&mut self, model: &Model, t: f64, state: &mut State) {
+        let mut before = f64::INFINITY;
+        self.is_factorised = false;
+        for _ in 0..ITERATIONS {
+            self.measure_places(model, t, state);
+            let worst = self.worst();
+            let is_slow = worst > 0.1 * before;
+            if worst <= ROUNDING || (worst < FAILURE && is_slow) {
+                return;
+            }
+            if !self.is_factorised || is_slow {
+                self.factorise(false);
+            }
+            before = worst;
+            for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
+                *value = -row.violation;
+            }
+            self.factor.solve(&mut self.unknown);
+            let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
+                return;
+            };
+            for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
+                let (i, member) = (structure.bodies[member], &members[member]);
+                state.location[i] += multiplier * member.inverse_mass * direction.linear;
+                let turn = member.turn(multiplier * direction.angular);
+                if turn != DVec3::ZERO {
+                    state.orientation[i] = (DQuat::from_scaled_axis(turn) * state.orientation[i]).normalize();
+                }
+            });
+        }
+    }
+
+    pub(super) fn settle_velocities(&mut self, model: &Model, state: &mut State) {
+        let mut before = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self else {
+                return;
+            };
+            let scale = rates(structure, jacobian, members, rows, unknown);
+            let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
+            let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
+            // A NaN ends it as well.
+            if !(worst > ROUNDING * scale && worst < 0.5 * before) {
+                return;
+            }
+            before = worst;
+            if !self.is_factorised {
+                self.factorise(false);
+            }
+            let Solver { structure: Some(structure), members, jacobian, unknown, factor, rows, .. } = self
+            else {
+                return;
+            };
+            unknown.iter_mut().for_each(|rate| *rate = -*rate);
+            factor.solve(unknown);
+            push(structure, jacobian, unknown, model, state);
+            book(rows.iter().map(|row| row.rate), unknown, state);
+            move_members(structure, jacobian, unknown, members);
+        }
+    }
+}
