@@ -1,10 +1,9 @@
 //! Frames as the page reads them: little-endian 64-bit numbers.
 
 use std::io;
-use std::sync::Arc;
 
 use crate::dynamics::Balance;
-use crate::simulate::Recording;
+use crate::simulate::Reader;
 
 /// The numbers that are said of all bodies of a frame together.
 #[cfg(test)]
@@ -22,11 +21,10 @@ pub(super) fn pose_bytes(bodies: usize) -> usize {
 /// Where all bodies are in some frames: of each frame, the locations of all, then the orientations of all, x y z w. Those of a
 /// body that is not there are not numbers.
 pub(super) fn poses(
-    recording: &Arc<Recording>,
+    reader: &mut Reader,
     bodies: usize,
     frames: impl Iterator<Item = usize>,
 ) -> io::Result<Vec<u8>> {
-    let mut reader = recording.read();
     let mut bytes = Vec::new();
     for frame in frames {
         let snapshot = reader.frame(frame)?;

@@ -198,7 +198,9 @@ async fn poses(
     let run = server.run(id)?;
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
     tokio::spawn(async move {
-        let (mut frame, end) = (frames.from, frames.end(&run));
+        let (mut frame, end, bodies) = (frames.from, frames.end(&run), run.scene.bodies.len());
+        // One reader for all of them: it goes on from where it is, and a new one would read a page from its beginning.
+        let mut reader = None;
         while frame < end && !sender.is_closed() {
             let (is_over, recorded) = (run.outcome().is_some(), run.recorded().min(end));
             if frame >= recorded {
@@ -208,13 +210,20 @@ async fn poses(
                 tokio::time::sleep(LOOK).await;
                 continue;
             }
-            let many = (TOGETHER / numbers::pose_bytes(run.scene.bodies.len()).max(1)).max(1);
+            let many = (TOGETHER / numbers::pose_bytes(bodies).max(1)).max(1);
             let until = recorded.min(frame + many);
-            let read = Arc::clone(&run);
-            let bytes = tokio::task::spawn_blocking(move || {
-                numbers::poses(&read.recording(), read.scene.bodies.len(), frame..until).map(Bytes::from)
+            let mut mine = reader.take().unwrap_or_else(|| run.recording().read());
+            let read = tokio::task::spawn_blocking(move || {
+                let bytes = numbers::poses(&mut mine, bodies, frame..until).map(Bytes::from);
+                (bytes, mine)
             });
-            let bytes = bytes.await.unwrap_or_else(|error| Err(std::io::Error::other(error)));
+            let bytes = match read.await {
+                Ok((bytes, mine)) => {
+                    reader = Some(mine);
+                    bytes
+                }
+                Err(error) => Err(std::io::Error::other(error)),
+            };
             if sender.send(bytes).await.is_err() {
                 return;
             }

@@ -147,7 +147,9 @@ export class Run {
       const recorded = this.progress?.recorded ?? 0;
       const unseen = this.hasShown ? this.unseen(frame, view, recorded) : undefined;
       if (frame < recorded && !this.poses(frame)) {
-        await this.fetchPoses(Math.floor(frame / this.together), recorded);
+        // The first frame is fetched without those after it, so it is drawn sooner.
+        const until = this.pieces.size ? recorded : frame + 1;
+        await this.fetchPoses(Math.floor(frame / this.together), until);
       } else if (unseen !== undefined) {
         await this.fetchShown(unseen, view, recorded);
       } else {

@@ -5,8 +5,11 @@
 
 mod codec;
 mod store;
+#[cfg(test)]
+mod tests;
 
 use std::io;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 use self::codec::{Decoder, Encoder, damaged};
@@ -108,7 +111,17 @@ impl Recording {
 
     /// A reader at the first moment.
     pub fn read(self: &Arc<Self>) -> Reader {
-        Reader { recording: Arc::clone(self), next: 0, page: None, decoder: Decoder::new(self.counts), at: 0 }
+        let decoder = Decoder::new(self.counts);
+        Reader {
+            recording: Arc::clone(self),
+            next: 0,
+            page: None,
+            decoder,
+            at: 0,
+            known: None,
+            #[cfg(test)]
+            decoded: 0,
+        }
     }
 
     fn encoder(&self) -> MutexGuard<'_, Encoder> {
@@ -135,17 +148,19 @@ impl Recording {
         contents.frames.partition_point(|&frame| frame as usize <= moment).saturating_sub(1)
     }
 
-    /// The page that holds a moment: the number of its first one, and its bytes.
-    fn page_of(&self, moment: usize) -> io::Result<(usize, Option<usize>, Arc<[u8]>)> {
+    /// The page that holds a moment, as far as it is written.
+    fn page_of(&self, moment: usize) -> io::Result<Page> {
         let contents = self.contents();
         if moment >= contents.first {
-            return Ok((contents.first, None, contents.open.as_slice().into()));
+            let moments = contents.first..contents.times.len();
+            return Ok(Page { moments, bytes: contents.open.as_slice().into() });
         }
-        let number = contents.pages.partition_point(|&first| first as usize <= moment);
-        let number = number.checked_sub(1).ok_or_else(damaged)?;
-        let first = contents.pages[number] as usize;
+        let next = contents.pages.partition_point(|&first| first as usize <= moment);
+        let number = next.checked_sub(1).ok_or_else(damaged)?;
+        let end = contents.pages.get(next).map_or(contents.first, |&end| end as usize);
+        let moments = contents.pages[number] as usize..end;
         drop(contents);
-        Ok((first, Some(number), self.store.page(number)?))
+        Ok(Page { moments, bytes: self.store.page(number)? })
     }
 }
 
@@ -181,15 +196,25 @@ impl Contents {
     }
 }
 
+/// A page as it was when it was read. One that was not full may have more moments now, behind these.
+struct Page {
+    moments: Range<usize>,
+    bytes: Arc<[u8]>,
+}
+
 /// Reads a recording moment by moment, from wherever it is put.
 pub struct Reader {
     recording: Arc<Recording>,
     next: usize,
-    /// The page that it is in: the number of its first moment, its number (none: it is not full yet), its bytes.
-    page: Option<(usize, Option<usize>, Arc<[u8]>)>,
+    /// The page that it is in.
+    page: Option<Page>,
     decoder: Decoder,
     /// The number of the moment that the decoder is at.
     at: usize,
+    /// The one body that the decoder knows; none: it knows all.
+    known: Option<usize>,
+    #[cfg(test)]
+    decoded: usize,
 }
 
 impl Reader {
@@ -212,7 +237,7 @@ impl Reader {
 
     /// The next moment; none at the end of what is recorded so far.
     pub(super) fn entry(&mut self) -> io::Result<Option<Entry>> {
-        self.advance(Decoder::decode)
+        self.advance(None, Decoder::decode)
     }
 
     /// A frame as it was recorded.
@@ -227,7 +252,7 @@ impl Reader {
     }
 
     /// One body in a frame, and what is said of all bodies together; none if the body is not there. It takes less time than to
-    /// read all.
+    /// read all, above all frame after frame.
     ///
     /// # Errors
     /// Where the frame is not there, or cannot be read.
@@ -235,10 +260,8 @@ impl Reader {
         if !self.seek_frame(frame) {
             return Err(damaged());
         }
-        // What the decoder knows of other bodies does not hold any more, and what it knows of this one may not.
-        self.page = None;
-        let found = self.advance(|decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
-        self.page = None;
+        let found = self
+            .advance(Some(body), |decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
         let snapshot = found.ok_or_else(damaged)?.snapshot;
         let body = snapshot.bodies.first().copied();
         Ok((snapshot, body))
@@ -246,6 +269,7 @@ impl Reader {
 
     fn advance(
         &mut self,
+        known: Option<usize>,
         mut decode: impl FnMut(&mut Decoder, &[u8]) -> io::Result<Entry>,
     ) -> io::Result<Option<Entry>> {
         let moment = self.next;
@@ -253,31 +277,28 @@ impl Reader {
         if moment >= count {
             return Ok(None);
         }
-        let is_in_page = self.page.as_ref().is_some_and(|(first, number, _)| {
-            let contents = self.recording.contents();
-            match number {
-                // A page that was not full may have grown since it was read.
-                None => false,
-                Some(number) => {
-                    let end = contents.pages.get(number + 1).map_or(contents.first, |&end| end as usize);
-                    (*first..end).contains(&moment)
-                }
-            }
-        });
-        if !is_in_page {
+        if !self.page.as_ref().is_some_and(|page| page.moments.contains(&moment)) {
             let page = self.recording.page_of(moment)?;
-            self.at = page.0;
+            // In a page that has only grown, the decoder is where it was.
+            if self.page.as_ref().is_none_or(|before| before.moments.start != page.moments.start) {
+                self.at = page.moments.start;
+                self.decoder.begin_page();
+            }
             self.page = Some(page);
-            self.decoder.begin_page();
         }
-        let Some((first, _, bytes)) = &self.page else { return Err(damaged()) };
-        if self.at > moment {
-            self.at = *first;
+        let Some(Page { moments, bytes }) = &self.page else { return Err(damaged()) };
+        if self.at > moment || self.known != known {
+            self.known = known;
+            self.at = moments.start;
             self.decoder.begin_page();
         }
         loop {
             let entry = decode(&mut self.decoder, bytes)?;
             self.at += 1;
+            #[cfg(test)]
+            {
+                self.decoded += 1;
+            }
             if self.at > moment {
                 self.next = moment + 1;
                 return Ok(Some(entry));

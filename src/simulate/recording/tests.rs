@@ -1,0 +1,61 @@
+use glam::{DQuat, DVec3};
+
+use super::*;
+use crate::dynamics::{Accounts, Balance};
+
+/// More than two pages of frames, in which body 0 moves and body 1 rests.
+const FRAMES: usize = 2 * MOMENTS + 5;
+
+fn push(recording: &Recording, frame: usize) {
+    let body = |id, x| BodySnapshot {
+        id,
+        location: DVec3::new(x, 0.0, 0.0),
+        orientation: DQuat::IDENTITY,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        force: DVec3::ZERO,
+    };
+    let x = f64::from(u32_of(frame));
+    let balance = Balance {
+        kinetic: 0.0,
+        potential: 0.0,
+        accounts: Accounts::default(),
+        total: 0.0,
+        linear_momentum: DVec3::ZERO,
+        angular_momentum: DVec3::ZERO,
+        drift: 0.0,
+    };
+    let snapshot = Snapshot { time: x, bodies: vec![body(0, x), body(1, 7.0)], reactions: Vec::new(), balance };
+    recording.push(&Entry { frame: Some(frame), snapshot }).unwrap();
+}
+
+/// A moment is what has changed since the one before. Who follows a run while it is recorded must not read the
+/// page from its beginning for each frame.
+#[test]
+fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
+    let recording = Arc::new(Recording::new(Counts { bodies: 2, joints: 0 }, Box::<MemoryStore>::default()));
+    let (mut all, mut one) = (recording.read(), recording.read());
+    for frame in 0..FRAMES {
+        push(&recording, frame);
+        let x = f64::from(u32_of(frame));
+        // Also the first frame of a page is there before the page is full.
+        assert_eq!(all.frame(frame).unwrap().bodies[0].location.x, x);
+        assert_eq!(one.body(frame, 0).unwrap().1.unwrap().location.x, x);
+    }
+    assert_eq!((all.decoded, one.decoded), (FRAMES, FRAMES));
+}
+
+/// A reader that has read one body only knows nothing of the others.
+#[test]
+fn one_body_and_all_can_be_read_in_any_order() {
+    let recording = Arc::new(Recording::new(Counts { bodies: 2, joints: 0 }, Box::<MemoryStore>::default()));
+    (0..FRAMES).for_each(|frame| push(&recording, frame));
+    let mut reader = recording.read();
+    for frame in [3, 40, 41, 2, 68, 0, 35] {
+        let x = f64::from(u32_of(frame));
+        assert_eq!(reader.body(frame, 1).unwrap().1.unwrap().location.x, 7.0);
+        assert_eq!(reader.body(frame, 0).unwrap().1.unwrap().location.x, x);
+        let bodies = reader.frame(frame).unwrap().bodies;
+        assert_eq!(bodies.iter().map(|body| body.location.x).collect::<Vec<_>>(), [x, 7.0]);
+    }
+}
