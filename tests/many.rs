@@ -187,3 +187,84 @@ fn labels_know_copies_by_their_names() {
     let script = &scripts(text)[0];
     assert!(script.contains("a = 9, b = 16.0") && script.contains("c = "), "{script}");
 }
+
+/// Twenty pendulums are one body and one joint; a chain is one body and one joint, too.
+#[test]
+fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
+    let scene = Scene::parse(
+        r#"
+        [variables]
+        count = 5
+        [body.hook]
+        repeat = "count"
+        shape.sphere.radius = 0.1
+        location = ["i", 2, 0]
+        fixed = true
+        [body.bob]
+        repeat = "count"
+        shape.sphere.radius = 0.1
+        location = ["i", "1 - i/10", 0]
+        [joint.string.rod]
+        between = ["hook[i]", "bob[i]"]
+        [joint.chain.rod]
+        between = ["bob[i]", { body = "bob[i+1]", at = [0, 0, 0] }]
+        [joint.last.rod]
+        between = ["hook[count-1]", [4, 3, 0]]
+        [force.some]
+        repeat = 3
+        spring.between = [["i", 0, "2*i"], "bob[count-1-i]"]
+        spring.stiffness = "1 + i"
+        "#,
+    );
+    // The last rod holds nothing that moves.
+    let report = scene.unwrap_err().to_text(false);
+    assert_eq!(report.matches("error").count(), 1, "{report}");
+    assert!(report.contains("the joint `last` cannot hold anything"), "{report}");
+}
+
+#[test]
+fn copies_of_joints_and_forces_have_names_and_numbers_of_their_own() {
+    let text = r#"
+        [body.hook]
+        repeat = 4
+        shape.sphere.radius = 0.1
+        location = ["i", 2, 0]
+        fixed = true
+        [body.bob]
+        repeat = 4
+        shape.sphere.radius = 0.1
+        location = ["i", "1 - i/10", 0]
+        [joint.string.rod]
+        between = ["hook[i]", "bob[i]"]
+        [joint.chain.rod]
+        between = ["bob[i]", { body = "bob[i+1]", at = [0, 0, 0] }]
+        [force.some]
+        repeat = 3
+        spring.between = [["i", 0, 0], "bob[3-i]"]
+        spring.stiffness = "1 + i"
+        "#;
+    let scene = Scene::parse(text).unwrap();
+    let names: Vec<&str> = scene.joints.iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["string[0]", "string[1]", "string[2]", "string[3]", "chain[0]", "chain[1]", "chain[2]"]
+    );
+    // One by one, they are the same joints and forces.
+    let mut by_hand: String = text.split("[joint").next().unwrap().to_owned();
+    for i in 0..4 {
+        by_hand += &format!("[joint.\"string[{i}]\".rod]\nbetween = [\"hook[{i}]\", \"bob[{i}]\"]\n");
+    }
+    for i in 0..3 {
+        by_hand += &format!("[joint.\"chain[{i}]\".rod]\nbetween = [\"bob[{i}]\", \"bob[{}]\"]\n", i + 1);
+    }
+    for i in 0..3 {
+        by_hand += &format!(
+            "[force.\"some[{i}]\".spring]\nbetween = [[{i}, 0, 0], \"bob[{}]\"]\nstiffness = {}\n",
+            3 - i,
+            1 + i
+        );
+    }
+    let by_hand = Scene::parse(&by_hand).unwrap();
+    assert_eq!(format!("{:?}", scene.joints), format!("{:?}", by_hand.joints));
+    assert_eq!(format!("{:?}", scene.forces), format!("{:?}", by_hand.forces));
+}

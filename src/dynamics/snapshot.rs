@@ -92,6 +92,16 @@ impl BodySnapshot {
             && self.velocity.is_finite()
             && self.angular_velocity.is_finite()
     }
+
+    /// Where a point of the body is, and its velocity: a place in the body's own axes, from its centre of mass, m.
+    #[must_use]
+    pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
+        if at == DVec3::ZERO {
+            return (self.location, self.velocity);
+        }
+        let arm = self.orientation * at;
+        (self.location + arm, self.velocity + self.angular_velocity.cross(arm))
+    }
 }
 
 impl std::fmt::Display for Breakdown {

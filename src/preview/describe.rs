@@ -67,6 +67,8 @@ struct BodyText<'a> {
 struct TrailText {
     /// How far back it goes, s.
     duration: Option<f64>,
+    /// The point of the body that leaves it, in its own axes, m.
+    at: [f64; 3],
 }
 
 /// One of the forms that a body is drawn of.
@@ -249,7 +251,10 @@ fn body(body: &Body) -> BodyText<'_> {
             Shape::Axes { length } => Some(length),
             _ => None,
         },
-        trail: body.showing.trail.map(|trail| TrailText { duration: trail.duration }),
+        trail: body
+            .showing
+            .trail
+            .map(|trail| TrailText { duration: trail.duration, at: (trail.at * body.look.scale).to_array() }),
     }
 }
 

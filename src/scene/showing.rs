@@ -1,5 +1,7 @@
 //! The part of a checked scene that shows its physics: arrows, axes, ghosts, trails and springs.
 
+use glam::DVec3;
+
 use super::Color;
 
 /// What is shown of a body beside itself.
@@ -89,6 +91,8 @@ pub struct Trail {
     pub width: Option<f64>,
     /// Its color; none: that of the body.
     pub color: Option<Color>,
+    /// The point of the body that leaves it, in the body's own axes, from its centre of mass, m.
+    pub at: DVec3,
 }
 
 /// How a spring is drawn. What is not given follows from its length and from what it is fastened to.

@@ -7,12 +7,12 @@ use glam::DVec3;
 use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
-use crate::scene::grammar::{Key, Kind, TableSpec};
+use crate::scene::grammar::{DefaultValue, Key, Kind, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
-/// A table as its description knows it, to read values from. A value that is absent, or wrong (which the
-/// validation has said), reads as `None`.
+/// A table as its description knows it, to read values from. A value that is absent reads as its default, and so does
+/// one that is wrong, which the validation has said. Where the description has no value for a default, it reads as `None`.
 #[derive(Clone, Copy)]
 pub(in crate::scene) struct View<'a> {
     spec: &'static TableSpec,
@@ -80,23 +80,44 @@ impl<'a> View<'a> {
         self.node(name).is_some()
     }
 
+    /// The value of a key, or its default. What is of another kind than this, where a key may be of several, is neither.
+    fn read<T>(
+        &self,
+        name: &str,
+        read: impl FnOnce(&'a Node) -> Option<T>,
+        default: impl FnOnce(DefaultValue) -> Option<T>,
+    ) -> Option<T> {
+        let key = self.spec.key(name)?;
+        match self.node(name) {
+            Some(node) if matches!(key.kind, Kind::Either(_)) => read(node),
+            Some(node) => read(node).or_else(|| default(key.default)),
+            None => default(key.default),
+        }
+    }
+
     pub(in crate::scene) fn number(&self, name: &str) -> Option<f64> {
         let Kind::Number(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Number(_)))? else {
             return None;
         };
-        read::number(self.node(name)?, *bound).ok()
+        self.read(name, |node| read::number(node, *bound).ok(), DefaultValue::number)
     }
 
     pub(in crate::scene) fn integer(&self, name: &str) -> Option<i64> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::Integer(..)))?;
         let Kind::Integer(low, high) = kind else { return None };
-        read::integer(self.node(name)?, *low, *high).ok()
+        self.read(name, |node| read::integer(node, *low, *high).ok(), DefaultValue::integer)
+    }
+
+    /// A whole number that counts something.
+    pub(in crate::scene) fn count(&self, name: &str) -> Option<u32> {
+        self.integer(name).and_then(|count| u32::try_from(count).ok())
     }
 
     pub(in crate::scene) fn vector(&self, name: &str) -> Option<DVec3> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::Numbers(3, _)))?;
         let Kind::Numbers(_, bound) = kind else { return None };
-        read::vector(self.node(name)?, *bound)
+        let default = |default: DefaultValue| default.numbers().map(DVec3::from_array);
+        self.read(name, |node| read::vector(node, *bound), default)
     }
 
     /// A number that may change with time.
@@ -104,7 +125,8 @@ impl<'a> View<'a> {
         let Kind::Timed(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Timed(_)))? else {
             return None;
         };
-        read::timed(self.node(name)?, *bound).ok()
+        let default = |default: DefaultValue| default.number().map(Timed::Constant);
+        self.read(name, |node| read::timed(node, *bound).ok(), default)
     }
 
     /// A vector that may change with time.
@@ -123,25 +145,38 @@ impl<'a> View<'a> {
     /// A direction as a unit vector.
     pub(in crate::scene) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         self.kind_of(name, |kind| matches!(kind, Kind::Direction(n) if *n == N))?;
-        read::direction(self.node(name)?).ok()
+        self.read(name, |node| read::direction(node).ok(), DefaultValue::numbers)
     }
 
     pub(in crate::scene) fn boolean(&self, name: &str) -> Option<bool> {
         self.kind_of(name, |kind| matches!(kind, Kind::Boolean))?;
-        match self.node(name)?.value {
+        let read = |node: &Node| match node.value {
             Value::Boolean(value) => Some(value),
             _ => None,
-        }
+        };
+        self.read(name, read, DefaultValue::flag)
     }
 
     pub(in crate::scene) fn color(&self, name: &str) -> Option<Color> {
         self.kind_of(name, |kind| matches!(kind, Kind::Color))?;
-        read::color(self.node(name)?).ok()
+        self.read(name, |node| read::color(node).ok(), |default| default.word().and_then(Color::parse))
     }
 
     /// A string of any kind.
     pub(in crate::scene) fn text(&self, name: &str) -> Option<&'a str> {
-        self.node(name)?.as_str()
+        self.read(name, |node| node.as_str(), DefaultValue::word)
+    }
+
+    /// Which one of these a word names.
+    pub(in crate::scene) fn choice<T: Copy, const N: usize>(
+        &self,
+        name: &str,
+        all: [T; N],
+        word_of: impl Fn(T) -> &'static str,
+    ) -> T {
+        let named = |word: &str| all.into_iter().find(|one| word_of(*one) == word);
+        // The grammar's default is one of these; a test sees to that.
+        self.read(name, |node| named(node.as_str()?), |default| named(default.word()?)).unwrap_or(all[0])
     }
 
     /// Like [`View::text`], in the memory that all copies of a body have together.
@@ -175,7 +210,8 @@ impl<'a> View<'a> {
     pub(in crate::scene) fn integers(&self, name: &str) -> Option<Vec<i64>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Integer(..), .. }))?;
         let Kind::List { of: Kind::Integer(low, high), .. } = kind else { return None };
-        self.list(name)?.iter().map(|item| read::integer(item, *low, *high).ok()).collect()
+        let whole = |item| read::integer(item, *low, *high).ok();
+        self.read(name, |_| self.list(name)?.iter().map(whole).collect(), DefaultValue::integers)
     }
 
     /// The numbers of a list of any length; none where one of them is wrong.

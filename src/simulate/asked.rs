@@ -150,8 +150,10 @@ impl Asked {
         }
         for trail in &mut self.trails {
             let Some(body) = frame.body(trail.body) else { continue };
-            let begin = *trail.begin.get_or_insert(body.location);
-            trail.way = trail.way.max(begin.distance(body.location));
+            let at = scene.bodies[trail.body].showing.trail.map_or(DVec3::ZERO, |trail| trail.at);
+            let (place, _) = body.point(at * scene.bodies[trail.body].look.scale);
+            let begin = *trail.begin.get_or_insert(place);
+            trail.way = trail.way.max(begin.distance(place));
         }
         for ghosts in &mut self.ghosts {
             if let Some(body) = frame.body(ghosts.body) {

@@ -25,7 +25,7 @@ pub struct Past {
     pub lagging: Vec<Lagging>,
 }
 
-/// The way of a body up to a moment.
+/// The way of a body, or of a point of it, up to a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
     /// The number of the body.
@@ -36,7 +36,7 @@ pub struct Way {
     pub stride: usize,
 }
 
-/// A point that a body has passed.
+/// A point that a body has passed, or a point of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passed {
     /// When, s.
@@ -96,7 +96,14 @@ impl History {
     pub(super) fn new(scene: &Scene) -> History {
         let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
         let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
-        let asks: Arc<[_]> = asks.map(|(number, showing)| (number, showing.clone())).collect();
+        let as_drawn = |(number, showing): (usize, &Showing)| {
+            let mut showing = showing.clone();
+            if let Some(trail) = &mut showing.trail {
+                trail.at *= scene.bodies[number].look.scale;
+            }
+            (number, showing)
+        };
+        let asks: Arc<[_]> = asks.map(as_drawn).collect();
         History {
             ways: vec![Vec::new(); asks.len()],
             is_away: vec![false; asks.len()],
@@ -150,7 +157,7 @@ impl History {
             way.retain(|(index, _)| index % stride == 0);
             if frame.index.is_multiple_of(stride) {
                 let Some(body) = present else { continue };
-                let point = Passed::of(frame.time, body);
+                let point = Passed::of(frame.time, body, trail);
                 way.push((frame.index, Passed { frame: Some(frame.index), ..point }));
             }
         }
@@ -163,7 +170,7 @@ impl History {
             let Some(trail) = showing.trail else { continue };
             let mut points: Vec<Passed> = way.iter().map(|(_, point)| *point).collect();
             if points.last().is_none_or(|last| last.time < moment.time) {
-                points.extend(moment.body(*body).map(|body| Passed::of(moment.time, body)));
+                points.extend(moment.body(*body).map(|body| Passed::of(moment.time, body, trail)));
             }
             if let Some(duration) = trail.duration {
                 cut(&mut points, moment.time - duration);
@@ -179,8 +186,9 @@ impl History {
 }
 
 impl Passed {
-    fn of(time: f64, body: &BodySnapshot) -> Passed {
-        Passed { time, location: body.location, velocity: body.velocity, frame: None }
+    fn of(time: f64, body: &BodySnapshot, trail: Trail) -> Passed {
+        let (location, velocity) = body.point(trail.at);
+        Passed { time, location, velocity, frame: None }
     }
 }
 
@@ -277,6 +285,24 @@ mod tests {
             let t = 0.5 * (pair[0].time + pair[1].time);
             let place = DVec3::new(t, 5.0 * t - 5.0 * t * t, 0.0);
             assert!(pair[0].towards(&pair[1], t).abs_diff_eq(place, 2e-3), "{t}");
+        }
+    }
+
+    /// A point at the rim of a wheel that rolls goes along a cycloid, and stands still where it touches the ground.
+    #[test]
+    fn a_trail_of_a_point_turns_with_its_body() {
+        let text =
+            "simulation = { duration = 4, integrator = 'rk4' }\n[body.wheel]\nshape.sphere.radius = 0.5
+            velocity = [1, 0, 0]\nangular_velocity = [0, 0, -2]\ntrail.at = [0, -0.5, 0]";
+        let frame = Frames::at(&Scene::parse(text).unwrap(), 4.0).unwrap();
+        let points = &frame.past.trails[0].points;
+        assert_eq!(points.len(), 101);
+        for point in points {
+            let (sin, cos) = libm::sincos(2.0 * point.time);
+            let place = DVec3::new(point.time - 0.5 * sin, -0.5 * cos, 0.0);
+            // rk4 turns by 2 rad/s with steps of 1/250 s: (h ω)⁵/120 a step, times 1,000.
+            assert!(point.location.abs_diff_eq(place, 3e-10), "{point:?}");
+            assert!(point.velocity.abs_diff_eq(DVec3::new(1.0 - cos, sin, 0.0), 1e-9), "{point:?}");
         }
     }
 

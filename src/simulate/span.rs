@@ -131,6 +131,9 @@ impl Span {
                 None => reach.add(root, vector),
             }
         }
+        if let Some(trail) = body.showing.trail.filter(|trail| trail.at != DVec3::ZERO) {
+            seen = seen.union_if_finite(frame.point(trail.at * body.look.scale).0);
+        }
         if let Some(length) = axis(body) {
             for axis in DMat3::from_quat(frame.orientation).to_cols_array_2d() {
                 seen = seen.union_if_finite(frame.location + DVec3::from_array(axis) * length * 1.1);

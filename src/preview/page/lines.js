@@ -79,17 +79,19 @@ export function axes(lines, { location, turn, length: arm }) {
   });
 }
 
-/** The way of a body up to the present position in the film, as far as its frames are there. */
+/** The way of a body, or of a point of it, up to the present position in the film, as far as its frames are there. */
 export function trail(lines, run, { body, radius, color, tapers }, position, most) {
   const rate = run.rate;
-  const duration = run.description.bodies[body].trail?.duration;
+  const { duration, at = [0, 0, 0] } = run.description.bodies[body].trail ?? {};
+  const isCentre = at.every((number) => number === 0);
+  const pointOf = (pose) => (isCentre ? pose.slice(0, 3) : add(pose.slice(0, 3), turned(pose.slice(3), at)));
   const first = duration ? Math.max(0, position - duration * rate) : 0;
   const points = [];
   const stride = Math.max(1, Math.ceil((position - first) / Math.min(1500, most)));
   let away = false;
   for (let frame = Math.ceil(first); frame < position; frame += stride) {
     const poses = run.poses(frame);
-    const place = poses && Array.from(poses.subarray(3 * body, 3 * body + 3));
+    const place = poses && pointOf(poseIn(poses, run.bodies, body));
     const wasAway = away;
     away = place !== undefined && !isThere(place);
     // A body that comes back has no way from where it went.
@@ -99,13 +101,19 @@ export function trail(lines, run, { body, radius, color, tapers }, position, mos
   const here = run.posesAt(position)?.(body);
   if (here && isThere(here)) {
     if (away) points.length = 0;
-    points.push(here.slice(0, 3));
+    points.push(pointOf(here));
   }
   const smooth = points.length * 8 < most ? rounded(points) : points;
   for (let i = 1; i < smooth.length; i++) {
     const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
     lines.add(smooth[i - 1], smooth[i], width(i - 1), color, width(i));
   }
+}
+
+/** Location and orientation of a body in a frame. */
+function poseIn(poses, bodies, body) {
+  const turn = 3 * bodies + 4 * body;
+  return [...poses.subarray(3 * body, 3 * body + 3), ...poses.subarray(turn, turn + 4)];
 }
 
 /** More points where a line bends, on a curve through all of them (Catmull–Rom). */

@@ -95,10 +95,10 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
     // Moments that are given are those about the body's own axes.
     let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
-    let vector = |key: &str| view.vector(key).unwrap_or(DVec3::ZERO);
+    let vector = |key: &str| view.vector(key).unwrap_or_default();
     RigidBody {
         mass,
-        charge: view.number("charge").unwrap_or(0.0),
+        charge: view.number("charge").unwrap_or_default(),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
         principal_axes,
         location: vector("location"),
@@ -122,7 +122,7 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
             "a plane is always fixed",
         ))
     };
-    let given = view.boolean("fixed");
+    let given = view.boolean("fixed").filter(|_| view.has("fixed"));
     if let (Some((what, why, always)), Some(false)) = (scenery, given) {
         let error = Diagnostic::error(Code::PlaneMoves, format!("the {what} `{name}` cannot move: {why}"));
         context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, always)));
@@ -159,7 +159,7 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
 }
 
 fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> f64 {
-    let Some(density) = view.number("density") else { return view.number("mass").unwrap_or(1.0) };
+    let Some(density) = view.number("density") else { return view.number("mass").unwrap_or_default() };
     let Some(volume) = shape.volume() else { return 1.0 };
     let mass = density * volume;
     if mass.is_finite() && mass > 0.0 {
@@ -223,10 +223,10 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
         return euler(angles);
     }
     let table = view.table("orientation");
-    if let Some(angles) = table.vector("euler") {
+    if let Some(angles) = table.vector("euler").filter(|_| table.has("euler")) {
         return euler(angles);
     }
-    if let Some(quaternion) = table.direction::<4>("quaternion") {
+    if let Some(quaternion) = table.direction::<4>("quaternion").filter(|_| table.has("quaternion")) {
         return DQuat::from_array(quaternion);
     }
     together(name, &table, context);

@@ -49,11 +49,13 @@ fn camera(
 ) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
+    // What neither says has a default, which would hide what the main camera says.
+    let of = |key: &str| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
     for key in ["location", "look_at", "angle"] {
         motion::finite(tables[0].raw(key), simulation, context);
     }
     let (location, look_at) = (timed("location"), timed("look_at"));
-    let angle = tables.iter().find_map(|keys| keys.timed("angle"));
+    let angle = of("angle").timed("angle");
     // A view that says where it is stands there, however the main camera moves.
     let movers = if tables[0].has("location") { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
@@ -84,8 +86,6 @@ fn camera(
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
     }
 
-    let shutter_samples = tables.iter().find_map(|keys| keys.integer("samples"));
-    let samples = tables.iter().find_map(|keys| keys.integer("blur_samples"));
     let camera = Camera {
         location,
         look_at,
@@ -93,17 +93,17 @@ fn camera(
         projection: if orthographic {
             Projection::Orthographic { width: number("width") }
         } else {
-            Projection::Perspective { angle: angle.map_or(40.0, |angle| angle.at(0.0).clamp(0.1, 179.9)) }
+            Projection::Perspective {
+                angle: angle.map(|angle| angle.at(0.0)).unwrap_or_default().clamp(0.1, 179.9),
+            }
         },
         blur: number("aperture").map(|aperture| Blur {
             aperture,
             focus: vector("focus"),
-            samples: samples.and_then(|n| u32::try_from(n).ok()).unwrap_or(60),
+            samples: of("blur_samples").count("blur_samples").unwrap_or_default(),
         }),
-        shutter: open.map(|open| Shutter {
-            open,
-            samples: shutter_samples.and_then(|n| u32::try_from(n).ok()).unwrap_or(16),
-        }),
+        shutter: open
+            .map(|open| Shutter { open, samples: of("samples").count("samples").unwrap_or_default() }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
         // POV-Ray draws nothing sensible from a camera that is nearer to its aim than rounding reaches.

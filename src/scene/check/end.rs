@@ -22,7 +22,7 @@ pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
         Value::Table(ref table) => {
             let view = View::new(&END, Some(table));
             let id = BodyId::new(body(view.raw("body")?, context)?);
-            Some(Anchor::Body { id, at: view.vector("at").unwrap_or(DVec3::ZERO) })
+            Some(Anchor::Body { id, at: view.vector("at")? })
         }
         _ => body(node, context).map(|body| Anchor::centre(BodyId::new(body))),
     }

@@ -41,19 +41,17 @@ pub(super) fn read(
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
     let bar = wanted(root, "scale_bar")?;
-    Some(ScaleBar { length: bar.number("length"), corner: corner(&bar).unwrap_or(Corner::BottomLeft) })
+    Some(ScaleBar { length: bar.number("length"), corner: corner(&bar) })
 }
 
 pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
     let grid = wanted(root, "grid")?;
-    let named = |name: &str| GridPlane::ALL.into_iter().find(|plane| plane.name() == name);
-    let plane = grid.text("plane").and_then(named).unwrap_or(GridPlane::Ground);
+    let plane = grid.choice("plane", GridPlane::ALL, GridPlane::name);
     Some(Grid { spacing: grid.number("spacing"), plane })
 }
 
-fn corner(view: &View<'_>) -> Option<Corner> {
-    let name = view.text("corner")?;
-    Corner::ALL.into_iter().find(|corner| corner.name() == name)
+fn corner(view: &View<'_>) -> Corner {
+    view.choice("corner", Corner::ALL, Corner::name)
 }
 
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
@@ -67,14 +65,13 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
             useless("side", "without `body`");
             useless("ghosts", "without `body`");
         }
-        return LabelPlace::Corner(corner(view).unwrap_or(Corner::TopLeft));
+        return LabelPlace::Corner(corner(view));
     };
     let ghosts = view.boolean("ghosts") == Some(true);
     if ghosts && bodies[body].showing.ghosts.is_none() {
         useless("ghosts", "where the body has none");
     }
-    let named = |name: &str| Side::ALL.into_iter().find(|side| side.name() == name);
-    LabelPlace::Body { body, side: view.text("side").and_then(named).unwrap_or(Side::Above), ghosts }
+    LabelPlace::Body { body, side: view.choice("side", Side::ALL, Side::name), ghosts }
 }
 
 /// The pieces of a text. What is wrong with it is said at its place.

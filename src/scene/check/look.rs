@@ -25,7 +25,7 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
         }
     }
     BodyLook {
-        scale: look.number("scale").unwrap_or(1.0),
+        scale: look.number("scale").unwrap_or_default(),
         object: view.table("shape").table("sdl").shared_text("object"),
         sdl_before: look.shared_text("sdl_before"),
         sdl_after: look.shared_text("sdl_after"),
@@ -40,9 +40,9 @@ pub(super) fn lights(root: &View<'_>, simulation: &Simulation, context: &mut Con
         Some(Light {
             name: name.to_owned(),
             kind: light_kind(&view)?,
-            color: view.color("color").unwrap_or(Color::WHITE),
-            intensity: view.number("intensity").unwrap_or(1.0),
-            shadows: view.boolean("shadows").unwrap_or(true),
+            color: view.color("color")?,
+            intensity: view.number("intensity")?,
+            shadows: view.boolean("shadows")?,
         })
     };
     root.named("light").into_iter().filter_map(read).collect()
@@ -78,21 +78,19 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
     Environment {
         preset,
         ground: given.or_else(|| wanted.then(Ground::default)),
-        fog: view.boolean("fog").unwrap_or(true),
+        fog: view.boolean("fog").unwrap_or_default(),
         sky,
     }
 }
 
 pub(super) fn output(view: &View<'_>) -> Output {
-    let named = |name: &str| Layout::ALL.into_iter().find(|layout| layout.name() == name);
-    let layout = view.text("layout").and_then(named).unwrap_or(Layout::SelfContained);
-    let transparent = view.boolean("transparent").unwrap_or(false);
-    let video_rate = view.number("video_rate");
-    let mut output = Output { width: 1280, height: 720, layout, transparent, video_rate };
-    if let Some([width, height]) = view.list("size") {
-        let pixels = |node| super::read::integer(node, 1, 65535).ok().and_then(|n| u32::try_from(n).ok());
-        output.width = pixels(width).unwrap_or(output.width);
-        output.height = pixels(height).unwrap_or(output.height);
+    let size = view.integers("size").unwrap_or_default();
+    let pixels = |i: usize| size.get(i).and_then(|n| u32::try_from(*n).ok()).unwrap_or_default();
+    Output {
+        width: pixels(0),
+        height: pixels(1),
+        layout: view.choice("layout", Layout::ALL, Layout::name),
+        transparent: view.boolean("transparent").unwrap_or_default(),
+        video_rate: view.number("video_rate"),
     }
-    output
 }

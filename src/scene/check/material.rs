@@ -32,7 +32,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
     }
     Look::Plain {
         color: view.color("color").unwrap_or(Color::WHITE),
-        finish: view.text("finish").and_then(Finish::named).unwrap_or(Finish::Glossy),
+        finish: view.choice("finish", Finish::ALL, Finish::name),
     }
 }
 

@@ -105,7 +105,7 @@ impl Meshes {
 
 /// A mesh; none where it is missing or wrong.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
-    let scale = view.number("scale").unwrap_or(1.0);
+    let scale = view.number("scale")?;
     let smooth = smooth(view);
     let mesh = file(view, context, &[smooth.unwrap_or(-1.0)], |path| {
         mesh::read(path).map(|mesh| mesh.with_smooth(smooth))

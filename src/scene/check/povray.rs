@@ -23,7 +23,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
         include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
         sdl: view.text("sdl").map(str::to_owned),
         unit: view.number("unit"),
-        digits: view.integer("digits").and_then(|n| usize::try_from(n).ok()).unwrap_or(9),
+        digits: view.count("digits").unwrap_or_default() as usize,
         templates: Vec::new(),
     }
 }

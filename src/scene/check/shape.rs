@@ -11,11 +11,11 @@ use crate::dynamics::{Compound, Part, Shape};
 /// The shape of a body in mechanics. Where it is missing or wrong, which has been said, any other takes its place.
 pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(plane) = view.variant("plane") {
-        let normal = plane.direction::<3>("normal").unwrap_or([0.0, 1.0, 0.0]);
+        let normal = plane.direction::<3>("normal").unwrap_or_default();
         return Shape::Plane { normal: DVec3::from_array(normal) };
     }
     if let Some(axes) = view.variant("axes") {
-        return Shape::Axes { length: axes.number("length").unwrap_or(1.0) };
+        return axes.number("length").map_or(Shape::Sphere { radius: 1.0 }, |length| Shape::Axes { length });
     }
     if let Some(heightfield) = view.variant("heightfield") {
         return mesh::heightfield(&heightfield, context).unwrap_or(Shape::Plane { normal: DVec3::Y });
@@ -45,7 +45,7 @@ fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Sh
     let mut parts = Vec::new();
     for part in view.tables("parts") {
         let orientation = body::orientation(name, &part, context);
-        let location = part.vector("location").unwrap_or(DVec3::ZERO);
+        let location = part.vector("location").unwrap_or_default();
         let shape = mesh_or_solid(&part, context);
         let open = shape.as_ref().and_then(|shape| mesh::open(&part.table("mesh"), shape));
         if let Some(error) = open {
@@ -87,7 +87,7 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
         return Some(Shape::Capsule { radius, height });
     }
     if let Some(cone) = view.variant("cone") {
-        let top_radius = cone.number("top_radius").unwrap_or(0.0);
+        let top_radius = cone.number("top_radius")?;
         let (radius, height) = (cone.number("radius")?, cone.number("height")?);
         return Some(Shape::Cone { radius, top_radius, height });
     }

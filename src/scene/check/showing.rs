@@ -31,6 +31,7 @@ pub(super) fn of_body(
             duration: trail.number("duration"),
             width: trail.number("width"),
             color: trail.color("color"),
+            at: trail.vector("at").unwrap_or_default(),
         }),
     };
     if let Some((keys, why)) = useless {
@@ -48,7 +49,7 @@ pub(super) fn of_body(
 fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
     if simulation.duration / every <= MAX_GHOSTS {
-        return Some(Ghosts { every, arrows: view.boolean("arrows").unwrap_or(true) });
+        return Some(Ghosts { every, arrows: view.boolean("arrows")? });
     }
     let message = format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(every));
     let error = Diagnostic::error(Code::TooManyGhosts, message);
@@ -88,7 +89,7 @@ pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<Spr
         }
         _ => {}
     }
-    let turns = coil.integer("turns").and_then(|turns| u32::try_from(turns).ok());
+    let turns = coil.count("turns");
     Some(SpringLook {
         line: if line == Some("straight") { SpringLine::Straight } else { SpringLine::Coil { turns } },
         radius: coil.number("radius"),

@@ -1,7 +1,5 @@
 //! `[simulation]`.
 
-use glam::DVec3;
-
 use super::counts::Counts;
 use super::view::View;
 use crate::dynamics::{METHODS, Method};
@@ -11,11 +9,11 @@ use crate::scene::Simulation;
 pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
     let mut simulation = Simulation {
-        duration: view.number("duration").unwrap_or(10.0),
-        frame_rate: view.number("frame_rate").unwrap_or(25.0),
-        step: view.number("step").unwrap_or(1.0 / 240.0),
+        duration: view.number("duration").unwrap_or_default(),
+        frame_rate: view.number("frame_rate").unwrap_or_default(),
+        step: view.number("step").unwrap_or_default(),
         method,
-        gravity: view.vector("gravity").unwrap_or(DVec3::ZERO),
+        gravity: view.vector("gravity").unwrap_or_default(),
     };
     let Simulation { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };

@@ -256,7 +256,11 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
         return;
     };
     for entry in &tables.entries {
-        let shown = context.groups.original(&entry.name.text).unwrap_or(&entry.name.text);
+        let original = match word {
+            "body" => context.groups.original(&entry.name.text),
+            _ => context.groups.original_link(&entry.name.text),
+        };
+        let shown = original.unwrap_or(&entry.name.text);
         let path = format!("[{word}.{}]", as_key(shown));
         let before = context.diagnostics.len();
         match entry.node.table().as_deref() {

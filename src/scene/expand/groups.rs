@@ -1,6 +1,6 @@
 //! The bodies that are copies of one: which there are, and how they are called together.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::Expander;
@@ -11,9 +11,13 @@ use crate::scene::source::{Node, Value};
 /// So many names the lists of bodies have together, where a name that means several counts as all of them.
 const MAX_NAMES: usize = 2_000_000;
 
-/// The bodies with a `repeat`, by their names.
+/// What has a `repeat`, by its name.
 #[derive(Default)]
-pub(in crate::scene) struct Groups(HashMap<String, Group>);
+pub(in crate::scene) struct Groups {
+    bodies: HashMap<String, Group>,
+    /// The forces and joints: a body may have the same name.
+    links: HashSet<String>,
+}
 
 /// The copies of one body.
 pub(super) struct Group {
@@ -27,41 +31,61 @@ pub(super) struct Group {
 
 impl Groups {
     pub(super) fn add(&mut self, name: &str, group: Group) {
-        self.0.insert(name.to_owned(), group);
+        self.bodies.insert(name.to_owned(), group);
+    }
+
+    pub(super) fn add_link(&mut self, name: &str) {
+        self.links.insert(name.to_owned());
+    }
+
+    /// The name of the force or joint that a copy is one of.
+    pub(in crate::scene) fn original_link<'a>(&self, name: &'a str) -> Option<&'a str> {
+        let (original, _) = split(name)?;
+        self.links.contains(original).then_some(original)
+    }
+
+    /// Whether a body of this name is repeated.
+    pub(super) fn holds(&self, original: &str) -> bool {
+        self.bodies.contains_key(original)
+    }
+
+    /// How many copies a body has in each direction.
+    pub(super) fn counts(&self, original: &str) -> Option<&[usize]> {
+        self.bodies.get(original).map(|group| group.counts.as_slice())
     }
 
     /// The name of the body that a copy is one of: `brick` for `brick[3,0]`.
     pub(in crate::scene) fn original<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
-        self.0.contains_key(original).then_some(original)
+        self.bodies.contains_key(original).then_some(original)
     }
 
     /// Whether the name may be that of a copy of which nothing is known.
     pub(in crate::scene) fn may_hold(&self, name: &str) -> bool {
         let original = split(name).map_or(name, |(original, _)| original);
-        self.0.get(original).is_some_and(|group| !group.is_known)
+        self.bodies.get(original).is_some_and(|group| !group.is_known)
     }
 
     /// The names of the first and the last copy of a body, or of the body that a name is of.
     pub(in crate::scene) fn ends(&self, name: &str) -> Option<[String; 2]> {
         let original = split(name).map_or(name, |(original, _)| original);
-        let counts = &self.0.get(original)?.counts;
+        let counts = &self.bodies.get(original)?.counts;
         let last: Vec<usize> = counts.iter().map(|count| count.saturating_sub(1)).collect();
         Some([copy_name(original, &vec![0; counts.len()]), copy_name(original, &last)])
     }
 
     /// Whether a name means several bodies.
-    fn means_several(&self, item: &Node) -> bool {
+    pub(super) fn means_several(&self, item: &Node) -> bool {
         body_of(item).is_some_and(|name| self.several(name).is_some())
     }
 
     /// The copies that a name means, if it means more than one body.
     fn several<'a>(&'a self, name: &str) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
-        if let Some(Group { names, is_known: true, .. }) = self.0.get(name) {
+        if let Some(Group { names, is_known: true, .. }) = self.bodies.get(name) {
             return Some(Box::new(names.iter()));
         }
         let (original, inside) = split(name)?;
-        let Group { counts, names, is_known: true } = self.0.get(original)? else { return None };
+        let Group { counts, names, is_known: true } = self.bodies.get(original)? else { return None };
         let wanted: Vec<Option<usize>> = inside
             .split(',')
             .map(|number| match number.trim() {
@@ -84,7 +108,7 @@ impl Expander<'_> {
     /// Puts the names of all copies in the place of every name of a list that means several: `brick`, `brick[*,0]`.
     pub(super) fn spread(&mut self, list: &mut Node) {
         let Value::Array(items) = &list.value else { return };
-        if self.groups.0.is_empty() || !items.iter().any(|item| self.groups.means_several(item)) {
+        if self.groups.bodies.is_empty() || !items.iter().any(|item| self.groups.means_several(item)) {
             return;
         }
         let mut all = Vec::new();
@@ -112,7 +136,7 @@ impl Expander<'_> {
 }
 
 /// The body that an item of a list names: by itself, or as the `body` of a table.
-fn body_of(item: &Node) -> Option<&str> {
+pub(super) fn body_of(item: &Node) -> Option<&str> {
     match item.as_table() {
         Some(table) => table.get("body")?.node.as_str(),
         None => item.as_str(),
@@ -135,6 +159,6 @@ fn of_body(item: &Node, name: &Arc<str>) -> Node {
 }
 
 /// `brick[3,0]` → `brick`, `3,0`.
-fn split(name: &str) -> Option<(&str, &str)> {
+pub(super) fn split(name: &str) -> Option<(&str, &str)> {
     name.strip_suffix(']')?.rsplit_once('[')
 }

@@ -9,6 +9,8 @@ mod geometry;
 mod groups;
 mod habits;
 mod include;
+mod index;
+mod links;
 mod merge;
 pub(super) mod place;
 mod random;
@@ -33,7 +35,7 @@ use super::source::{Entry, Node, Table, Value};
 use super::timed::{Formulas, TimeFormula};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 
-/// Replaces every formula of a scene by its value, and every body that is repeated by its copies, after the defaults have
+/// Replaces every formula of a scene by its value, and everything that is repeated by its copies, after the defaults have
 /// been laid under everything.
 pub(super) fn expand(
     root: &mut Table,
@@ -81,6 +83,7 @@ pub(super) fn expand(
     {
         expander.repeat(bodies, spec);
     }
+    expander.repeat_links(root);
     expander.table(root, &SCENE);
     expander.report_of_bodies(root);
     Expansion { groups: expander.groups, of_defaults: expander.of_defaults }
@@ -89,7 +92,7 @@ pub(super) fn expand(
 /// What is to be known of an expanded scene besides its values.
 #[derive(Default)]
 pub(super) struct Expansion {
-    /// The bodies that are copies.
+    /// What is a copy.
     pub(super) groups: Groups,
     /// Where the keys and values of `[defaults]` stand.
     pub(super) of_defaults: HashSet<Span>,
@@ -179,12 +182,16 @@ impl Expander<'_> {
             (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color, Value::Array(_)) => {
                 self.items(node, Expander::number);
             }
-            (Kind::List { of, .. }, Value::Array(_)) => {
+            (Kind::List { of, max, .. }, Value::Array(_)) => {
                 self.items(node, |this, item| this.value(item, of));
                 if of.names(Collection::Body) {
-                    self.spread(node);
+                    match max {
+                        2 => self.are_single(node),
+                        _ => self.spread(node),
+                    }
                 }
             }
+            (Kind::Reference(Collection::Body), Value::String(_)) => self.index(node),
             (Kind::Table(spec), Value::Table(inner)) => self.table(inner, spec),
             (Kind::Partial(spec), Value::Table(inner)) => {
                 self.is_default = true;
@@ -424,6 +431,7 @@ fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {
         (Kind::Number(_) | Kind::Timed(_) | Kind::Integer(..), Value::String(_)) => false,
+        (Kind::Reference(Collection::Body), Value::String(text)) => !index::is_formula(text),
         (
             Kind::TimedNumbers(..) | Kind::Numbers(..) | Kind::Direction(_) | Kind::Color,
             Value::Array(items),

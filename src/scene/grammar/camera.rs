@@ -40,7 +40,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             "The horizontal field of view, in perspective; a number, or a formula of `t`",
         )
             .unit("degrees")
-            .default("40")
+            .default_number(40.0)
             .also(&["fov", "field_of_view"]),
         Key::new("projection", Choice(projections), "How it sees: as eyes do, or by parallel rays")
             .default("perspective")
@@ -65,7 +65,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             Integer(4, 10_000),
             "With `aperture`, the number of rays for a pixel: more is smoother",
         )
-        .default("60"),
+        .default_number(60.0),
         Key::new(
             "shutter",
             NON_NEGATIVE,
@@ -80,7 +80,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             Integer(2, 256),
             "With `shutter`, the number of moments that an image is the mean of: more is smoother and takes longer",
         )
-        .default("16")
+        .default_number(16.0)
         .also(&["shutter_samples", "motion_blur_samples"]),
     ],
 };
@@ -130,7 +130,7 @@ static FOLLOW: TableSpec = TableSpec {
             "The time by which the camera is behind, so that it follows softly what turns or stops",
         )
         .unit("s")
-        .default("0")
+        .default_number(0.0)
         .also(&["delay", "damping", "smooth", "smoothness"]),
     ],
 };

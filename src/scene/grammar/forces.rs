@@ -1,7 +1,10 @@
 //! The keys of `[force.NAME]`.
 
+use crate::dynamics::{Coulomb, Gravitation};
+
 use super::Kind::{Either, List, Reference, Table};
 use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
+use super::repeat::LINKS;
 use super::{Collection, Key, Kind, Rule, TableSpec};
 
 /// The key that names the bodies of a force.
@@ -32,7 +35,7 @@ const fn softening() -> Key {
         "Keeps close encounters mild: √(r² + softening²) counts for r (Plummer)",
     )
     .unit("m")
-    .default("0")
+    .default_number(0.0)
     .also(&["epsilon", "eps"])
 }
 
@@ -60,6 +63,7 @@ pub(super) static FORCE: TableSpec =
                 "Uniform electric and magnetic fields, which act on charged bodies",
             )
             .also(&["field", "electromagnetic", "magnetic", "electric"]),
+            LINKS,
         ],
     };
 
@@ -69,8 +73,10 @@ static CONSTANT: TableSpec = TableSpec {
     keys: &[
         Key::new("force", VECTOR, "The force at the centre of each body, in world axes")
             .unit("N")
-            .default("[0, 0, 0]"),
-        Key::new("torque", VECTOR, "The torque on each body, in world axes").unit("N·m").default("[0, 0, 0]"),
+            .default_numbers(&[0.0, 0.0, 0.0]),
+        Key::new("torque", VECTOR, "The torque on each body, in world axes")
+            .unit("N·m")
+            .default_numbers(&[0.0, 0.0, 0.0]),
         on("The bodies that it acts on", "all that can move"),
     ],
 };
@@ -85,7 +91,7 @@ static DRAG: TableSpec = TableSpec {
             "Force per speed through the air, against it: of what is slow or small",
         )
         .unit("N·s/m")
-        .default("0")
+        .default_number(0.0)
         .also(&["coefficient", "c", "damping", "viscous"]),
         Key::new(
             "quadratic",
@@ -93,11 +99,11 @@ static DRAG: TableSpec = TableSpec {
             "Force per square of that speed: ½ density × drag coefficient × area",
         )
         .unit("N·s²/m²")
-        .default("0")
+        .default_number(0.0)
         .also(&["square", "turbulent"]),
         Key::new("wind", VECTOR, "The velocity of the air")
             .unit("m/s")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["velocity", "air", "flow"]),
         on("The bodies that it acts on", "all that can move"),
     ],
@@ -122,7 +128,7 @@ static SPRING: TableSpec = TableSpec {
             .also(&["k", "constant", "strength"]),
         Key::new("damping", NON_NEGATIVE, "Force per speed of that change, against it")
             .unit("N·s/m")
-            .default("0")
+            .default_number(0.0)
             .also(&["c", "friction", "damper"]),
         Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
             .unit("m")
@@ -141,7 +147,7 @@ pub(in crate::scene) static END: TableSpec = TableSpec {
         Key::new("body", Reference(Collection::Body), "The body that it is fastened to").required(),
         Key::new("at", VECTOR, "The point of the body, in the body's own axes, from its centre of mass")
             .unit("m")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["point", "location", "position", "offset", "anchor"]),
     ],
 };
@@ -152,7 +158,7 @@ static GRAVITATION: TableSpec = TableSpec {
     keys: &[
         Key::new("constant", POSITIVE, "Newton's constant G")
             .unit("m³/(kg·s²)")
-            .default("6.67430e-11")
+            .default_number(Gravitation::CONSTANT)
             .also(&["g", "G", "strength"]),
         softening(),
         on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
@@ -168,7 +174,7 @@ static COULOMB: TableSpec = TableSpec {
     keys: &[
         Key::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
             .unit("N·m²/C²")
-            .default("8.9875517862e9")
+            .default_number(Coulomb::CONSTANT)
             .also(&["k", "strength"]),
         softening(),
         on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
@@ -184,11 +190,11 @@ static LORENTZ: TableSpec = TableSpec {
     keys: &[
         Key::new("electric", VECTOR, "The electric field E")
             .unit("V/m")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["e", "E"]),
         Key::new("magnetic", VECTOR, "The magnetic field B: the force is q (E + v × B)")
             .unit("T")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["b", "B"]),
         on("The bodies that it acts on", "all with a charge that can move"),
     ],

@@ -3,6 +3,7 @@
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::forces::END;
 use super::keys::{POSITIVE, VECTOR};
+use super::repeat::LINKS;
 use super::showing::JOINT_ARROWS;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
@@ -27,6 +28,7 @@ pub(super) static JOINT: TableSpec = TableSpec {
             .also(&["string", "cable", "thread", "cord"]),
         Key::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
         Key::new("gear", Table(&GEAR), "Two hinges or sliders move together, at a ratio").also(&["gears"]),
+        LINKS,
     ],
 };
 
@@ -197,7 +199,7 @@ const STIFFNESS: Key =
 
 const DAMPING: Key =
     Key::new("damping", Number(Bound::NonNegative), "With `stiffness`: the damper beside that spring")
-        .default("0")
+        .default_number(0.0)
         .also(&["damper", "d"]);
 
 static ROPE: TableSpec = TableSpec {
@@ -232,7 +234,7 @@ static PULLEY: TableSpec = TableSpec {
         .required()
         .also(&["wheels", "through", "via", "anchors"]),
         Key::new("ratio", POSITIVE, "How much rope the first end gets for each metre that the second gives")
-            .default("1"),
+            .default_number(1.0),
         Key::new("length", POSITIVE, "The length of the first part, and `ratio` times that of the second")
             .unit("m")
             .default("as at the start"),

@@ -55,14 +55,14 @@ pub static SCENE: TableSpec = TableSpec {
             List { of: &Text, min: 0, max: usize::MAX },
             "Scene files that belong to this one, as if they stood here; what this file says itself counts",
         )
-        .default("[]")
+        .default_numbers(&[])
         .also(&["includes", "import"]),
         Key::new(
             "seed",
             Integer(0, 4_294_967_295),
             "What the random numbers of formulas follow from: another seed, other numbers",
         )
-        .default("0")
+        .default_number(0.0)
         .also(&["random_seed"]),
         Key::new("variables", Variables, "Numbers by name, for formulas").default("none").also(&[
             "variable",
@@ -139,7 +139,7 @@ static SIMULATION: TableSpec = TableSpec {
             "The time of the last frame, to the nearest whole frame; the first is at 0",
         )
         .unit("s")
-        .default("10")
+        .default_number(10.0)
         .also(&[
             "time",
             "length",
@@ -154,7 +154,7 @@ static SIMULATION: TableSpec = TableSpec {
         ]),
         Key::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
             .unit("frames/s")
-            .default("25")
+            .default_number(25.0)
             .also(&["fps", "rate"]),
         Key::new(
             "step",
@@ -162,14 +162,14 @@ static SIMULATION: TableSpec = TableSpec {
             "The longest timestep; the real one divides the time between frames evenly",
         )
         .unit("s")
-        .default("1/240")
+        .default_fraction(1.0, 240.0)
         .also(&["dt", "timestep", "time_step", "delta"]),
         Key::new("integrator", Choice(integrators), "The method that advances the world")
-            .default("euler-cromer")
+            .default_word(METHODS[0].name)
             .also(&["method", "solver"]),
         Key::new("gravity", VECTOR, "The acceleration of every body that can move")
             .unit("m/s²")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["g"]),
     ],
 };
@@ -180,13 +180,13 @@ static BODY: TableSpec = TableSpec {
     keys: &[
         Key::new("shape", Table(&SHAPE), "Its form, centred at its location, with its axis along y")
             .required(),
-        Key::new("mass", POSITIVE, "Its mass").unit("kg").default("1").also(&["m", "weight"]),
+        Key::new("mass", POSITIVE, "Its mass").unit("kg").default_number(1.0).also(&["m", "weight"]),
         Key::new("density", POSITIVE, "Its mass, as mass per volume of its shape")
             .unit("kg/m³")
             .default("from `mass`"),
         Key::new("charge", ANY, "Its electric charge, for the forces `coulomb` and `lorentz`")
             .unit("C")
-            .default("0")
+            .default_number(0.0)
             .also(&["q", "electric_charge"]),
         Key::new(
             "inertia",
@@ -197,7 +197,7 @@ static BODY: TableSpec = TableSpec {
         .default("that of a solid of its shape"),
         Key::new("location", VECTOR, "Its centre of mass at the start")
             .unit("m")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["position", "pos", "center", "translate", "origin"]),
         Key::new(
             "orientation",
@@ -212,11 +212,11 @@ static BODY: TableSpec = TableSpec {
             .also(&["path", "trajectory", "animation", "keyframes", "kinematic"]),
         Key::new("velocity", VECTOR, "Its velocity at the start")
             .unit("m/s")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["v", "speed"]),
         Key::new("angular_velocity", VECTOR, "Its angular velocity at the start, in world axes")
             .unit("rad/s")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["spin", "omega"]),
         Key::new("start", ANY, "When it comes: before, it is not there. Its `location` and `velocity` are those of then, or of t = 0 if that is later")
             .unit("s")
@@ -228,10 +228,10 @@ static BODY: TableSpec = TableSpec {
             .also(&["death", "dies", "until", "vanishes", "t1"]),
         Key::new("force", VECTOR, "A constant force at its centre, in world axes")
             .unit("N")
-            .default("[0, 0, 0]"),
-        Key::new("torque", VECTOR, "A constant torque, in world axes").unit("N·m").default("[0, 0, 0]"),
+            .default_numbers(&[0.0, 0.0, 0.0]),
+        Key::new("torque", VECTOR, "A constant torque, in world axes").unit("N·m").default_numbers(&[0.0, 0.0, 0.0]),
         Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
-            .default("false")
+            .default_flag(false)
             .also(&["static", "anchored"]),
         Key::new(
             "material",
@@ -265,7 +265,7 @@ static BODY_LOOK: TableSpec = TableSpec {
             Number(Bound::From(1e-9, 1e9)),
             "How many times larger than it is it is drawn, about its centre of mass",
         )
-        .default("1")
+        .default_number(1.0)
             .also(&["size", "magnification", "enlarge"]),
         Key::new(
             "sdl_before",
@@ -294,13 +294,13 @@ pub(super) static ORIENTATION: TableSpec = TableSpec {
             "Turned about the world's x, then y, then z, as POV-Ray's `rotate <x, y, z>` does",
         )
         .unit("degrees")
-        .default("[0, 0, 0]"),
+        .default_numbers(&[0.0, 0.0, 0.0]),
         Key::new("axis", AXIS, "The axis that it is turned about; goes with `angle`").default("none"),
         Key::new("angle", ANY, "By how much it is turned about `axis`, by the right-hand rule")
             .unit("degrees")
             .default("none"),
         Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w]; its length does not matter")
-            .default("[0, 0, 0, 1]"),
+            .default_numbers(&[0.0, 0.0, 0.0, 1.0]),
     ],
 };
 
@@ -318,7 +318,7 @@ static MATERIAL: TableSpec = TableSpec {
         Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
             .default("from `color` and `finish`")
             .also(&["base", "kind", "extends"]),
-        Key::new("finish", Choice(finishes), "How its surface throws light back").default("glossy"),
+        Key::new("finish", Choice(finishes), "How its surface throws light back").default_word("glossy"),
         Key::new("texture", Identifier, "A texture that an include file declares, by its name")
             .default("from `color` and `finish`"),
         Key::new(
@@ -352,10 +352,10 @@ static ENVIRONMENT: TableSpec = TableSpec {
             Either(&[Boolean, Color]),
             "The sky: that of the preset, a plain color, or none (black)",
         )
-        .default("true")
+        .default_flag(true)
         .also(&["background"]),
         Key::new("fog", Boolean, "Haze in which the ground fades towards the horizon")
-            .default("true")
+            .default_flag(true)
             .also(&["haze"]),
     ],
 };
@@ -383,7 +383,7 @@ static POVRAY: TableSpec = TableSpec {
             List { of: &Include, min: 0, max: usize::MAX },
             "Include files: POV-Ray's own, or files beside the scene, which go into the scripts",
         )
-        .default("[]")
+        .default_numbers(&[])
         .also(&["includes"]),
         Key::new(
             "assets",
@@ -391,7 +391,7 @@ static POVRAY: TableSpec = TableSpec {
             "Files beside the scene that POV-Ray's own words read, as images, height fields and fonts; copies of \
              them stand in the folder `assets` beside the scripts, and the words call them as this list does",
         )
-        .default("[]")
+        .default_numbers(&[])
         .also(&["files", "images", "textures", "maps"]),
         Key::new("sdl", Sdl(Where::Top), "POV-Ray's own words, to stand in every script before the bodies")
             .default("none"),
@@ -404,7 +404,7 @@ static POVRAY: TableSpec = TableSpec {
         Key::new("unit", POSITIVE, "The length of one unit of POV-Ray's")
             .unit("m")
             .default("1, and a power of ten for scenes that POV-Ray finds too small or too large"),
-        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts").default("9"),
+        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts").default_number(9.0),
     ],
 };
 
@@ -414,20 +414,20 @@ static OUTPUT: TableSpec = TableSpec {
     keys: &[
         Key::new("size", List { of: &Integer(1, 65535), min: 2, max: 2 }, "Width and height of the images")
             .unit("pixels")
-            .default("[1280, 720]")
+            .default_numbers(&[1280.0, 720.0])
             .also(&["resolution", "width", "height"]),
         Key::new(
             "layout",
             Choice(layouts),
             "Whether every script is complete, or what all share stands in `common.inc`",
         )
-        .default("self-contained"),
+        .default_word("self-contained"),
         Key::new(
             "transparent",
             Boolean,
             "Whether the images have no background: no sky and no ground, but transparency (alpha)",
         )
-        .default("false")
+        .default_flag(false)
         .also(&["alpha"]),
         Key::new(
             "video_rate",

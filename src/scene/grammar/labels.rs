@@ -25,11 +25,11 @@ pub(super) const LABEL: Key =
         .also(&["labels", "text", "caption"]);
 pub(super) const SCALE_BAR: Key =
     Key::new("scale_bar", Either(&SCALE_BAR_KINDS), "A bar that shows a length, at the middle of the motion")
-        .default("false")
+        .default_flag(false)
         .also(&["scalebar", "ruler", "scale"]);
 pub(super) const GRID: Key =
     Key::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read places from")
-        .default("false")
+        .default_flag(false)
         .also(&["grids", "graph_paper"]);
 
 static LABEL_TABLE: TableSpec = TableSpec {
@@ -46,15 +46,15 @@ static LABEL_TABLE: TableSpec = TableSpec {
         Key::new("body", Reference(Collection::Body), "The body that it stands beside")
             .default("none: it stands in a corner")
             .also(&["on", "of", "attach", "attached_to"]),
-        Key::new("side", Choice(sides), "With `body`, the side on which it stands").default("above"),
+        Key::new("side", Choice(sides), "With `body`, the side on which it stands").default_word("above"),
         Key::new(
             "ghosts",
             Boolean,
             "With `body`, whether each of its ghosts has one, with the values of its time",
         )
-        .default("false"),
+        .default_flag(false),
         Key::new("corner", Choice(corners), "Where in the picture it stands; one stands below the other")
-            .default("top-left")
+            .default_word("top-left")
             .also(&["place", "position", "location", "at"]),
         Key::new(
             "size",
@@ -78,7 +78,7 @@ static SCALE_BAR_TABLE: TableSpec = TableSpec {
             .default("1, 2 or 5 times a power of ten, about a fifth of the picture's width")
             .also(&["size", "width"]),
         Key::new("corner", Choice(corners), "Where in the picture it stands")
-            .default("bottom-left")
+            .default_word("bottom-left")
             .also(&["place", "position", "location", "at"]),
     ],
 };
@@ -92,6 +92,6 @@ static GRID_TABLE: TableSpec = TableSpec {
             .default("that of the ground's tiles")
             .also(&["step", "every", "tile", "size"]),
         Key::new("plane", Choice(planes), "Where it is: on the ground, or upright behind the motion")
-            .default("ground"),
+            .default_word("ground"),
     ],
 };

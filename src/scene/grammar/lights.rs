@@ -13,16 +13,16 @@ pub(super) static LIGHT: TableSpec = TableSpec {
         Key::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
         Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
             .also(&["directional", "parallel"]),
-        Key::new("color", Color, "Its color").default("white").also(&["colour"]),
+        Key::new("color", Color, "Its color").default_word("white").also(&["colour"]),
         Key::new(
             "intensity",
             NON_NEGATIVE,
             "How bright it is: 1 shows a white surface that faces it as white",
         )
-        .default("1")
+        .default_number(1.0)
         .also(&["brightness", "power", "strength"]),
         Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only fills dark places")
-            .default("true")
+            .default_flag(true)
             .also(&["shadow"]),
     ],
 };

@@ -5,6 +5,7 @@
 //! hold is reached from it.
 
 mod camera;
+mod default;
 mod forces;
 mod joints;
 mod keys;
@@ -18,6 +19,7 @@ mod schema;
 mod shapes;
 mod showing;
 
+pub use default::DefaultValue;
 pub(in crate::scene) use forces::END;
 pub use keys::SCENE;
 pub(crate) use kind::quoted;
@@ -35,8 +37,8 @@ pub struct Key {
     pub kind: Kind,
     /// The unit of its value; empty where there is none.
     pub unit: &'static str,
-    /// What holds where the key is absent, in words; empty where nothing does.
-    pub default: &'static str,
+    /// What holds where the key is absent.
+    pub default: DefaultValue,
     /// What it means, in one sentence without a full stop.
     pub meaning: &'static str,
     /// Whether the table makes no sense without it.
@@ -77,7 +79,7 @@ impl TableSpec {
 impl Key {
     /// A key that may be absent.
     const fn new(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
-        Key { name, kind, unit: "", default: "", meaning, required: false, also: &[] }
+        Key { name, kind, unit: "", default: DefaultValue::Nothing, meaning, required: false, also: &[] }
     }
 
     const fn unit(mut self, unit: &'static str) -> Key {
@@ -85,7 +87,32 @@ impl Key {
         self
     }
 
-    const fn default(mut self, default: &'static str) -> Key {
+    /// What holds without it, where that is no value.
+    const fn default(self, words: &'static str) -> Key {
+        self.or(DefaultValue::Words(words))
+    }
+
+    const fn default_number(self, number: f64) -> Key {
+        self.or(DefaultValue::Number(number))
+    }
+
+    const fn default_fraction(self, dividend: f64, divisor: f64) -> Key {
+        self.or(DefaultValue::Fraction(dividend, divisor))
+    }
+
+    const fn default_numbers(self, numbers: &'static [f64]) -> Key {
+        self.or(DefaultValue::Numbers(numbers))
+    }
+
+    const fn default_flag(self, flag: bool) -> Key {
+        self.or(DefaultValue::Flag(flag))
+    }
+
+    const fn default_word(self, word: &'static str) -> Key {
+        self.or(DefaultValue::Word(word))
+    }
+
+    const fn or(mut self, default: DefaultValue) -> Key {
         self.default = default;
         self
     }
@@ -142,11 +169,46 @@ mod tests {
                 let variant = matches!(&table.rule, Rule::ExactlyOne(names) if names.contains(&key.name));
                 let table_like = matches!(key.kind, Kind::Table(_) | Kind::Named(_));
                 assert!(
-                    key.required || variant || table_like || !key.default.is_empty(),
+                    key.required || variant || table_like || !key.default.in_words().is_empty(),
                     "`{}` of {} has no default",
                     key.name,
                     table.noun
                 );
+            }
+        });
+    }
+
+    /// What reads a key without a value gets its default: that must be one of its kind.
+    #[test]
+    fn defaults_are_values_that_could_be_written() {
+        fn fits(default: DefaultValue, kind: &Kind) -> bool {
+            let admits = |bound: &Bound| default.number().is_some_and(|number| bound.admits(number));
+            match (kind, default) {
+                (_, DefaultValue::Nothing | DefaultValue::Words(_)) => true,
+                (Kind::Number(bound) | Kind::Timed(bound), _) => admits(bound),
+                (Kind::Integer(low, high), _) => {
+                    default.integer().is_some_and(|number| (*low..=*high).contains(&number))
+                }
+                (Kind::Boolean, _) => default.flag().is_some(),
+                (Kind::Numbers(count, bound), DefaultValue::Numbers(numbers)) => {
+                    numbers.len() == *count && numbers.iter().all(|number| bound.admits(*number))
+                }
+                (Kind::Direction(count), DefaultValue::Numbers(numbers)) => {
+                    numbers.len() == *count
+                        && (numbers.iter().map(|n| n * n).sum::<f64>() - 1.0).abs() < 1e-15
+                }
+                (Kind::List { min, max, .. }, DefaultValue::Numbers(numbers)) => {
+                    (*min..=*max).contains(&numbers.len()) || numbers.is_empty()
+                }
+                (Kind::Choice(words), DefaultValue::Word(word)) => words().contains(&word),
+                (Kind::Color, DefaultValue::Word(word)) => crate::scene::Color::parse(word).is_some(),
+                (Kind::Either(kinds), _) => kinds.iter().any(|kind| fits(default, kind)),
+                _ => false,
+            }
+        }
+        visit(&SCENE, &mut |table| {
+            for key in table.keys {
+                assert!(fits(key.default, &key.kind), "`{}` of {}", key.name, table.noun);
             }
         });
     }

@@ -66,7 +66,7 @@ pub(super) const BETWEEN_KEYFRAMES: Key = Key::new(
     Choice(smoothness),
     "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
 )
-.default("smooth")
+.default_word("smooth")
 .also(&["mode", "easing"]);
 
 static KEYFRAMES: TableSpec = TableSpec {
@@ -120,7 +120,7 @@ static TRAJECTORY: TableSpec = TableSpec {
             .default("its name here")
             .also(&["name"]),
         Key::new("interpolation", Choice(polynomials), "How it gets from one row to the next")
-            .default("cubic")
+            .default_word("cubic")
             .also(&["mode"]),
         Key::new("columns", Table(&COLUMNS), "What the columns are called in the file"),
     ],

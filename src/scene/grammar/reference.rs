@@ -91,6 +91,29 @@ A body with a `repeat` is as many bodies, which are called by its name and their
 grid also `j` and `k`. How the copies stand comes on top of their `location` and orientation. Where a list wants bodies, the
 name alone means all copies, and `*` all of a row; in `between`, a spring goes from each to the next.
 
+```toml
+[body.hook]
+repeat = 20
+shape.sphere.radius = 0.02
+location = [0, 1, \"0.15*i\"]
+fixed = true
+
+[body.bob]
+repeat = 20
+shape.sphere.radius = 0.06
+location = [0, \"0.2 + 0.03*i\", \"0.15*i\"]
+
+[joint.string.rod]                # string[0] to string[19]
+between = [\"hook[i]\", \"bob[i]\"]
+
+[force.neighbors.spring]          # neighbors[0] to neighbors[18]
+between = [\"bob[i]\", \"bob[i+1]\"]
+stiffness = \"10 + i\"
+```
+
+A force or a joint whose ends are named by `i` is as many: one for each `i` for which all of these copies exist. `repeat = 5` makes five
+instead. An index is a formula, so `bob[2*i+1]` are every second one, and `bob[count-1]` is the last one if `count` is a variable.
+
 A copy has random numbers of its own, which another copy or another body does not change. Scattered copies are placed one
 after another, each at random until the ball around it overlaps none of those before it; other bodies are not looked at.
 
@@ -238,7 +261,7 @@ impl Page {
 
     fn row(&mut self, key: &Key) {
         let Key { name, kind, unit, default, meaning, required, .. } = key;
-        let default = if *required { "**must be there**" } else { default };
+        let default = if *required { "**must be there**".to_owned() } else { default.in_words() };
         let value = self.in_short(kind).replace('|', "\\|");
         let _ = writeln!(self.text, "| `{name}` | {value} | {unit} | {default} | {meaning} |");
     }

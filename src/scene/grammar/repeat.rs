@@ -10,6 +10,16 @@ pub const MAX_COPIES: i64 = 500_000;
 /// A number of copies.
 pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);
 
+/// The key that makes several of a force or a joint.
+pub(super) const LINKS: Key = Key::new(
+    "repeat",
+    COUNT,
+    "So many copies, `rod[0]`, `rod[1]`, …, which formulas of `i` tell apart, also in the names of bodies: `bob[i]`, \
+     `link[i+1]`",
+)
+.default("one; or, where names of bodies have an `i`, one for each `i` for which there are such bodies")
+.also(&["copies", "times"]);
+
 /// The key that says how many copies there are.
 const fn count() -> Key {
     Key::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
@@ -71,10 +81,10 @@ static RING: TableSpec = TableSpec {
             AXIS,
             "What the circle is around, by the right-hand rule; the first copy is towards x, or towards y if x is the axis",
         )
-        .default("[0, 1, 0]")
+        .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["normal"]),
         Key::new("turned", Boolean, "Whether each copy is turned about the axis as far as it has come around")
-            .default("true")
+            .default_flag(true)
             .also(&["align", "rotate"]),
     ],
 };
@@ -86,7 +96,7 @@ static LINE: TableSpec = TableSpec {
         count(),
         Key::new("from", VECTOR, "Where the first copy is, from `location`")
             .unit("m")
-            .default("[0, 0, 0]")
+            .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["start"]),
         Key::new("to", VECTOR, "Where the last copy is, from `location`").unit("m").required().also(&["end"]),
     ],
@@ -112,10 +122,10 @@ static CURVE: TableSpec = TableSpec {
         .unit("m")
         .also(&["through", "vertices"]),
         Key::new("closed", Boolean, "Whether it ends where it begins, so that no copy stands on the first one")
-            .default("false")
+            .default_flag(false)
             .also(&["loop", "cyclic"]),
         Key::new("turned", Boolean, "Whether each copy is turned with its x axis along the curve, and y upwards")
-            .default("true")
+            .default_flag(true)
             .also(&["align", "follow"]),
     ],
 };
@@ -130,10 +140,10 @@ static SCATTER: TableSpec = TableSpec {
             .also(&["in", "volume", "region"]),
         Key::new("gap", NON_NEGATIVE, "The least distance between the balls around two copies")
             .unit("m")
-            .default("0")
+            .default_number(0.0)
             .also(&["distance", "spacing"]),
         Key::new("turned", Boolean, "Whether each copy is turned at random, any way as likely")
-            .default("false")
+            .default_flag(false)
             .also(&["rotate"]),
     ],
 };

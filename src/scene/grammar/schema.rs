@@ -100,22 +100,15 @@ fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
 fn property(key: &Key, whole: Whole) -> Value {
     let mut schema = kind(&key.kind, whole);
     let unit = if key.unit.is_empty() { String::new() } else { format!(", in {}", key.unit) };
-    let default =
-        if key.default.is_empty() { String::new() } else { format!(" Without it: {}.", key.default) };
+    let default = match key.default.in_words() {
+        words if words.is_empty() => words,
+        words => format!(" Without it: {words}."),
+    };
     schema.insert("description".to_owned(), format!("{}{unit}.{default}", key.meaning).into());
-    if let Some(default) = default_value(key) {
+    if let Some(default) = key.default.to_json() {
         schema.insert("default".to_owned(), default);
     }
     schema.into()
-}
-
-/// The default, where its words are a value too.
-fn default_value(key: &Key) -> Option<Value> {
-    match &key.kind {
-        Kind::Choice(words) => words().into_iter().find(|word| *word == key.default).map(Value::from),
-        Kind::Text | Kind::Sdl(_) => None,
-        _ => serde_json::from_str(key.default).ok(),
-    }
 }
 
 fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {

@@ -99,7 +99,7 @@ static PART: TableSpec = TableSpec {
             "The part's own centre of mass, along the body's axes; their common origin does not matter",
         )
         .unit("m")
-        .default("[0, 0, 0]")
+        .default_numbers(&[0.0, 0.0, 0.0])
         .also(&["position", "pos", "center", "translate", "origin", "offset"]),
         Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned within the body")
             .unit("degrees")
@@ -152,7 +152,7 @@ static BOX_KEYS: TableSpec = TableSpec {
             "The radius of its edges and corners, at most half its smallest edge; its size stays",
         )
         .unit("m")
-        .default("0")
+        .default_number(0.0)
         .also(&["bevel", "corner_radius", "edge_radius", "radius", "round", "rounded"]),
     ],
 };
@@ -201,7 +201,7 @@ static CONE_KEYS: TableSpec = TableSpec {
             .also(&["h", "length"]),
         Key::new("top_radius", NON_NEGATIVE, "The radius of its upper end; with 0 it has a tip")
             .unit("m")
-            .default("0")
+            .default_number(0.0)
             .also(&["radius2", "r2", "tip_radius"]),
     ],
 };
@@ -227,7 +227,7 @@ const SMOOTH: Key = Key::new(
     "Which edges look round: all, none, or those at which two faces meet at no more than so many degrees",
 )
 .unit("°")
-.default("false")
+.default_flag(false)
 .also(&["smoothing", "shading", "crease", "normals", "auto_smooth"]);
 
 static MESH_KEYS: TableSpec = TableSpec {
@@ -244,7 +244,7 @@ static MESH_KEYS: TableSpec = TableSpec {
         .also(&["path", "name", "source", "obj", "stl", "filename"]),
         Key::new("scale", POSITIVE, "The length of one unit of the file: 0.001 where it counts in millimetres")
             .unit("m")
-            .default("1")
+            .default_number(1.0)
             .also(&["unit", "units", "size", "factor"]),
         SMOOTH,
     ],
@@ -277,7 +277,7 @@ static PLANE: TableSpec = TableSpec {
     noun: "a plane",
     rule: Rule::Any,
     keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
-        .default("[0, 1, 0]")
+        .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["direction", "up"])],
 };
 

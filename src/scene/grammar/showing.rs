@@ -1,7 +1,7 @@
 //! The keys that show physics: arrows, axes, ghosts, trails and springs.
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
-use super::keys::POSITIVE;
+use super::keys::{POSITIVE, VECTOR};
 use super::{Key, Kind, Rule, TableSpec};
 
 static AXES_KINDS: [Kind; 2] = [Boolean, Table(&AXES_TABLE)];
@@ -22,7 +22,7 @@ pub(super) const JOINT_ARROWS: Key = Key::new(
 .also(&["vectors", "arrow"]);
 pub(super) const AXES: Key =
     Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which turn with it")
-        .default("false")
+        .default_flag(false)
         .also(&["triad", "frame"]);
 pub(super) const GHOSTS: Key = Key::new(
     "ghosts",
@@ -32,7 +32,7 @@ pub(super) const GHOSTS: Key = Key::new(
 .also(&["ghost", "strobe", "stroboscope", "onion_skin"]);
 pub(super) const TRAIL: Key =
     Key::new("trail", Either(&TRAIL_KINDS), "A line along the way that it has come")
-        .default("false")
+        .default_flag(false)
         .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
 // How a spring is drawn.
 pub(super) const LINE: Key = Key::new(
@@ -40,14 +40,14 @@ pub(super) const LINE: Key = Key::new(
     Choice(|| vec!["coil", "straight", "none"]),
     "As what it is drawn between its ends; it is left out while they leave no room for it",
 )
-.default("coil")
+.default_word("coil")
 .also(&["look", "drawn", "draw", "visible", "style"]);
 pub(super) const COIL: Key = Key::new(
     "coil",
     Either(&COIL_KINDS),
     "The size and color of its coil or line; `false` hides it, as `line = \"none\"` does",
 )
-.default("true");
+.default_flag(true);
 
 const COLOR: Key = Key::new("color", Color, "Its color").also(&["colour"]);
 
@@ -55,12 +55,12 @@ static ARROWS_TABLE: TableSpec = TableSpec {
     noun: "a body's arrows",
     rule: Rule::Any,
     keys: &[
-        Key::new("velocity", ARROW, "Its velocity, blue").default("false").also(&["v"]),
+        Key::new("velocity", ARROW, "Its velocity, blue").default_flag(false).also(&["v"]),
         Key::new("acceleration", ARROW, "The sum of the forces on it by its mass, orange")
-            .default("false")
+            .default_flag(false)
             .also(&["a"]),
         Key::new("force", ARROW, "The sum of the forces on it, magenta")
-            .default("false")
+            .default_flag(false)
             .also(&["f", "forces"]),
     ],
 };
@@ -69,9 +69,9 @@ static JOINT_ARROWS_TABLE: TableSpec = TableSpec {
     noun: "a joint's arrows",
     rule: Rule::Any,
     keys: &[
-        Key::new("force", ARROW, "Its force, magenta").default("false").also(&["f", "forces", "reaction"]),
+        Key::new("force", ARROW, "Its force, magenta").default_flag(false).also(&["f", "forces", "reaction"]),
         Key::new("torque", ARROW, "Its torque, along the axis of that, green")
-            .default("false")
+            .default_flag(false)
             .also(&["moment", "torques"]),
     ],
 };
@@ -107,7 +107,7 @@ static GHOSTS_TABLE: TableSpec = TableSpec {
             .unit("s")
             .required()
             .also(&["interval", "period", "step", "dt"]),
-        Key::new("arrows", Boolean, "Whether each has the arrows of the body").default("true"),
+        Key::new("arrows", Boolean, "Whether each has the arrows of the body").default_flag(true),
     ],
 };
 
@@ -124,6 +124,14 @@ static TRAIL_TABLE: TableSpec = TableSpec {
             .default("three thousandths of the picture's")
             .also(&["thickness", "radius"]),
         COLOR.default("that of the body"),
+        Key::new(
+            "at",
+            VECTOR,
+            "The point of the body that leaves it, in the body's own axes, from its centre of mass",
+        )
+        .unit("m")
+        .default_numbers(&[0.0, 0.0, 0.0])
+        .also(&["point", "offset", "of"]),
     ],
 };
 

@@ -260,8 +260,8 @@ impl Reader {
         if !self.seek_frame(frame) {
             return Err(damaged());
         }
-        let found = self
-            .advance(Some(body), |decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
+        let found =
+            self.advance(Some(body), |decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
         let snapshot = found.ok_or_else(damaged)?.snapshot;
         let body = snapshot.bodies.first().copied();
         Ok((snapshot, body))

@@ -6,8 +6,6 @@ mod spring;
 
 use std::collections::HashSet;
 
-use glam::DVec3;
-
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -37,6 +35,7 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) 
             said.retain(|it| it.code != Code::NoEffect || it.span() != Some(span));
             context.diagnostics.append(&mut said);
         }
+        context.once(before, name, span);
         let kind = kind?;
         Some(Force { name: name.to_owned(), kind })
     };
@@ -66,8 +65,8 @@ impl Reader<'_, '_> {
     fn constant(&mut self, view: &View<'_>) -> ForceKind {
         ForceKind::Constant(ConstantForce {
             bodies: self.movable(view),
-            force: view.vector("force").unwrap_or(DVec3::ZERO),
-            torque: view.vector("torque").unwrap_or(DVec3::ZERO),
+            force: view.vector("force").unwrap_or_default(),
+            torque: view.vector("torque").unwrap_or_default(),
         })
     }
 
@@ -75,24 +74,24 @@ impl Reader<'_, '_> {
         self.needs_one_of(view, &["linear", "quadratic"]);
         ForceKind::Drag(Drag {
             bodies: self.movable(view),
-            linear: view.number("linear").unwrap_or(0.0),
-            quadratic: view.number("quadratic").unwrap_or(0.0),
-            wind: view.vector("wind").unwrap_or(DVec3::ZERO),
+            linear: view.number("linear").unwrap_or_default(),
+            quadratic: view.number("quadratic").unwrap_or_default(),
+            wind: view.vector("wind").unwrap_or_default(),
         })
     }
 
     fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
-        let softening = view.number("softening").unwrap_or(0.0);
+        let softening = view.number("softening").unwrap_or_default();
         let (bodies, against) = self.pairs(view, softening, |_| true);
-        let constant = view.number("constant").unwrap_or(Gravitation::CONSTANT);
+        let constant = view.number("constant").unwrap_or_default();
         ForceKind::Gravitation(Gravitation { bodies, against, constant, softening })
     }
 
     fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
-        let softening = view.number("softening").unwrap_or(0.0);
+        let softening = view.number("softening").unwrap_or_default();
         let all = self.bodies;
         let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
-        let constant = view.number("constant").unwrap_or(Coulomb::CONSTANT);
+        let constant = view.number("constant").unwrap_or_default();
         ForceKind::Coulomb(Coulomb { bodies, against, constant, softening })
     }
 
@@ -100,8 +99,8 @@ impl Reader<'_, '_> {
         self.needs_one_of(view, &["electric", "magnetic"]);
         ForceKind::Lorentz(Lorentz {
             bodies: self.charged(view),
-            electric: view.vector("electric").unwrap_or(DVec3::ZERO),
-            magnetic: view.vector("magnetic").unwrap_or(DVec3::ZERO),
+            electric: view.vector("electric").unwrap_or_default(),
+            magnetic: view.vector("magnetic").unwrap_or_default(),
         })
     }
 

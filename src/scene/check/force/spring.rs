@@ -3,7 +3,7 @@
 use super::super::end;
 use super::super::view::View;
 use super::Reader;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Anchor, Spring};
 use crate::scene::ForceKind;
 use crate::scene::source::Node;
@@ -12,10 +12,10 @@ impl Reader<'_, '_> {
     /// A spring from each end to the next.
     pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let nodes = view.list("between")?;
-        self.chain_of_groups(nodes);
+        self.chain_of_groups(nodes, view.span("between"));
         let rest_length = view.number("rest_length");
-        let stiffness = view.number("stiffness").unwrap_or(0.0);
-        let damping = view.number("damping").unwrap_or(0.0);
+        let stiffness = view.number("stiffness")?;
+        let damping = view.number("damping")?;
         let mut links = Vec::with_capacity(nodes.len());
         for neighbours in nodes.windows(2) {
             let [first, second] = neighbours else { continue };
@@ -25,6 +25,9 @@ impl Reader<'_, '_> {
                 continue;
             };
             self.link(first, second, [from, to]);
+            if rest_length.is_none() {
+                self.copies_apart([first, second], [from, to]);
+            }
             let length = || end::place(from, self.bodies).distance(end::place(to, self.bodies));
             let rest_length = rest_length.unwrap_or_else(length);
             links.push(Spring { between: [from, to], stiffness, damping, rest_length });
@@ -33,9 +36,10 @@ impl Reader<'_, '_> {
     }
 
     /// Warns of several bodies that are repeated: their copies make one chain, where pairs may have been meant.
-    fn chain_of_groups(&mut self, nodes: &[Node]) {
+    fn chain_of_groups(&mut self, nodes: &[Node], between: Option<Span>) {
         // The copies of a body all stand at the place of its name.
         let mut groups: Vec<&[Node]> = nodes.chunk_by(|a, b| a.span == b.span).collect();
+        let count = groups.len();
         groups.retain(|group| group.len() > 1);
         let [first, .., last] = groups.as_slice() else { return };
         let body = |node: &Node| match node.as_table() {
@@ -46,13 +50,41 @@ impl Reader<'_, '_> {
         let (from, to) = (end(first.first()), end(last.last()));
         let message = "all copies make one chain, and not pairs";
         let warning = Diagnostic::warning(Code::OneChain, message);
-        let help = format!(
-            "for pairs, write a force for each: `between = [\"{from}\", \"{}\"]`, and so on",
-            end(last.first())
-        );
+        let original = |name: &str| self.context.groups.original(name).unwrap_or(name).to_owned();
+        let pairs = format!("[\"{}[i]\", \"{}[i]\"]", original(&from), original(&to));
+        let help = format!("for pairs, write `between = {pairs}`");
+        let is_plain = nodes.iter().all(|node| node.as_str().is_some());
         let warning =
             warning.at(last[0].span, format!("the chain goes from `{from}` through every copy to `{to}`"));
-        self.context.diagnostics.push(warning.help(help));
+        let warning = warning.help(help);
+        self.context.diagnostics.push(
+            match between.filter(|_| is_plain && count == 2 && first.len() == last.len()) {
+                Some(between) => warning.fix(between, pairs).fix_is_said(),
+                None => warning,
+            },
+        );
+    }
+
+    /// Warns of a spring between copies that start at the same place, where its rest length would be 0: they have hardly been
+    /// meant to.
+    fn copies_apart(&mut self, nodes: [&Node; 2], between: [Anchor; 2]) {
+        let bodies = self.bodies;
+        let is_copy = |end: &Anchor| {
+            end.body().is_some_and(|id| self.context.groups.original(&bodies[id.index()].name).is_some())
+        };
+        let is_same = between[0].body() == between[1].body();
+        let [from, to] = between.map(|end| end::place(end, bodies));
+        if is_same || from != to || !between.iter().all(is_copy) {
+            return;
+        }
+        let span = nodes[1].span;
+        let warning = || {
+            let message = "a spring between copies that start at the same place has no length";
+            Diagnostic::warning(Code::SpringEnds, message)
+                .at(span, "where its other end is")
+                .help("formulas of `i` set copies apart; if this is meant, write `rest_length = 0`")
+        };
+        self.say(Code::SpringEnds, span, warning);
     }
 
     /// Two neighbouring ends must be different, and one of them able to move.

@@ -137,13 +137,6 @@ static NOT_BUILT: &[NotBuilt] = &[
         can_go: false,
     },
     NotBuilt {
-        of: "a trail",
-        words: &["at", "point", "offset"],
-        help: "a trail is that of the centre of mass; leave the line out",
-        comes_with: "at",
-        can_go: true,
-    },
-    NotBuilt {
         of: "a scene",
         words: &["units", "unit", "unit_system"],
         help: "all numbers are in SI units: metres, kilograms, seconds; leave the line out",

@@ -42,7 +42,7 @@ impl Reader<'_, '_> {
                 coordinate,
                 target: target.clone(),
                 stiffness,
-                damping: motor.number("damping").unwrap_or(0.0),
+                damping: motor.number("damping").unwrap_or_default(),
             });
             self.unused(
                 &motor,

@@ -32,15 +32,17 @@ pub(super) fn read(
     // Gears couple other joints, and come last.
     let (gears, others): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
+    let method = simulation.method;
     for (name, span, view) in others.into_iter().chain(gears) {
-        let mut reader = Reader { name, span, bodies, simulation, context };
-        let Some((kind, servo)) = reader.kind(&view, &joints) else { continue };
-        let method = simulation.method;
-        if !method.constraints {
+        let before = context.diagnostics.len();
+        let found = Reader { name, span, bodies, simulation, context }.kind(&view, &joints);
+        if found.is_some() && !method.constraints {
             let message = format!("the integrator `{}` keeps no joints", method.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
             context.diagnostics.push(error.help("take another one: `simulation.integrator = \"rk4\"`"));
         }
+        context.once(before, name, span);
+        let Some((kind, servo)) = found else { continue };
         let arrows = arrows(&view);
         joints.push(Joint { name: name.to_owned(), look: look(&view, &kind), kind, servo, arrows });
     }

@@ -33,7 +33,7 @@ impl Reader<'_, '_> {
         let (between, _) = self.ends(view)?;
         let [first, second] = view.list("over")? else { return None };
         let over = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
-        let ratio = view.number("ratio").unwrap_or(1.0);
+        let ratio = view.number("ratio")?;
         let way = |i: usize| end::place(between[i], self.bodies).distance(end::place(over[i], self.bodies));
         let ways = [way(0), way(1)];
         let needed = ways[0] + ratio * ways[1];

@@ -27,8 +27,8 @@ impl Expander<'_> {
     /// Reads a curve and measures it; `at` are its formulas.
     pub(super) fn curve(&mut self, view: &View<'_>, at: Option<&Node>) -> Option<Curve> {
         let count = usize::try_from(view.integer("count")?).ok()?;
-        let closed = view.boolean("closed").unwrap_or(false);
-        let turned = view.boolean("turned").unwrap_or(true);
+        let closed = view.boolean("closed")?;
+        let turned = view.boolean("turned")?;
         let (path, span) = match at {
             Some(node) if !view.has("points") => (self.formulas(node)?, node.span),
             Some(_) => return None,

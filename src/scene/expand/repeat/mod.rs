@@ -17,7 +17,8 @@ use self::scatter::Scatter;
 use super::Expander;
 use super::groups::Group;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::{MAX_COPIES, TableSpec};
+use crate::scene::grammar::{Bound, MAX_COPIES, TableSpec};
+use crate::scene::read;
 use crate::scene::source::{CopiedTable, Entry, Name, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 use crate::scene::view::View;
@@ -63,7 +64,7 @@ impl Expander<'_> {
                 all.push(entry);
             }
         }
-        self.unique(&all);
+        self.unique(&all, "bodies");
         bodies.entries = all.into();
     }
 
@@ -80,11 +81,11 @@ impl Expander<'_> {
         }
         let pattern = self.below(name, |this| this.below("repeat", |this| this.pattern(&repeat, spec)));
         let counts = pattern.as_ref().map(Pattern::counts);
-        let counts = counts.filter(|counts| self.is_affordable(counts, name, &repeat));
+        let counts = counts.filter(|counts| self.is_affordable(counts, "bodies", name, repeat.node.span));
         let mut is_known = counts.is_some();
         // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
         let mut counts = counts.unwrap_or_else(|| vec![1]);
-        self.collisions(&counts, name, &repeat);
+        self.collisions(&counts, name, repeat.name.span);
 
         let number = counts.iter().product();
         let first = all.len();
@@ -95,15 +96,12 @@ impl Expander<'_> {
         let scope = self.scope.clone();
         let before = self.work;
         for index in indices(&counts) {
-            if all.len() == first + 1 && !self.is_workable(number, before, name, &repeat) {
+            if all.len() == first + 1 && !self.is_workable(number, before, name, repeat.node.span) {
                 (counts, is_known) = (vec![1], false);
                 break;
             }
             let name: Arc<str> = copy_name(name, &index[..counts.len()]).into();
-            for (letter, number) in INDICES.iter().zip(&index).take(counts.len()) {
-                #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
-                self.scope.constant(*letter, *number as f64);
-            }
+            self.count_as(&index[..counts.len()]);
             let mut table = table.clone();
             self.copy = Some(name.clone());
             self.below(&name, |this| this.table(&mut table, spec));
@@ -131,7 +129,7 @@ impl Expander<'_> {
     }
 
     /// Whether there is room for so many copies; it is said if there is none.
-    fn is_affordable(&mut self, counts: &[usize], name: &str, repeat: &Entry) -> bool {
+    pub(super) fn is_affordable(&mut self, counts: &[usize], what: &str, name: &str, span: Span) -> bool {
         let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
         let number = counts.iter().fold(1usize, |product, count| product.saturating_mul(*count));
         let all = self.copies.saturating_add(number);
@@ -139,15 +137,15 @@ impl Expander<'_> {
             self.copies = all;
             return true;
         }
-        let message = format!("{all} bodies are too many: `repeat` makes at most {MAX_COPIES}");
+        let message = format!("{all} {what} are too many: `repeat` makes at most {MAX_COPIES}");
         let label = format!("{number} copies of `{name}`");
-        self.diagnostics.push(Diagnostic::error(Code::TooManyCopies, message).at(repeat.node.span, label));
+        self.diagnostics.push(Diagnostic::error(Code::TooManyCopies, message).at(span, label));
         false
     }
 
     /// Whether the formulas of so many copies are affordable, by what the one came to that has been made since `before`; it is
     /// said if they are not.
-    fn is_workable(&mut self, number: usize, before: u64, name: &str, repeat: &Entry) -> bool {
+    pub(super) fn is_workable(&mut self, number: usize, before: u64, name: &str, span: Span) -> bool {
         let one = self.work - before;
         if one == 0 || (one + WORK_OF_COPY).saturating_mul(number as u64) <= MAX_WORK.saturating_sub(before) {
             return true;
@@ -157,13 +155,21 @@ impl Expander<'_> {
         let message = format!("{number} copies of `{name}` have too many formulas");
         let label = format!("at most {most} copies of this body are made");
         let help = "copies share the values that are numbers: write a formula only where they differ";
-        let error = Diagnostic::error(Code::TooManyCopies, message).at(repeat.node.span, label);
+        let error = Diagnostic::error(Code::TooManyCopies, message).at(span, label);
         self.diagnostics.push(error.help(help));
         false
     }
 
+    /// Gives the indices of formulas the values of a copy.
+    pub(super) fn count_as(&mut self, index: &[usize]) {
+        for (letter, number) in INDICES.iter().zip(index) {
+            #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
+            self.scope.constant(*letter, *number as f64);
+        }
+    }
+
     /// Says which variables have the name of an index that the copies are told apart by.
-    fn collisions(&mut self, counts: &[usize], name: &str, repeat: &Entry) {
+    pub(super) fn collisions(&mut self, counts: &[usize], name: &str, span: Span) {
         for letter in INDICES.into_iter().take(counts.len()) {
             let Some(&variable) = self.variable_spans.get(letter) else { continue };
             if !self.told.insert(variable) {
@@ -172,16 +178,16 @@ impl Expander<'_> {
             let message = format!("the variable `{letter}` has the name of an index");
             let error = Diagnostic::error(Code::IndexName, message).at(variable, "give it another name");
             let label = format!("`{letter}` counts the copies of `{name}`");
-            self.diagnostics.push(error.at(repeat.name.span, label));
+            self.diagnostics.push(error.at(span, label));
         }
     }
 
     /// Says which bodies are called as a copy is.
-    fn unique(&mut self, all: &[Entry]) {
+    pub(super) fn unique(&mut self, all: &[Entry], what: &str) {
         let mut names = std::collections::HashMap::with_capacity(all.len());
         for Entry { name: Name { span, text }, .. } in all {
             if let Some(other) = names.insert(text, *span) {
-                let message = format!("two bodies are called `{text}`");
+                let message = format!("two {what} are called `{text}`");
                 let (copy, own) = if other > *span { (*span, other) } else { (other, *span) };
                 let error = Diagnostic::error(Code::SameName, message).at(own, "one is here");
                 self.diagnostics.push(error.at(copy, "a `repeat` makes the other"));
@@ -229,9 +235,10 @@ impl Expander<'_> {
             put(copy, "orientation", Value::Table(table), repeat);
         }
         if is_whole(copy, "location") {
-            let own = View::new(spec, Some(copy)).vector("location");
-            let location = numbers(&(own.unwrap_or(DVec3::ZERO) + offset).to_array(), repeat.node.span);
-            if own.is_some() || copy.get("location").is_none() {
+            let own = View::new(spec, Some(copy)).vector("location").unwrap_or_default();
+            let location = numbers(&(own + offset).to_array(), repeat.node.span);
+            // What is wrong is left for the validation to see.
+            if copy.get("location").is_none_or(|own| read::vector(&own.node, Bound::Any).is_some()) {
                 put(copy, "location", location.value, repeat);
             }
         }

@@ -63,16 +63,13 @@ impl Expander<'_> {
             return Some(Pattern::Ring {
                 count: number(ring.integer("count")?),
                 radius: ring.number("radius")?,
-                axis: match ring.has("axis") {
-                    true => DVec3::from_array(ring.direction::<3>("axis")?),
-                    false => DVec3::Y,
-                },
-                turned: ring.boolean("turned").unwrap_or(true),
+                axis: DVec3::from_array(ring.direction::<3>("axis")?),
+                turned: ring.boolean("turned")?,
             });
         }
         if let Some(line) = view.variant("line") {
             let (count, to) = (number(line.integer("count")?), line.vector("to")?);
-            return Some(Pattern::Line { count, from: line.vector("from").unwrap_or(DVec3::ZERO), to });
+            return Some(Pattern::Line { count, from: line.vector("from")?, to });
         }
         if let Some(view) = view.variant("curve") {
             let at = Curve::formulas(&repeat.node);

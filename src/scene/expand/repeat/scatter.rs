@@ -58,8 +58,8 @@ impl Scatter {
         Some(Scatter {
             count: usize::try_from(view.integer("count")?).ok()?,
             volume,
-            gap: if view.has("gap") { view.number("gap")? } else { 0.0 },
-            turned: view.boolean("turned").unwrap_or(false),
+            gap: view.number("gap")?,
+            turned: view.boolean("turned")?,
         })
     }
 

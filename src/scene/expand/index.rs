@@ -1,0 +1,108 @@
+//! The names of copies whose indices are formulas: `bob[i]`, `link[i+1]`, `brick[i,n-1]`.
+
+use std::ops::Range;
+
+use super::groups::split;
+use super::{Expander, place};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::expression::Formula;
+use crate::scene::source::{Node, Value};
+
+/// Whether a name has a formula for an index, if it is one of a copy.
+pub(super) fn is_formula(name: &str) -> bool {
+    let is_plain = |part: &str| part == "*" || part.parse::<usize>().is_ok();
+    split(name).is_some_and(|(_, inside)| parts(inside).any(|range| !is_plain(inside[range].trim())))
+}
+
+/// The formulas of the indices in a name that depend on `i`, with the name of the body that is repeated.
+pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
+    let (original, inside) = split(name)?;
+    let formulas: Vec<Formula> =
+        parts(inside).map(|range| Formula::parse(inside[range].trim()).ok()).collect::<Option<_>>()?;
+    let is_of_i = formulas.iter().any(|formula| formula.names().any(|(name, _)| name == "i"));
+    is_of_i.then_some((original, formulas))
+}
+
+/// The indices of a name, between commas that stand in no parentheses.
+fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
+    let (mut depth, mut start) = (0usize, 0);
+    let mut ends = inside.char_indices().chain([(inside.len(), ',')]);
+    std::iter::from_fn(move || {
+        for (at, letter) in ends.by_ref() {
+            match letter {
+                '(' => depth += 1,
+                ')' => depth = depth.saturating_sub(1),
+                ',' if depth == 0 || at == inside.len() => {
+                    let range = start..at;
+                    start = at + 1;
+                    return Some(range);
+                }
+                _ => {}
+            }
+        }
+        None
+    })
+}
+
+impl Expander<'_> {
+    /// Puts the numbers in the place of the formulas in the name of a copy. Whether there is such a copy, the validation
+    /// sees.
+    pub(super) fn index(&mut self, node: &mut Node) {
+        let Value::String(name) = &node.value else { return };
+        let name = name.clone();
+        let Some((original, inside)) = split(&name) else { return };
+        if self.is_default || !is_formula(&name) || !self.groups.holds(original) {
+            return;
+        }
+        let mut numbers = Vec::new();
+        for range in parts(inside) {
+            let part = &inside[range.clone()];
+            let text = part.trim();
+            if text == "*" {
+                numbers.push(text.to_owned());
+                continue;
+            }
+            let start = original.len() + 1 + range.start + part.len() - part.trim_start().len();
+            let place = place::in_string(self.raw(node.span), &name, &(start..start + text.len()), node.span);
+            if place == node.span {
+                // Several indices may have this place, so none of their formulas can be found by it.
+                self.formulas.remove(&place);
+            }
+            let Some(value) = self.evaluate(text, place) else {
+                node.value = Value::Invalid;
+                return;
+            };
+            if value.trunc() != value {
+                let message = format!("expected a whole number, found {value}{}", self.in_copy());
+                if self.told.insert(place) {
+                    let error = Diagnostic::error(Code::WrongType, message).at(place, "an index is whole");
+                    let help = "`round`, `floor` and `ceil` give whole numbers";
+                    self.diagnostics.push(error.help(help));
+                }
+                node.value = Value::Invalid;
+                return;
+            }
+            // Adding 0 makes 0 of -0.
+            numbers.push((value + 0.0).to_string());
+        }
+        node.value = Value::String(format!("{original}[{}]", numbers.join(",")).into());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_are_numbers_stars_or_formulas() {
+        for name in ["ball", "ball[0]", "brick[3,0]", "brick[*,2]", "[x]y"] {
+            assert!(!is_formula(name), "{name}");
+        }
+        for name in ["ball[i]", "brick[3,i+1]", "ball[mod(i,3)]", "ball[-1]"] {
+            assert!(is_formula(name), "{name}");
+        }
+        let inside = "mod(i, 3), j";
+        let parts: Vec<&str> = parts(inside).map(|range| &inside[range]).collect();
+        assert_eq!(parts, ["mod(i, 3)", " j"]);
+    }
+}

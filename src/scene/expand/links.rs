@@ -1,0 +1,212 @@
+//! Forces and joints that are many: with a `repeat`, or with ends that are named by `i`.
+//!
+//! `between = ["hook[i]", "bob[i]"]` makes one for each `i` for which all of these copies exist.
+
+use std::sync::Arc;
+
+use super::Expander;
+use super::groups::{body_of, split};
+use super::index;
+use super::repeat::copy_name;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::expression::Formula;
+use crate::scene::grammar::{Collection, Kind, MAX_COPIES, SCENE, TableSpec};
+use crate::scene::source::{Entry, Name, Node, Table, Value};
+
+impl Expander<'_> {
+    /// Puts its copies in the place of every force and joint that is many.
+    pub(super) fn repeat_links(&mut self, root: &mut Table) {
+        for (key, what) in [("force", "forces"), ("joint", "joints")] {
+            let Some(Kind::Named(spec)) = SCENE.key(key).map(|key| &key.kind) else { continue };
+            let Some(Value::Table(tables)) = root.get_mut(key).map(|entry| &mut entry.node.value) else {
+                continue;
+            };
+            if !tables.entries.iter().any(|entry| is_many(entry, spec)) {
+                continue;
+            }
+            let mut all = Vec::new();
+            for entry in std::mem::take(&mut tables.entries) {
+                if is_many(&entry, spec) {
+                    self.below(key, |this| this.copies_of_link(entry, what, spec, &mut all));
+                } else {
+                    all.push(entry);
+                }
+            }
+            self.unique(&all, what);
+            tables.entries = all.into();
+        }
+    }
+
+    fn copies_of_link(&mut self, entry: Entry, what: &str, spec: &'static TableSpec, all: &mut Vec<Entry>) {
+        let Entry { name: Name { span: named, text: name }, node: Node { span, value } } = entry;
+        let Value::Table(mut table) = value else { return };
+        let place = table.entries.iter().position(|entry| &*entry.name.text == "repeat");
+        let mut repeat = place.map(|place| table.entries.remove(place));
+        if let (Some(repeat), Some(key)) = (&mut repeat, spec.key("repeat")) {
+            self.below(&name, |this| this.below("repeat", |this| this.value(&mut repeat.node, &key.kind)));
+        }
+        let (count, because, letter) = match &repeat {
+            Some(repeat) => (count_of(&repeat.node), repeat.node.span, repeat.name.span),
+            None => {
+                let mut ends = Vec::new();
+                ends_of_i(&table, spec, &mut ends);
+                let span = ends.first().map_or(named, |end| end.span);
+                (self.count_of_ends(&ends), span, span)
+            }
+        };
+        // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
+        let count = count.filter(|count| self.is_affordable(&[*count], what, &name, because)).unwrap_or(1);
+        self.collisions(&[count], &name, letter);
+        let (scope, before, first) = (self.scope.clone(), self.work, all.len());
+        for number in 0..count {
+            if number == 1 && !self.is_workable(count, before, &name, because) {
+                break;
+            }
+            let copy: Arc<str> = copy_name(&name, &[number]).into();
+            self.count_as(&[number]);
+            let mut table = table.clone();
+            self.copy = Some(copy.clone());
+            self.below(&copy, |this| this.table(&mut table, spec));
+            self.copy = None;
+            all.push(Entry {
+                name: Name { span: named, text: copy },
+                node: Node { span, value: Value::Table(table) },
+            });
+        }
+        self.scope = scope;
+        self.formulas.clear();
+        self.groups.add_link(&name);
+        // The validation still has to see it, once.
+        if let (Some(Entry { node: Node { value: Value::Table(table), .. }, .. }), Some(repeat)) =
+            (all.get_mut(first), repeat)
+        {
+            table.entries.push(repeat);
+        }
+    }
+
+    /// For how many values of `i` there is a copy of each name; none after it has been said that pairs do not come out
+    /// even.
+    fn count_of_ends(&mut self, ends: &[&Node]) -> Option<usize> {
+        let ends: Vec<(&Node, &str, Vec<Formula>)> = ends
+            .iter()
+            .filter_map(|node| {
+                let (original, formulas) = index::of_i(node.as_str()?)?;
+                Some((*node, original, formulas))
+            })
+            .collect();
+        let plain =
+            ends.iter().filter(|(_, _, formulas)| matches!(&formulas[..], [one] if one.text() == "i"));
+        let mut sizes = plain.filter_map(|(node, original, _)| {
+            Some((node.span, *original, self.groups.counts(original)?.iter().product::<usize>()))
+        });
+        if let Some(one) = sizes.next()
+            && let Some(other) = sizes.find(|other| other.2 != one.2)
+        {
+            self.uneven(one, other);
+            return None;
+        }
+        drop(sizes);
+        let scope = self.scope.clone();
+        let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
+        let count = (0..=most).find(|number| {
+            self.count_as(&[*number]);
+            !ends.iter().all(|(_, original, formulas)| self.has_copy(original, formulas))
+        });
+        self.scope = scope;
+        // Without any, what is wrong with the first is said of it.
+        count.map(|count| count.max(1))
+    }
+
+    /// Whether there is a copy with these indices.
+    fn has_copy(&self, original: &str, formulas: &[Formula]) -> bool {
+        let Some(counts) = self.groups.counts(original) else { return false };
+        let is_in_range = |(formula, count): (&Formula, &usize)| {
+            let value = formula.resolve(&self.scope).ok().and_then(|resolved| resolved.value(&[]).ok());
+            #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
+            value.is_some_and(|value| value >= 0.0 && value < *count as f64)
+        };
+        formulas.len() == counts.len() && formulas.iter().zip(counts).all(is_in_range)
+    }
+
+    /// Says that two bodies, each with the place of its name and the number of its copies, make no pairs.
+    fn uneven(&mut self, (here, one, many): (Span, &str, usize), (there, other, more): (Span, &str, usize)) {
+        let message =
+            format!("pairs take as many of each: `{one}` has {many} copies, and `{other}` has {more}");
+        let help = format!("to leave the others out, write `repeat = {}`", many.min(more));
+        let error = Diagnostic::error(Code::WrongLength, message).at(there, format!("{more} copies"));
+        self.diagnostics.push(error.at(here, format!("{many} copies")).help(help));
+    }
+
+    /// Says where an end means several bodies although it can be one only.
+    pub(super) fn are_single(&mut self, list: &mut Node) {
+        let Value::Array(items) = &list.value else { return };
+        let is_several = |item: &&Node| self.groups.means_several(item);
+        let Some(several) = items.iter().find(is_several) else { return };
+        let name = body_of(several).unwrap_or_default();
+        let message = format!("`{name}` is several bodies, and each end of a joint is one");
+        let error = Diagnostic::error(Code::WrongLength, message).at(several.span, "which of them?");
+        let line = |item: &Node| {
+            let raw = self.raw(item.span);
+            match body_of(item).filter(|_| is_several(&item)) {
+                Some(name) => raw.replacen(&format!("\"{name}\""), &format!("\"{}\"", by_index(name)), 1),
+                None => raw.to_owned(),
+            }
+        };
+        let pairs = format!("[{}]", items.iter().map(line).collect::<Vec<_>>().join(", "));
+        let error = error.help(format!("for pairs, write `between = {pairs}`")).fix(list.span, pairs);
+        if self.told.insert(list.span) {
+            self.diagnostics.push(error.fix_is_said());
+        }
+        list.value = Value::Invalid;
+    }
+}
+
+/// A name that means several bodies as one that means them one after another: `bob` and `bob[*]` → `bob[i]`.
+fn by_index(name: &str) -> String {
+    match split(name) {
+        Some((original, inside)) => format!("{original}[{}]", inside.replacen('*', "i", 1)),
+        None => format!("{name}[i]"),
+    }
+}
+
+/// Whether a force or joint stands for several.
+fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
+    let Some(table) = entry.node.as_table() else { return false };
+    let mut ends = Vec::new();
+    ends_of_i(table, spec, &mut ends);
+    table.get("repeat").is_some() || !ends.is_empty()
+}
+
+/// The names of bodies in a table that depend on `i`.
+fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<&'t Node>) {
+    fn look<'t>(node: &'t Node, kind: &'static Kind, found: &mut Vec<&'t Node>) {
+        match (kind, &node.value) {
+            (Kind::Reference(Collection::Body), Value::String(name))
+                if index::is_formula(name) && index::of_i(name).is_some() =>
+            {
+                found.push(node);
+            }
+            (Kind::List { of, .. }, Value::Array(items)) => {
+                items.iter().for_each(|item| look(item, of, found));
+            }
+            (Kind::Table(spec), Value::Table(table)) => ends_of_i(table, spec, found),
+            (Kind::Either(kinds), value) => {
+                kinds.iter().filter(|kind| kind.takes(value)).for_each(|kind| look(node, kind, found));
+            }
+            _ => {}
+        }
+    }
+    for entry in &table.entries {
+        if let Some(key) = spec.key(&entry.name.text) {
+            look(&entry.node, &key.kind, found);
+        }
+    }
+}
+
+/// The number of copies; none where it is wrong, which the validation says.
+fn count_of(repeat: &Node) -> Option<usize> {
+    match repeat.value {
+        Value::Integer(count @ 1..=MAX_COPIES) => usize::try_from(count).ok(),
+        _ => None,
+    }
+}
