@@ -156,6 +156,7 @@ static TURNING: TableSpec = TableSpec {
             .also(&["rate", "angular_velocity", "velocity", "omega"]),
         Key::new("torque", POSITIVE, "With `speed`: the largest torque that it has")
             .unit("N·m")
+            .default("none; `speed` needs it")
             .also(&["max_torque", "strength"]),
         Key::new(
             "angle",
@@ -178,6 +179,7 @@ static MOVING: TableSpec = TableSpec {
             .also(&["rate", "velocity"]),
         Key::new("force", POSITIVE, "With `speed`: the largest force that it has")
             .unit("N")
+            .default("none; `speed` needs it")
             .also(&["max_force", "strength"]),
         Key::new(
             "position",
@@ -195,6 +197,7 @@ const NUMBER_ANY: Kind = Number(Bound::Any);
 
 const STIFFNESS: Key =
     Key::new("stiffness", POSITIVE, "It is as strong as a spring of this stiffness, and gives way")
+        .default("it does not give way")
         .also(&["k"]);
 
 const DAMPING: Key =
