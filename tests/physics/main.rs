@@ -18,4 +18,5 @@ mod order;
 mod reactions;
 mod rotation;
 mod same_bits;
+mod scenes;
 mod springs;
