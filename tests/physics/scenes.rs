@@ -31,3 +31,24 @@ fn the_gyroscope_precesses_at_the_rate_of_theory() {
     let off = turned / last / rate - 1.0;
     assert!(off.abs() < 1e-6, "{off:e}");
 }
+
+/// Where a point of a body is, as it stands in its own axes.
+fn point(body: &BodySnapshot, at: DVec3) -> DVec3 {
+    body.location + body.orientation * at
+}
+
+#[test]
+fn the_four_bar_linkage_stays_closed() {
+    let u = 0.2;
+    for (time, bodies) in frames("four_bar") {
+        let [crank, rocker, coupler] = [&bodies[0], &bodies[1], &bodies[2]];
+        let loose = [
+            point(crank, DVec3::new(0.5 * u, 0.0, 0.0)) - DVec3::new(0.0, 0.3, 0.0),
+            point(crank, DVec3::new(-0.5 * u, 0.0, 0.02)) - point(coupler, DVec3::new(-2.5 * u, 0.0, -0.02)),
+            point(rocker, DVec3::new(1.25 * u, 0.0, 0.02)) - point(coupler, DVec3::new(0.0, 0.0, -0.02)),
+            point(rocker, DVec3::new(-1.25 * u, 0.0, 0.0)) - DVec3::new(2.0 * u, 0.3, 0.0),
+        ];
+        let worst = loose.into_iter().map(DVec3::length).fold(0.0, f64::max);
+        assert!(worst < 1e-12, "{worst:e} at {time} s");
+    }
+}
