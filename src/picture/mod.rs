@@ -39,7 +39,7 @@ pub use colors::{of_look, pale};
 pub(crate) use framing::{decimal_step, rounded_outward};
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};
-pub use links::{Link, LinkForm};
+pub use links::{Link, LinkForm, LinkKind, PlannedLink};
 pub use not_drawn::{Asking, NotDrawn, Why};
 pub(crate) use plan::has_texts;
 pub use plan::{Largest, Plan, Written};

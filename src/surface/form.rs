@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Triangles, lathe, mesh, straight};
+use super::{Triangles, helix, lathe, mesh, straight};
 use crate::dynamics::Mesh;
 
 /// A form in a standard size, which many bodies share: each scales it as it needs. What has an axis has it along y.
@@ -87,6 +87,14 @@ impl Form {
     pub fn rounded_box(half: DVec3, rounding: f64) -> Form {
         Form::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
             straight::rounded_box(DVec3::new(x, y, z), rounding, sides)
+        })
+    }
+
+    /// The coil of a spring about y, from y = -1 to 1, with its radius 1 and so many turns; its wire has the given radius.
+    #[must_use]
+    pub fn coil(turns: u32, wire: f64) -> Form {
+        Form::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
+            helix::coil(turns, wire, sides)
         })
     }
 

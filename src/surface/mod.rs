@@ -6,6 +6,7 @@
 mod angles;
 mod appearance;
 mod form;
+mod helix;
 mod lathe;
 mod mesh;
 mod motif;

@@ -11,7 +11,7 @@ use std::process::Command;
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::dynamics::Shape;
-use jabuka::picture::{Lamp, Plan};
+use jabuka::picture::{Lamp, LinkForm, LinkKind, Plan};
 use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
 use support::{jabuka, root, stderr, stdout};
@@ -468,4 +468,103 @@ fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
     let said = stderr(&output);
     assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
+}
+
+/// Springs and joints of all kinds, of which one rope is slack.
+const LINKS: &str = "
+    simulation = { duration = 1, gravity = [0, -9.81, 0], integrator = 'rk4', frame_rate = 10 }
+    [body.bob]
+    shape.sphere.radius = 0.1
+    location = [1, 0, 0]
+    [body.bar]
+    shape.box.size = [0.1, 1, 0.1]
+    location = [2, 0.5, 0]
+    angular_velocity = [0, 0, 9]
+    [body.load]
+    shape.sphere.radius = 0.2
+    location = [3, -0.5, 0]
+    [body.cart]
+    shape.box.size = [0.3, 0.2, 0.2]
+    location = [4, 0, 0]
+    velocity = [1, 0, 0]
+    [body.calf]
+    shape.sphere.radius = 0.1
+    location = [5, -1, 0]
+    velocity = [0.5, 0, 0]
+    end = 0.55
+    [joint.string.rod]
+    between = [[0, 0, 0], 'bob']
+    [joint.pivot.hinge]
+    between = [[2, 0, 0], 'bar']
+    axis = [0, 0, 1]
+    [joint.rail.slider]
+    between = [[4, 0, 0], 'cart']
+    axis = [1, 0, 0]
+    [joint.tether.rope]
+    between = [[5, 0, 0], 'calf']
+    length = 2
+    [body.shade]
+    shape.sphere.radius = 0.1
+    location = [1, 1, 0]
+    [joint.hidden.rod]
+    between = [[0, 1, 0], 'shade']
+    look = 'none'
+    [force.coil.spring]
+    between = [[3, 1, 0], 'load']
+    stiffness = 30
+    [force.cord.spring]
+    between = ['cart', 'load']
+    stiffness = 3
+    line = 'straight'
+    ";
+
+#[test]
+fn springs_and_joints_are_where_the_picture_has_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("links.toml");
+    fs::write(&path, LINKS).unwrap();
+    let file = path.with_extension("glb");
+    export(&path, &file, &[]);
+    let [seen] = &look(&[file])[..] else { panic!("one is looked at") };
+    let scene = Scene::from_path(&path).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let nodes: Vec<&SeenBody> = seen.bodies.iter().filter(|node| node.name.starts_with("link ")).collect();
+    let near = |pose: &[f64; 7], place: DVec3| DVec3::new(pose[0], pose[1], pose[2]).abs_diff_eq(place, 1e-6);
+    let axis = |pose: &[f64; 7]| DQuat::from_xyzw(pose[3], pose[4], pose[5], pose[6]) * DVec3::Y;
+    let mut compared = 0;
+    for (i, frame) in Frames::new(&scene).map(Result::unwrap).enumerate() {
+        let mut rest = &nodes[..];
+        for (planned, link) in plan.planned_links().zip(plan.each_link(&frame)) {
+            let count = if planned.kind == LinkKind::Rope { 24 } else { 1 };
+            let (its, others) = rest.split_at(count);
+            rest = others;
+            assert_eq!(its[0].name, format!("link {}", planned.name));
+            // Sizes are also said between two times.
+            let size = its[0].sizes[2 * i];
+            match link.map(|link| link.form) {
+                None => assert_eq!(size, 0.0, "{} in {i}", planned.name),
+                Some(LinkForm::Pin { at, radius }) => {
+                    assert!(near(&its[0].poses[i], at) && (size - radius).abs() < 1e-6);
+                }
+                Some(
+                    LinkForm::Coil { ends: [a, b], radius, .. } | LinkForm::Rod { ends: [a, b], radius },
+                ) => {
+                    let pose = &its[0].poses[i];
+                    assert!(near(pose, a.midpoint(b)) && (size - radius).abs() < 1e-6, "{}", planned.name);
+                    assert!(axis(pose).cross((b - a).normalize()).length() < 1e-5, "{} in {i}", planned.name);
+                }
+                Some(LinkForm::Rope { points, .. }) if points.len() == 25 => {
+                    let places = points.windows(2).map(|pair| pair[0].midpoint(pair[1]));
+                    for (node, place) in its.iter().zip(places) {
+                        assert!(near(&node.poses[i], place), "{} in {i}", planned.name);
+                    }
+                }
+                Some(LinkForm::Rope { .. }) => {}
+            }
+            compared += 1;
+        }
+        assert!(rest.is_empty());
+    }
+    // Two parts of string, pivot, rail and coil; the cord; the knob and the rope of the tether.
+    assert_eq!(compared, 11 * (2 + 1 + 1 + 2 + 2 + 1), "{}", nodes.len());
 }

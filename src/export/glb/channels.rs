@@ -11,8 +11,10 @@ pub(super) fn animation(
     view: u32,
     accessors: &mut Vec<Accessor>,
 ) -> (Option<Animation>, u64) {
-    let is_still =
-        |way: &Way| way.translations.is_empty() && way.rotations.is_empty() && way.shown.is_always();
+    let is_still = |way: &Way| {
+        let Way { translations, rotations, scales, shown, .. } = way;
+        translations.is_empty() && rotations.is_empty() && scales.is_empty() && shown.is_always()
+    };
     if motion.ways().iter().all(is_still) {
         return (None, 0);
     }
@@ -31,7 +33,11 @@ pub(super) fn animation(
     let mut animation = Animation { name: "motion".to_owned(), channels: Vec::new(), samplers: Vec::new() };
     for (way, &node) in motion.ways().iter().zip(nodes) {
         // In the order of `Motion::numbers`.
-        let parts = [("translation", "VEC3", 3, &way.translations), ("rotation", "VEC4", 4, &way.rotations)];
+        let parts = [
+            ("translation", "VEC3", 3, &way.translations),
+            ("rotation", "VEC4", 4, &way.rotations),
+            ("scale", "VEC3", 3, &way.scales),
+        ];
         for (path, kind, width, values) in parts {
             if !values.is_empty() {
                 let output = add(kind, width, count, Vec::new(), Vec::new());

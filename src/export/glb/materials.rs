@@ -22,6 +22,8 @@ pub(super) enum What {
     Material(usize),
     /// A color in sRGB, by the bits of its parts.
     Color([u64; 3]),
+    /// A spring or a joint of a color in sRGB, by the bits of its parts.
+    Link([u64; 3]),
     /// The ground of the scene's surroundings.
     Ground,
     /// Something that only POV-Ray knows.
@@ -75,6 +77,10 @@ pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
         What::Color(bits) => {
             let color = Color(bits.map(f64::from_bits));
             ("axes".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
+        }
+        What::Link(bits) => {
+            let color = Color(bits.map(f64::from_bits));
+            ("link".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
         }
         What::Ground => ("ground".to_owned(), ground(scene.environment.preset)),
         What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()))),

@@ -5,6 +5,7 @@
 //! | where the bodies are in all frames | `motion` |
 //! | when they are there | `shown` |
 //! | where cameras and lights are, how they see and shine | `sight` |
+//! | where springs and joints are, and how long | `links` |
 //! | triangles, those of a form once | `geometry` |
 //! | looks | `materials` |
 //! | forms in their looks | `meshes` |
@@ -20,6 +21,7 @@ mod channels;
 mod container;
 mod document;
 mod geometry;
+mod links;
 mod materials;
 mod meshes;
 mod model;
@@ -61,7 +63,8 @@ pub fn write_glb(
     let scene = run.scene();
     let mut motion = Motion::of(run, selection)?;
     let sight = Sight::of(run, selection, &mut motion)?;
-    let (document, geometry) = model::model(scene, sight, &motion);
+    let links = links::nodes(run, selection, &mut motion)?;
+    let (document, geometry) = model::model(scene, sight, &links, &motion);
     let bytes = container::write(&document, &geometry, &motion, &mut out)?;
     out.flush()?;
     Ok(Exported { frames: motion.times().len(), bytes, faster: motion.faster() })

@@ -7,6 +7,7 @@ use super::document::{
     Animation, Asset, Buffer, Document, Extras, LIGHTS, LightOfNode, Lights, Node, OfLights, SceneOfNodes,
 };
 use super::geometry::Geometry;
+use super::links::LinkNode;
 use super::materials::What;
 use super::meshes::Meshes;
 use super::motion::{Motion, Pose, Way};
@@ -30,7 +31,12 @@ struct Model<'a> {
 }
 
 /// A scene whose motion is known, as a document, and the triangles that belong to it.
-pub(super) fn model(scene: &Scene, sight: Sight, motion: &Motion) -> (Document, Geometry) {
+pub(super) fn model(
+    scene: &Scene,
+    sight: Sight,
+    links: &[LinkNode],
+    motion: &Motion,
+) -> (Document, Geometry) {
     let drawn: Vec<Vec<Piece>> = scene.bodies.iter().map(|body| pieces(&body.drawn())).collect();
     let many = drawn.iter().map(Vec::len).sum::<usize>() > MANY;
     let mut model = Model {
@@ -45,8 +51,11 @@ pub(super) fn model(scene: &Scene, sight: Sight, motion: &Motion) -> (Document, 
     top.extend(model.ground());
     let beside = model.beside(&motion.ways()[bodies.len()..]);
     top.extend(&beside);
+    let ways = &motion.ways()[bodies.len() + beside.len()..];
+    let links: Vec<u32> = links.iter().zip(ways).map(|(link, way)| model.link(link, way)).collect();
+    top.extend(&links);
     model.nodes[0].children = top;
-    let moving: Vec<u32> = bodies.into_iter().chain(beside).collect();
+    let moving: Vec<u32> = bodies.into_iter().chain(beside).chain(links).collect();
     let meshes = &mut model.meshes;
     let (animation, keys) = animation(motion, &moving, meshes.geometry.keys(), &mut meshes.accessors);
     model.finish(motion, animation, keys)
@@ -138,6 +147,15 @@ impl Model<'_> {
         let first = self.nodes.len() as u32;
         self.nodes.extend(nodes.collect::<Vec<_>>());
         (first..self.nodes.len() as u32).collect()
+    }
+
+    /// Adds a part of a spring or of a joint.
+    fn link(&mut self, link: &LinkNode, way: &Way) -> u32 {
+        let (location, orientation) = (DVec3::ZERO, DQuat::IDENTITY);
+        let piece = Piece { form: link.form.clone(), scale: DVec3::ONE, location, orientation, color: None };
+        let mesh = self.meshes.number(self.scene, &piece, What::Link(link.color.0.map(f64::to_bits)), None);
+        let name = link.name.clone();
+        self.node(Node { name, mesh, scale: Some(way.size.to_array()), ..at(way.start) })
     }
 
     /// What the scene is called.

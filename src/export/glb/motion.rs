@@ -35,6 +35,10 @@ pub(super) struct Way {
     pub(super) translations: Vec<f32>,
     /// Its orientations in all frames, each x, y, z, w; empty if they are all the same.
     pub(super) rotations: Vec<f32>,
+    /// How large it is drawn in the first of the frames, along its own axes.
+    pub(super) size: DVec3,
+    /// The same in all frames; empty if it is always the same.
+    pub(super) scales: Vec<f32>,
     /// When it is there.
     pub(super) shown: Shown,
     /// How it was turned last, of the two signs that a quaternion can have that which is near the one before.
@@ -94,10 +98,10 @@ impl Motion {
         &self.ways
     }
 
-    /// All numbers in the order of the file: the times, and for each way its locations, its orientations, and when it is there.
+    /// All numbers in the order of the file: the times, and for each way its locations, its orientations, its sizes, and when it is there.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
-        let ways = self.ways.iter().flat_map(|Way { translations, rotations, shown, .. }| {
-            [&translations[..], &rotations[..], &shown.times[..], &shown.scales[..]]
+        let ways = self.ways.iter().flat_map(|Way { translations, rotations, scales, shown, .. }| {
+            [&translations[..], &rotations[..], &scales[..], &shown.times[..], &shown.scales[..]]
         });
         std::iter::once(&self.times[..]).chain(ways)
     }
@@ -125,13 +129,24 @@ impl Recorder {
         name: impl Fn(usize) -> String,
         room: &mut Room,
     ) -> Result<(), ExportError> {
-        for (i, pose) in poses.enumerate() {
+        self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, room)
+    }
+
+    /// Adds where everything is in a frame, and how large it is along its own axes.
+    pub(super) fn add_sized(
+        &mut self,
+        poses: impl Iterator<Item = (Pose, DVec3)>,
+        time: f64,
+        name: impl Fn(usize) -> String,
+        room: &mut Room,
+    ) -> Result<(), ExportError> {
+        for (i, (pose, size)) in poses.enumerate() {
             if !pose.location.as_vec3().is_finite() {
                 return Err(ExportError::OutOfRange { what: name(i), time });
             }
             match self.ways.get_mut(i) {
-                Some(way) => way.add(pose, self.known, self.count, room)?,
-                None => self.ways.push(Way::new(pose)),
+                Some(way) => way.add(pose, size, self.known, self.count, room)?,
+                None => self.ways.push(Way::new(pose, size)),
             }
         }
         self.known += 1;
@@ -140,20 +155,29 @@ impl Recorder {
 }
 
 impl Way {
-    fn new(start: Pose) -> Way {
-        let (translations, rotations) = (Vec::new(), Vec::new());
-        Way { start, translations, rotations, shown: Shown::default(), last: start.orientation }
+    fn new(start: Pose, size: DVec3) -> Way {
+        let (translations, rotations, scales) = (Vec::new(), Vec::new(), Vec::new());
+        Way { start, translations, rotations, size, scales, shown: Shown::default(), last: start.orientation }
     }
 
     /// Adds where it is after so many known frames of all.
-    fn add(&mut self, pose: Pose, known: usize, count: usize, room: &mut Room) -> Result<(), ExportError> {
+    fn add(
+        &mut self,
+        pose: Pose,
+        size: DVec3,
+        known: usize,
+        count: usize,
+        room: &mut Room,
+    ) -> Result<(), ExportError> {
         let Pose { location, orientation } = pose;
         // Of q and -q, which are the same rotation, the nearer one: between the two others, it would turn all around.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };
         let start = self.start.location.as_vec3().to_array();
         follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, room)?;
         let start = self.start.orientation.as_quat().to_array();
-        follow(&mut self.rotations, start, self.last.as_quat().to_array(), known, count, room)
+        follow(&mut self.rotations, start, self.last.as_quat().to_array(), known, count, room)?;
+        let start = self.size.as_vec3().to_array();
+        follow(&mut self.scales, start, size.as_vec3().to_array(), known, count, room)
     }
 }
 

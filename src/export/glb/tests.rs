@@ -110,7 +110,7 @@ fn what_is_too_large_is_refused_before_anything_is_written() {
     let frames = Selection::first(2);
     let mut motion = Motion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
     let sight = Sight::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
-    let (mut document, geometry) = model(&scene, sight, &motion);
+    let (mut document, geometry) = model(&scene, sight, &[], &motion);
     document.buffers[0].byte_length = LARGEST - 8;
     let mut out = Vec::new();
     let refused = write(&document, &geometry, &motion, &mut out);

@@ -26,6 +26,35 @@ pub struct Link<'a> {
     pub color: Color,
 }
 
+/// A part of a spring or of a joint, whether it is drawn in a frame or not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedLink<'a> {
+    /// The name of the force or the joint in the scene.
+    pub name: &'a str,
+    /// What it is.
+    pub kind: LinkKind,
+    /// Its color.
+    pub color: Color,
+}
+
+/// What a part of a spring or of a joint is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LinkKind {
+    /// A ball.
+    Pin,
+    /// A coil.
+    Coil {
+        /// The number of its turns.
+        turns: u32,
+        /// The radius of its wire, in radii of the coil.
+        wire: f64,
+    },
+    /// A straight bar.
+    Rod,
+    /// A rope.
+    Rope,
+}
+
 /// What a part of a spring or of a joint looks like. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkForm {
@@ -172,6 +201,25 @@ impl Links {
     /// The parts that are drawn in a frame: those whose ends are there.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
+    }
+
+    /// All parts, whether they are drawn or not.
+    pub(super) fn planned(&self) -> impl Iterator<Item = PlannedLink<'_>> {
+        self.parts.iter().map(|part| PlannedLink {
+            name: &part.name,
+            kind: match part.form {
+                Form::Pin { .. } => LinkKind::Pin,
+                Form::Coil { turns, .. } => LinkKind::Coil { turns, wire: WIRE },
+                Form::Rod { .. } | Form::Bar { .. } | Form::Wheel { .. } => LinkKind::Rod,
+                Form::Rope { .. } | Form::OverWheels { .. } => LinkKind::Rope,
+            },
+            color: part.color,
+        })
+    }
+
+    /// The same parts, as far as they are drawn in a frame.
+    pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
+        self.parts.iter().map(|part| self.link(part, frame))
     }
 
     /// A part as it is in a frame; none where an end is away, and where bodies that touch leave no room for it.

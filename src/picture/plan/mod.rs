@@ -15,7 +15,7 @@ use super::grid::{Grid, Ruled, Ruler};
 use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
-use super::links::{Link, Links};
+use super::links::{Link, Links, PlannedLink};
 use super::not_drawn::{self, NotDrawn};
 use super::scope::{Part, Scope, largest};
 use super::screen::Screen;
@@ -227,6 +227,16 @@ impl Plan {
     /// The parts of springs and joints that are drawn, as they are in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.links.at(frame)
+    }
+
+    /// All parts of springs and joints, whether a frame shows them or not.
+    pub fn planned_links(&self) -> impl Iterator<Item = PlannedLink<'_>> {
+        self.links.planned()
+    }
+
+    /// The same parts, as far as they are drawn in a frame.
+    pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
+        self.links.each(frame)
     }
 
     /// The ghosts of a frame that are drawn: those that are elsewhere than their bodies.

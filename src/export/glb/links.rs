@@ -1,0 +1,157 @@
+//! Where springs and joints are: a node for each of their parts, stretched from end to end.
+//!
+//! What is away, or has no room between its ends, has the size 0.
+
+use glam::{DQuat, DVec3};
+
+use super::motion::{Motion, Pose, Recorder};
+use crate::export::ExportError;
+use crate::picture::{LinkForm, LinkKind, Plan};
+use crate::scene::Color;
+use crate::simulate::{Recorded, Selection};
+use crate::surface::Form;
+
+/// A rope is a chain of so many straight pieces.
+const PIECES: usize = 24;
+
+/// A node for a part of a spring or of a joint.
+pub(super) struct LinkNode {
+    pub(super) name: String,
+    pub(super) form: Form,
+    pub(super) color: Color,
+}
+
+/// Adds the ways of springs and joints to a motion; gives their nodes, in the order of the ways.
+pub(super) fn nodes(
+    run: &Recorded<'_>,
+    selection: &Selection,
+    motion: &mut Motion,
+) -> Result<Vec<LinkNode>, ExportError> {
+    let scene = run.scene();
+    let plan = Plan::new(scene, &scene.camera, run.survey());
+    let mut nodes = Vec::new();
+    let mut counts = Vec::new();
+    for link in plan.planned_links() {
+        let (form, count) = match link.kind {
+            LinkKind::Pin => (Form::BALL, 1),
+            LinkKind::Coil { turns, wire } => (Form::coil(turns, wire), 1),
+            LinkKind::Rod => (Form::CYLINDER, 1),
+            LinkKind::Rope => (Form::CYLINDER, PIECES),
+        };
+        let node = || LinkNode { name: format!("link {}", link.name), form: form.clone(), color: link.color };
+        nodes.extend((0..count).map(|_| node()));
+        counts.push(count);
+    }
+    if nodes.is_empty() {
+        return Ok(nodes);
+    }
+    let mut placed: Vec<Placed> = nodes.iter().map(|_| Placed::default()).collect();
+    let mut ways = Recorder::new(motion.times().len());
+    for exposure in run.exposures(selection) {
+        let frame = exposure?.frame;
+        let mut rest = placed.as_mut_slice();
+        for (link, &count) in plan.each_link(&frame).zip(&counts) {
+            let (its, others) = rest.split_at_mut(count);
+            rest = others;
+            place(its, link.map(|link| link.form));
+        }
+        let poses = placed.iter().map(|placed| (placed.pose, placed.size));
+        ways.add_sized(poses, frame.time, |i| nodes[i].name.clone(), &mut motion.room)?;
+    }
+    motion.append(ways);
+    Ok(nodes)
+}
+
+/// Where a node is, and how large.
+struct Placed {
+    pose: Pose,
+    /// Along its own axes, m, of which y is that of the form.
+    size: DVec3,
+}
+
+impl Default for Placed {
+    fn default() -> Placed {
+        let pose = Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
+        Placed { pose, size: DVec3::ZERO }
+    }
+}
+
+impl Placed {
+    /// Stretches a form that reaches from y = -1 to 1, and has the radius 1, from one point to another. It turns the shortest way
+    /// from where it was: so it does not spin about its axis.
+    fn stretch(&mut self, [from, to]: [DVec3; 2], radius: f64) {
+        let half = (to - from) / 2.0;
+        if let Some(along) = half.try_normalize() {
+            let before = self.pose.orientation * DVec3::Y;
+            let turn = DQuat::from_rotation_arc(before, along);
+            self.pose.orientation = (turn * self.pose.orientation).normalize();
+        }
+        self.pose.location = from + half;
+        self.size = DVec3::new(radius, half.length(), radius);
+    }
+}
+
+/// Places the nodes of a part; they keep their places while it is not drawn.
+fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
+    nodes.iter_mut().for_each(|node| node.size = DVec3::ZERO);
+    let [first, ..] = nodes else { return };
+    match form {
+        None => {}
+        Some(LinkForm::Pin { at, radius }) => {
+            first.pose.location = at;
+            first.size = DVec3::splat(radius);
+        }
+        Some(LinkForm::Coil { ends, radius, .. } | LinkForm::Rod { ends, radius }) => {
+            first.stretch(ends, radius)
+        }
+        Some(LinkForm::Rope { points, radius }) => {
+            for (node, ends) in nodes.iter_mut().zip(chain(&points)) {
+                node.stretch(ends, radius);
+            }
+        }
+    }
+}
+
+/// The pieces of a rope: as many as there are nodes, of equal numbers of its points' pieces; a straight one is divided evenly.
+fn chain(points: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> {
+    let last = points.len() - 1;
+    #[allow(clippy::cast_precision_loss, reason = "a rope has few points")]
+    let at = move |number: usize| {
+        let place = (number * last) as f64 / PIECES as f64;
+        let before = (number * last / PIECES).min(last - 1);
+        points[before].lerp(points[before + 1], place - before as f64)
+    };
+    (0..PIECES).map(move |piece| [at(piece), at(piece + 1)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rope_is_a_chain_of_pieces_from_end_to_end() {
+        for points in [vec![DVec3::ZERO, DVec3::X], vec![DVec3::ZERO, DVec3::NEG_Y, DVec3::X, DVec3::X * 2.0]]
+        {
+            let pieces: Vec<[DVec3; 2]> = chain(&points).collect();
+            assert_eq!((pieces.len(), pieces[0][0]), (PIECES, DVec3::ZERO));
+            assert!(pieces[PIECES - 1][1].abs_diff_eq(points[points.len() - 1], 1e-12));
+            assert!(pieces.windows(2).all(|pair| pair[0][1] == pair[1][0]));
+        }
+    }
+
+    /// A pendulum that passes straight above its pivot does not flip.
+    #[test]
+    fn a_rod_that_turns_all_around_does_not_spin() {
+        let mut placed = Placed::default();
+        let mut last = None;
+        for step in 0..=100 {
+            let (sin, cos) = libm::sincos(f64::from(step) * 0.1);
+            placed.stretch([DVec3::ZERO, DVec3::new(sin, -cos, 0.0) * 2.0], 0.1);
+            let now = placed.pose.orientation;
+            let turned = last.map_or(1.0, |last: DQuat| last.dot(now).abs());
+            assert!(turned > libm::cos(0.051), "{step}: {turned}");
+            last = Some(now);
+        }
+        assert!((placed.size - DVec3::new(0.1, 1.0, 0.1)).length() < 1e-12);
+    }
+}
