@@ -51,6 +51,7 @@ impl OutputError {
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
             OutputError::Diverged(_) => Code::Diverged,
+            OutputError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
             OutputError::Broken(_) => Code::BrokenJoint,
             OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
@@ -68,6 +69,9 @@ impl OutputError {
             Some(help) => diagnostic.help(help),
             None => diagnostic,
         };
+        if let OutputError::Broken(Broken { place: (Some(span), sources), .. }) = self {
+            return Report { sources: sources.clone(), diagnostics: vec![diagnostic.at(*span, "")] };
+        }
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
@@ -76,6 +80,9 @@ impl OutputError {
         match self {
             OutputError::Diverged(_) => Some(
                 "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+            ),
+            OutputError::Broken(broken) if broken.time == 0.0 => Some(
+                "with the other joints of its bodies, it cannot: their lengths and points contradict each other",
             ),
             OutputError::Broken(_) => Some(
                 "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
@@ -157,5 +164,29 @@ impl From<RunError> for OutputError {
             RunError::Simulate(error) => error.into(),
             RunError::Emit(error) => error.into(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::simulate::Recorded;
+
+    /// Two rods keep the ball 1 m from the origin, and the third wants a little more.
+    #[test]
+    fn joints_that_contradict_each_other_at_the_start_are_located() {
+        let text = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [0, -1, 0]
+[joint.left.rod]\nbetween = [[-1, 0, 0], 'bob']\n[joint.right.rod]\nbetween = [[1, 0, 0], 'bob']
+[joint.middle.rod]\nbetween = [[0, 0, 0], 'bob']\nlength = 1.0005\n";
+        let scene = Scene::parse(text).unwrap();
+        let error = OutputError::from(Recorded::new(&scene).err().unwrap());
+        assert_eq!(error.code(), Code::JointApart);
+        let report = error.report();
+        let [diagnostic] = &report.diagnostics[..] else { panic!("{report}") };
+        let span = diagnostic.span().unwrap();
+        let line = report.sources.position(span.source, span.start).line;
+        assert!([4, 6, 8].contains(&line), "{report}");
+        assert!(diagnostic.message.contains("does not hold at the start: "), "{report}");
     }
 }

@@ -7,6 +7,8 @@ use crate::diagnostic::Span;
 pub struct Places {
     /// The name of each body, in the order of [`Scene::bodies`](super::Scene::bodies).
     pub bodies: Vec<Span>,
+    /// The name of each joint, in the order of [`Scene::joints`](super::Scene::joints).
+    pub joints: Vec<Span>,
     /// The table of the main camera, if there is one.
     pub camera: Option<Span>,
     /// The value of `povray.unit`, if there is one.

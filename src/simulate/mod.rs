@@ -34,6 +34,7 @@ mod survey;
 mod tests;
 mod vectors;
 
+use crate::diagnostic::{self, Sources};
 use crate::dynamics::Breakdown;
 use crate::scene::Scene;
 
@@ -77,7 +78,7 @@ pub enum SimulateError {
 }
 
 /// That a joint cannot be kept.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Broken {
     /// The name of the joint.
     pub joint: String,
@@ -85,6 +86,15 @@ pub struct Broken {
     pub time: f64,
     /// By how much it does not hold, in metres or, of a turn, in radians.
     pub missing: f64,
+    /// Where the scene says its name, and the texts of the scene.
+    pub place: (Option<diagnostic::Span>, Sources),
+}
+
+impl PartialEq for Broken {
+    /// The texts do not count.
+    fn eq(&self, other: &Broken) -> bool {
+        (&self.joint, self.time, self.missing) == (&other.joint, other.time, other.missing)
+    }
 }
 
 impl SimulateError {
@@ -96,7 +106,9 @@ impl SimulateError {
             }
             Breakdown::Broken { constraint, time, missing } => {
                 let joint = scene.joints[constraint].name.clone();
-                SimulateError::Broken(Broken { joint, time, missing })
+                let span = scene.places.joints.get(constraint).copied();
+                let place = (span, scene.warnings.sources.clone());
+                SimulateError::Broken(Broken { joint, time, missing, place })
             }
         }
     }
@@ -112,7 +124,10 @@ impl std::error::Error for Diverged {}
 
 impl std::fmt::Display for Broken {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Broken { joint, time, missing } = self;
+        let Broken { joint, time, missing, .. } = self;
+        if *time == 0.0 {
+            return write!(f, "the joint `{joint}` does not hold at the start: {missing:.3e} m are missing");
+        }
         write!(f, "the joint `{joint}` cannot be kept: at t = {time} s it is off by {missing:.3e} m")
     }
 }

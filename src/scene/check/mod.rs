@@ -293,6 +293,10 @@ fn build(
         effect::check(&root, &bodies, &forces, context);
     }
     let joints = joint::read(&root, &bodies, &simulation, context);
+    let spans: HashMap<&str, Span> =
+        root.named("joint").into_iter().map(|(name, span, _)| (name, span)).collect();
+    let places_of_joints =
+        joints.iter().filter_map(|joint| spans.get(joint.name.as_str()).copied()).collect();
     if bodies.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
@@ -322,6 +326,7 @@ fn build(
         materials,
         povray,
         places: Places {
+            joints: places_of_joints,
             bodies: root.bodies().map(NamedTable::span).collect(),
             camera: root.key_span("camera"),
             unit: root.table("povray").span("unit"),
