@@ -75,7 +75,10 @@ impl Corrected {
             let body = &scene.bodies[id];
             let is_free = !body.start.fixed && body.motion.is_none();
             let start = &body.start;
+            // One that is given none is set in motion by what guides or drives it.
+            let is_given = start.velocity != DVec3::ZERO || start.angular_velocity != DVec3::ZERO;
             is_free
+                && is_given
                 && (differs(velocity, start.velocity) || differs(angular_velocity, start.angular_velocity))
         };
         let mut others = frame.bodies.iter().filter(is_other);

@@ -350,7 +350,10 @@ fn reference(
     }
     let noun = collection.key();
     let copies = if is_body { context.groups.ends(word) } else { None };
-    let label = if let Some([first, last]) = copies {
+    let is_body_for_joint = collection == Collection::Joint && context.names.bodies.contains_key(word);
+    let label = if is_body_for_joint {
+        format!("`{word}` is a body; name the joint that holds it")
+    } else if let Some([first, last]) = copies {
         format!("its copies are `{first}` to `{last}`")
     } else if names.len() + library.len() > context.comparisons {
         String::new()

@@ -32,10 +32,12 @@ pub(super) fn read(
     // Gears couple other joints, and come last.
     let (gears, others): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
+    let gear_names: Vec<&str> = gears.iter().map(|(name, ..)| *name).collect();
     let method = simulation.method;
     for (name, span, view) in others.into_iter().chain(gears) {
         let before = context.diagnostics.len();
-        let found = Reader { name, span, bodies, simulation, context }.kind(&view, &joints);
+        let mut reader = Reader { name, span, bodies, simulation, gears: &gear_names, context };
+        let found = reader.kind(&view, &joints);
         if found.is_some() && !method.constraints {
             let message = format!("the integrator `{}` keeps no joints", method.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(span, "");
@@ -81,6 +83,8 @@ struct Reader<'a, 'c> {
     span: Span,
     bodies: &'a [Body],
     simulation: &'a Simulation,
+    /// The names of all gears.
+    gears: &'a [&'a str],
     context: &'a mut Context<'c>,
 }
 

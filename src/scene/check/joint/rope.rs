@@ -79,20 +79,23 @@ impl Reader<'_, '_> {
         let mut names: Vec<&str> = Vec::new();
         for node in nodes {
             let Value::String(name) = &node.value else { return None };
-            let joint = joints.iter().find(|joint| joint.name == **name)?;
-            let error = match &joint.kind {
-                _ if names.contains(&&**name) => "the same joint as the one before it",
-                JointKind::Hinge(hinge) => {
-                    coordinates.push(hinge.coordinate());
+            let joint = joints.iter().find(|joint| joint.name == **name).map(|joint| &joint.kind);
+            let coordinate = match joint {
+                Some(JointKind::Hinge(hinge)) => Some(hinge.coordinate()),
+                Some(JointKind::Slider(slider)) => Some(slider.coordinate()),
+                // A joint that cannot be read has got its error.
+                None if !self.gears.contains(&&**name) => return None,
+                _ => None,
+            };
+            let error = match coordinate {
+                Some(_) if names.contains(&&**name) => "the same joint as the one before it",
+                Some(coordinate) => {
+                    coordinates.push(coordinate);
                     names.push(name);
                     continue;
                 }
-                JointKind::Slider(slider) => {
-                    coordinates.push(slider.coordinate());
-                    names.push(name);
-                    continue;
-                }
-                _ => "neither a hinge nor a slider",
+                None if joint.is_none() => "a gear itself",
+                None => "neither a hinge nor a slider",
             };
             let message = format!("the gear `{}` cannot couple these joints", self.name);
             let error = Diagnostic::error(Code::BadJoint, message).at(node.span, error);
