@@ -51,6 +51,12 @@ impl EnergyLedger {
         }
     }
 
+    /// Must be called before constraints take what leads away from them: what is measured is small or large against the motion
+    /// that was given, even where none of it is left.
+    pub fn see_given(&mut self, model: &Model, state: &State) {
+        self.largest_kinetic = self.largest_kinetic.max(kinetic(model, state));
+    }
+
     /// Must be called before time goes on: books the changes since [`open`](Self::open), if there were any.
     pub fn close(&mut self, model: &Model, time: f64, state: &State) {
         if let Some(before) = self.before.take() {

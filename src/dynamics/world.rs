@@ -166,6 +166,9 @@ impl World {
             self.is_settled = true;
             let accounts = self.state.accounts;
             let mut system = System::new(&self.model, &mut self.solver);
+            if system.is_constrained() {
+                self.ledger.see_given(&self.model, &self.state);
+            }
             system.start(self.time, &mut self.state, &mut self.loads);
             // What this gives and takes is booked with the change itself.
             self.state.accounts = accounts;

@@ -479,3 +479,19 @@ fn a_chain_of_ropes_has_few_events() {
     assert!(world.violation() < 1e-11);
     assert!(world.balance().drift.abs() < 1e-3, "{:?}", world.balance());
 }
+
+/// A wheel that is turned beyond its limit from the start stands still, and rounding is no drift.
+#[test]
+fn what_a_limit_takes_at_the_start_is_no_drift() {
+    for method in METHODS {
+        let mut world = world(method, 1e-2);
+        let disc = RigidBody::new(&Shape::Cylinder { radius: 1.0, height: 0.1 }, 1.0);
+        let wheel = world.add(disc.with_angular_velocity(DVec3::new(0.1, -2.0, 0.3)));
+        let freedom = Freedom { limits: Some([0.0, 1.0]), motor: None };
+        let between = [origin(), Anchor::centre(wheel)];
+        world.add_constraint(Hinge::new(between, DVec3::Y, DQuat::IDENTITY).with(freedom));
+        world.advance_to(1.0);
+        assert!(world.angular_velocity(wheel).length() < 1e-12, "{}", method.name);
+        assert!(world.balance().drift.abs() < 1e-12, "{}: {:?}", method.name, world.balance());
+    }
+}
