@@ -54,30 +54,38 @@ fn bar(out: &mut String, [from, to]: [DVec3; 2], radius: f64, style: Style) {
     style.length(out, radius);
 }
 
-/// Appends a rope: a cylinder from each point to the next, and a ball at each point between them.
+/// Appends a rope: a cylinder from each point to the next, and a ball at each point between them. A straight one is a single
+/// cylinder, since POV-Ray warns of a union of one.
 fn rope(out: &mut String, points: &[DVec3], radius: f64, color: &str, name: &str, style: Style) {
-    if points.windows(2).all(|pair| !style.can_tell(pair[0], pair[1])) {
-        return;
-    }
-    out.push_str(&format!("union {{ // {name}\n"));
-    let mut last = points[0];
-    for (number, point) in points.iter().enumerate().skip(1) {
-        if !style.can_tell(last, *point) {
-            continue;
+    let mut seen: Vec<DVec3> = Vec::with_capacity(points.len());
+    for &point in points {
+        if seen.last().is_none_or(|last| style.can_tell(*last, point)) {
+            seen.push(point);
         }
-        out.push_str("  cylinder { ");
-        bar(out, [last, *point], radius, style);
-        out.push_str(" }\n");
-        if number + 1 < points.len() {
-            out.push_str("  sphere { ");
-            style.point(out, *point);
-            out.push_str(", ");
-            style.length(out, radius);
-            out.push_str(" }\n");
-        }
-        last = *point;
     }
-    out.push_str(&format!(
-        "  pigment {{ color srgb {color} }}\n  finish {{ ambient 0.1 diffuse 0.7 }}\n}}\n"
-    ));
+    let look = format!("  pigment {{ color srgb {color} }}\n  finish {{ ambient 0.1 diffuse 0.7 }}\n}}\n");
+    match *seen.as_slice() {
+        [] | [_] => return,
+        [from, to] => {
+            out.push_str("cylinder { ");
+            bar(out, [from, to], radius, style);
+            out.push_str(&format!(" // {name}\n"));
+        }
+        _ => {
+            out.push_str(&format!("union {{ // {name}\n"));
+            for (number, pair) in seen.windows(2).enumerate() {
+                if number > 0 {
+                    out.push_str("  sphere { ");
+                    style.point(out, pair[0]);
+                    out.push_str(", ");
+                    style.length(out, radius);
+                    out.push_str(" }\n");
+                }
+                out.push_str("  cylinder { ");
+                bar(out, [pair[0], pair[1]], radius, style);
+                out.push_str(" }\n");
+            }
+        }
+    }
+    out.push_str(&look);
 }
