@@ -5,6 +5,7 @@ use jabuka::dynamics::BodySnapshot;
 use jabuka::{Run, Scene};
 
 /// The bodies of all frames, with their times.
+#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
 fn frames(name: &str) -> Vec<(f64, Vec<BodySnapshot>)> {
     let scene = Scene::from_path(format!("scenes/{name}.toml")).unwrap_or_else(|report| panic!("{report}"));
     let run = Run::new(&scene).unwrap();

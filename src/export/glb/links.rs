@@ -102,7 +102,7 @@ fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
             first.size = DVec3::splat(radius);
         }
         Some(LinkForm::Coil { ends, radius, .. } | LinkForm::Rod { ends, radius }) => {
-            first.stretch(ends, radius)
+            first.stretch(ends, radius);
         }
         Some(LinkForm::Rope { points, radius }) => {
             for (node, ends) in nodes.iter_mut().zip(chain(&points)) {
