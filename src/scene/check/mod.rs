@@ -293,6 +293,8 @@ fn build(
         effect::check(&root, &bodies, &forces, context);
     }
     let joints = joint::read(&root, &bodies, &simulation, context);
+    let mut bodies = bodies;
+    joint::swing(&joints, &mut bodies);
     let spans: HashMap<&str, Span> =
         root.named("joint").into_iter().map(|(name, span, _)| (name, span)).collect();
     let places_of_joints =

@@ -2,8 +2,11 @@
 
 mod freedom;
 mod rope;
+mod swing;
 
 use glam::DVec3;
+
+pub(super) use swing::swing;
 
 use super::Context;
 use super::end;

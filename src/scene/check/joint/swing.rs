@@ -1,0 +1,32 @@
+//! Bodies that turn about a point that stands still.
+
+use glam::DVec3;
+
+use crate::dynamics::Anchor;
+use crate::scene::check::end;
+use crate::scene::{Body, Joint, JointKind};
+
+/// Gives bodies that are said to turn, and not to move, the velocity with which they turn about their joint: ω × r, where a
+/// hinge or a ball joint fastens them to what stands still.
+pub(in crate::scene::check) fn swing(joints: &[Joint], bodies: &mut [Body]) {
+    for joint in joints {
+        let between = match &joint.kind {
+            JointKind::Ball(ball) => ball.between,
+            JointKind::Hinge(hinge) => hinge.between,
+            _ => continue,
+        };
+        for [held, other] in [between, [between[1], between[0]]] {
+            let stands_still = match other {
+                Anchor::Point(_) => true,
+                Anchor::Body { id, .. } => bodies[id.index()].start.fixed,
+            };
+            let Some(id) = held.body().filter(|_| stands_still) else { continue };
+            let point = end::place(held, bodies);
+            let body = &mut bodies[id.index()];
+            let is_free = !body.start.fixed && body.motion.is_none();
+            if is_free && body.start.velocity == DVec3::ZERO {
+                body.start.velocity = body.start.angular_velocity.cross(body.start.location - point);
+            }
+        }
+    }
+}
