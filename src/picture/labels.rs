@@ -7,7 +7,7 @@ use super::room::{Rectangle, Room};
 use super::screen::{Screen, Spot};
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height, width};
 use super::{grid, number};
-use crate::dynamics::{Balance, BodySnapshot, Reaction, find};
+use crate::dynamics::{Balance, BodyId, BodySnapshot, Coordinate, Reaction, find};
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
@@ -26,6 +26,8 @@ pub(super) struct Labels {
     labels: Vec<Planned>,
     /// The bodies of the scene, if labels look at any.
     bodies: Vec<Body>,
+    /// The coordinates of hinges and sliders, by the numbers of the joints.
+    joints: Vec<Option<Coordinate>>,
     /// The height of the picture, as part of its width.
     aspect: f64,
 }
@@ -83,7 +85,8 @@ impl Labels {
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
         let bodies = if labels.is_empty() { Vec::new() } else { scene.bodies.clone() };
-        Labels { labels, bodies, aspect }
+        let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
+        Labels { labels, bodies, joints, aspect }
     }
 
     /// How many there are.
@@ -274,7 +277,10 @@ impl Labels {
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
             }
             Measure::Joint(number, measure) => {
-                moment.reactions.get(number).map_or(f64::NAN, |reaction| measure.of(reaction))
+                let Some(reaction) = moment.reactions.get(number) else { return f64::NAN };
+                let body = |id: BodyId| find(moment.bodies, id.index()).copied();
+                let coordinate = self.joints[number].and_then(|joint| joint.seen(body));
+                measure.of(reaction, coordinate.unwrap_or([f64::NAN; 2]))
             }
         }
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::timed::Timed;
 use super::{Arrow, Color};
 use crate::dynamics::{
-    Anchor, Ball, Constraint, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider, Target,
+    Anchor, Ball, Constraint, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider, Target,
 };
 
 /// What holds two bodies together, or a body to a point of the world.
@@ -82,9 +82,13 @@ impl JointKind {
         }
     }
 
-    /// Whether it reaches from one end to the other, as a rod does; the ends of all others are at one place.
-    pub fn is_long(&self) -> bool {
-        matches!(self, JointKind::Rod(_) | JointKind::Rope(_))
+    /// The angle of a hinge, or the way of a slider.
+    pub fn coordinate(&self) -> Option<Coordinate> {
+        match self {
+            JointKind::Hinge(hinge) => Some(hinge.coordinate()),
+            JointKind::Slider(slider) => Some(slider.coordinate()),
+            _ => None,
+        }
     }
 }
 

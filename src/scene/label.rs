@@ -1,6 +1,7 @@
 //! The part of a checked scene that is measured and written: labels, the scale bar, the grid.
 
 use super::Color;
+use super::JointKind;
 use super::expression::Program;
 use crate::dynamics::Reaction;
 
@@ -231,11 +232,17 @@ pub enum JointMeasure {
     TorqueMagnitude,
     /// A component of its torque, N·m.
     Torque(usize),
+    /// Of a hinge: its angle, degrees.
+    Angle,
+    /// Of a slider: the way along its axis, m.
+    Position,
+    /// The rate of that, rad/s or m/s.
+    Speed,
 }
 
 impl JointMeasure {
     /// All of them, each with its name in formulas and what it is.
-    pub const ALL: [(&'static str, JointMeasure, &'static str); 8] = [
+    pub const ALL: [(&'static str, JointMeasure, &'static str); 11] = [
         ("joint.NAME.force", JointMeasure::ForceMagnitude, "the size of its force on its second end, N"),
         ("joint.NAME.fx", JointMeasure::Force(0), "its force on its second end, N"),
         ("joint.NAME.fy", JointMeasure::Force(1), "its force on its second end, N"),
@@ -248,6 +255,17 @@ impl JointMeasure {
         ("joint.NAME.tx", JointMeasure::Torque(0), "its torque on its second end, N·m"),
         ("joint.NAME.ty", JointMeasure::Torque(1), "its torque on its second end, N·m"),
         ("joint.NAME.tz", JointMeasure::Torque(2), "its torque on its second end, N·m"),
+        (
+            "joint.NAME.angle",
+            JointMeasure::Angle,
+            "the angle of a hinge, degrees, from -180 to 180; 0 is at the start",
+        ),
+        (
+            "joint.NAME.position",
+            JointMeasure::Position,
+            "the way of a slider along its axis, m; 0 is at the start",
+        ),
+        ("joint.NAME.speed", JointMeasure::Speed, "the rate of that angle, rad/s, or of that way, m/s"),
     ];
 
     /// What each is called behind the name of a joint.
@@ -255,9 +273,22 @@ impl JointMeasure {
         JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
     }
 
-    /// Its value for what a joint does.
-    pub fn of(self, reaction: &Reaction) -> f64 {
+    /// Whether a joint has it.
+    pub fn is_of(self, joint: &JointKind) -> bool {
         match self {
+            JointMeasure::Angle => matches!(joint, JointKind::Hinge(_)),
+            JointMeasure::Position => matches!(joint, JointKind::Slider(_)),
+            JointMeasure::Speed => joint.coordinate().is_some(),
+            _ => true,
+        }
+    }
+
+    /// Its value for what a joint does, and for its coordinate with its rate.
+    pub fn of(self, reaction: &Reaction, [value, rate]: [f64; 2]) -> f64 {
+        match self {
+            JointMeasure::Angle => value.to_degrees(),
+            JointMeasure::Position => value,
+            JointMeasure::Speed => rate,
             JointMeasure::ForceMagnitude => reaction.force.length(),
             JointMeasure::Force(axis) => reaction.force[axis],
             JointMeasure::TorqueMagnitude => reaction.torque.length(),

@@ -228,7 +228,9 @@ fn a_motor_follows_a_formula() {
         let mut world = world(method, 1e-3);
         let wheel = wheel(&mut world, DVec3::ZERO);
         let freedom = Freedom { limits: None, motor: Some(Motor::Value(Arc::new(Sway))) };
-        world.add_constraint(axle(&world, wheel, freedom));
+        let axle = axle(&world, wheel, freedom);
+        let coordinate = axle.coordinate();
+        world.add_constraint(axle);
         for k in 1..=20 {
             let t = 0.1 * f64::from(k);
             world.advance_to(t);
@@ -236,6 +238,9 @@ fn a_motor_follows_a_formula() {
             let [angle, rate, _] = Sway.at(t);
             assert!((libm::atan2(x.y, x.x) - angle).abs() < 1e-12, "{} {t}", method.name);
             assert!((spin(&world, wheel) - rate).abs() < 1e-12, "{} {t}", method.name);
+            let snapshot = world.snapshot().unwrap();
+            let [seen, seen_rate] = coordinate.seen(|id| snapshot.body(id.index()).copied()).unwrap();
+            assert!((seen - angle).abs() < 1e-12 && (seen_rate - rate).abs() < 1e-12, "{seen} {seen_rate}");
         }
         let slack = [1e-2, 1e-5, 1e-5, 1e-9][usize::min(method.order as usize - 1, 3)];
         assert!(world.balance().drift.abs() < slack, "{}: {:?}", method.name, world.balance());

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::super::Anchor;
-use super::member::End;
+use super::super::{Anchor, BodyId, BodySnapshot};
+use super::member::{End, Member};
 use super::{Equations, Members};
 
 /// The angle of a hinge, or the way of a slider, from the first end to the second.
@@ -35,6 +35,21 @@ impl Coordinate {
     #[must_use]
     pub fn is_angle(&self) -> bool {
         self.zero.is_some()
+    }
+
+    /// The coordinate and its rate where the bodies are known: rad (from −π to π) and rad/s, or m and m/s. The closure gives a
+    /// body, if it is there.
+    pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
+        let mut all = [Member::default(); 2];
+        let ids = super::parts::bodies(&self.between);
+        for (member, id) in all.iter_mut().zip(ids) {
+            let BodySnapshot { location, orientation, velocity, angular_velocity, .. } = body(id)?;
+            *member = Member { location, velocity, orientation, angular_velocity, ..Member::default() };
+        }
+        let members = Members { all: &all, of: &[0, 1], time: 0.0, origin: &all, begun: 0.0 };
+        let ends = End::all(self.between, &members);
+        let free = self.measure(&ends);
+        Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
     /// The coordinate at the present moment of the members, which are those of its ends.

@@ -283,7 +283,8 @@ impl Reader<'_, '_, '_> {
 
     /// A measure of a joint whose name begins at a place of the text.
     fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
-        let Some(number) = self.joints.iter().position(|joint| joint.name == name) else {
+        let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
+        let Some((number, joint)) = found else {
             let names = self.joints.iter().map(|joint| joint.name.as_str());
             let near = crate::diagnostic::nearest(name, names.take(1000));
             let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
@@ -291,15 +292,16 @@ impl Reader<'_, '_, '_> {
             self.report(error, begin..begin + name.len(), &label);
             return None;
         };
-        if let Some((_, known)) = JointMeasure::names().find(|(known, _)| *known == measure) {
+        let its = || JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
+        if let Some((_, known)) = its().find(|(known, _)| *known == measure) {
             return Some(Measure::Joint(number, known));
         }
-        let names: Vec<&str> = JointMeasure::names().map(|(name, _)| name).collect();
+        let names: Vec<&str> = its().map(|(name, _)| name).collect();
         let behind = begin + name.len() + 1;
         let here = self.at(&(behind..behind + measure.len()));
         let error = Diagnostic::error(
             Code::UnknownName,
-            format!("a joint has no `{measure}` that a label could show"),
+            format!("this joint has no `{measure}` that a label could show"),
         );
         let known = format!("there are {}", crate::scene::grammar::quoted(&names));
         let near = words::of_joint(measure).or_else(|| crate::diagnostic::nearest(measure, names));
