@@ -12,6 +12,7 @@
 //! | motion that is given | [`Motion`], its [`Pose`] |
 //! | when a body is there | [`Presence`] |
 //! | what holds bodies together | [`Constraint`], one type for each kind of joint |
+//! | what happens where bodies touch | [`Contacts`], [`Impact`] |
 //! | forces and constraints together, as a method of integration sees them | [`System`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
 //! | what happens within a step | [`DenseOutput`] |
@@ -71,6 +72,7 @@
 mod anchor;
 mod body;
 mod constraint;
+mod contact;
 mod effort;
 mod energy;
 mod force;
@@ -89,6 +91,7 @@ mod world;
 pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
 pub use constraint::*;
+pub use contact::{ContactSnapshot, Contacts, Impact, Meeting, Surface};
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
@@ -125,6 +128,11 @@ pub trait Dynamics: Send {
     /// # Errors
     /// Where a body is at no finite place.
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown>;
+
+    /// The impacts since somebody asked last, in the order in which they happened.
+    fn impacts(&mut self) -> Vec<Impact> {
+        Vec::new()
+    }
 
     /// The number of steps that have been made.
     fn steps(&self) -> u64;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Balance, BodyId, Reaction};
+use super::{Balance, BodyId, ContactSnapshot, Reaction};
 
 /// All bodies at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Snapshot {
     pub bodies: Vec<BodySnapshot>,
     /// What constraints do to the bodies, in the order in which they were added.
     pub reactions: Vec<Reaction>,
+    /// Where bodies touch and stay in touch, in the order of their ids.
+    pub contacts: Vec<ContactSnapshot>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
 }
@@ -52,6 +54,22 @@ pub enum Breakdown {
         time: f64,
         /// By how much it does not hold, in metres or, of a turn, in radians.
         missing: f64,
+    },
+    /// Two bodies are within each other where contacts begin.
+    Overlapping {
+        /// The bodies.
+        bodies: [BodyId; 2],
+        /// The time, s.
+        time: f64,
+        /// How deep they are within each other, m.
+        depth: f64,
+    },
+    /// Impacts follow each other without end.
+    Jammed {
+        /// The bodies of the last impact.
+        bodies: [BodyId; 2],
+        /// The time, s.
+        time: f64,
     },
 }
 
@@ -112,6 +130,14 @@ impl std::fmt::Display for Breakdown {
             }
             Breakdown::Broken { constraint, time, missing } => {
                 write!(f, "at t = {time} s constraint {constraint} is off by {missing:.3e}")
+            }
+            Breakdown::Overlapping { bodies: [a, b], time, depth } => {
+                let (a, b) = (a.index(), b.index());
+                write!(f, "at t = {time} s bodies {a} and {b} are {depth:.3e} m within each other")
+            }
+            Breakdown::Jammed { bodies: [a, b], time } => {
+                let (a, b) = (a.index(), b.index());
+                write!(f, "at t = {time} s the impacts of bodies {a} and {b} do not end")
             }
         }
     }

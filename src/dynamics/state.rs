@@ -32,22 +32,26 @@ pub struct Accounts {
     pub motors: f64,
     /// What is taken when a joint runs into a limit, or a rope becomes taut; never positive.
     pub limits: f64,
+    /// What is lost at impacts; never positive.
+    pub impacts: f64,
+    /// What sliding and rolling friction between bodies that touch takes; never positive.
+    pub friction: f64,
 }
 
 impl Accounts {
     /// The names of the accounts, in the order of [`to_array`](Self::to_array).
-    pub const NAMES: [&'static str; 3] = ["work", "motors", "limits"];
+    pub const NAMES: [&'static str; 5] = ["work", "motors", "limits", "impacts", "friction"];
 
     /// All entries, in the order of the names.
     #[must_use]
     pub fn to_array(self) -> [f64; Self::NAMES.len()] {
-        [self.work, self.motors, self.limits]
+        [self.work, self.motors, self.limits, self.impacts, self.friction]
     }
 
     /// The accounts with these entries, in the order of the names.
     #[must_use]
-    pub fn from_array([work, motors, limits]: [f64; Self::NAMES.len()]) -> Self {
-        Self { work, motors, limits }
+    pub fn from_array([work, motors, limits, impacts, friction]: [f64; Self::NAMES.len()]) -> Self {
+        Self { work, motors, limits, impacts, friction }
     }
 
     /// Adds `factor` times each entry of others: with powers (W) and a time (s), what they bring in meanwhile.

@@ -10,8 +10,8 @@ use glam::{DQuat, DVec3};
 use super::constraint::Solver;
 use super::presence::Calendar;
 use super::{
-    Balance, BodyId, BodySnapshot, Breakdown, Constraint, Dynamics, Effort, EnergyLedger, Force, Integrator,
-    Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State, System,
+    Balance, BodyId, BodySnapshot, Breakdown, Constraint, Contacts, Dynamics, Effort, EnergyLedger, Force,
+    Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State, System,
 };
 
 /// The longest timestep where none is set, s.
@@ -34,6 +34,7 @@ pub struct World {
     is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
+    contacts: Option<Contacts>,
     steps: u64,
     /// Room for the loads at one moment.
     loads: Loads,
@@ -57,6 +58,7 @@ impl World {
             is_settled: true,
             ledger: EnergyLedger::new(),
             calendar: Calendar::default(),
+            contacts: None,
             steps: 0,
             loads: Loads::default(),
             before: State::default(),
@@ -138,6 +140,12 @@ impl World {
     pub fn add_shared_constraint(&mut self, constraint: Arc<dyn Constraint>) {
         self.about_to_change();
         self.model.push_constraint(constraint);
+    }
+
+    /// From now on, bodies touch each other as `contacts` says. Their shapes are those of [`add_shapes`](Self::add_shapes).
+    pub fn collide(&mut self, contacts: Contacts) {
+        self.about_to_change();
+        self.contacts = Some(contacts);
     }
 
     /// From now on, `force` (world axes, N) is the body's constant force.
@@ -351,7 +359,7 @@ fn picture(
     };
     let reactions = system.reactions();
     let present = (0..state.len()).filter(|&id| model.is_present(id));
-    Snapshot { time, bodies: present.map(body).collect(), reactions, balance }
+    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts: Vec::new(), balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

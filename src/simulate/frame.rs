@@ -1,7 +1,7 @@
 //! What can be seen at one moment.
 
 use super::Past;
-use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot, find};
+use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot, find};
 
 /// What can be seen at one moment of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Frame {
     pub bodies: Vec<BodySnapshot>,
     /// What the joints do to the bodies, in the order of the scene.
     pub reactions: Vec<Reaction>,
+    /// Where bodies touch and stay in touch.
+    pub contacts: Vec<ContactSnapshot>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
     /// What has been before, as far as the scene asks for it.
@@ -23,8 +25,8 @@ pub struct Frame {
 impl Frame {
     /// The frame of a moment, without what has been before.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
-        let Snapshot { time, bodies, reactions, balance } = moment;
-        Frame { index, time, bodies, reactions, balance, past: Past::default() }
+        let Snapshot { time, bodies, reactions, contacts, balance } = moment;
+        Frame { index, time, bodies, reactions, contacts, balance, past: Past::default() }
     }
 
     /// A body, by its number in the scene; none if it is not there.

@@ -104,6 +104,9 @@ impl SimulateError {
             Breakdown::Diverged { body, time } => {
                 SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
             }
+            Breakdown::Overlapping { .. } | Breakdown::Jammed { .. } => {
+                SimulateError::Recording(error.to_string())
+            }
             Breakdown::Broken { constraint, time, missing } => {
                 let joint = scene.joints[constraint].name.clone();
                 let span = scene.places.joints.get(constraint).copied();

@@ -236,7 +236,10 @@ impl Head {
             angular_momentum: DVec3::new(n[8], n[9], n[10]),
             accounts: Accounts::from_array(std::array::from_fn(|i| n[11 + i])),
         };
-        Entry { frame: self.frame, snapshot: Snapshot { time: n[0], bodies, reactions, balance } }
+        Entry {
+            frame: self.frame,
+            snapshot: Snapshot { time: n[0], bodies, reactions, contacts: Vec::new(), balance },
+        }
     }
 }
 
@@ -380,7 +383,7 @@ mod tests {
             drift: 4.0,
             linear_momentum: DVec3::X,
             angular_momentum: DVec3::Y,
-            accounts: Accounts { work: 5.0, motors: 6.0, limits: -7.0 },
+            accounts: Accounts { work: 5.0, motors: 6.0, limits: -7.0, impacts: -8.0, friction: -9.0 },
         };
         let frame = (time > 1.5).then_some(7);
         let reactions = vec![
@@ -389,7 +392,13 @@ mod tests {
         ];
         Entry {
             frame,
-            snapshot: Snapshot { time, bodies: bodies.iter().map(body).collect(), reactions, balance },
+            snapshot: Snapshot {
+                time,
+                bodies: bodies.iter().map(body).collect(),
+                reactions,
+                contacts: Vec::new(),
+                balance,
+            },
         }
     }
 

@@ -25,8 +25,13 @@ fn push(recording: &Recording, frame: usize) {
         angular_momentum: DVec3::ZERO,
         drift: 0.0,
     };
-    let snapshot =
-        Snapshot { time: x, bodies: vec![body(0, x), body(1, 7.0)], reactions: Vec::new(), balance };
+    let snapshot = Snapshot {
+        time: x,
+        bodies: vec![body(0, x), body(1, 7.0)],
+        reactions: Vec::new(),
+        contacts: Vec::new(),
+        balance,
+    };
     recording.push(&Entry { frame: Some(frame), snapshot }).unwrap();
 }
 
