@@ -4,7 +4,13 @@
 //! does not rebound becomes a constraint that pushes and never pulls. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics
 //! with Unilateral Contacts* (1996).
 
+mod feature;
+mod gjk;
+mod nearest;
+mod patch;
+mod solid;
 mod surface;
+mod touch;
 
 use std::collections::BTreeSet;
 

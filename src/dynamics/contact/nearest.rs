@@ -1,0 +1,188 @@
+//! Where two solids are nearest to each other.
+
+use glam::DVec3;
+
+use super::feature::Feature;
+use super::gjk;
+use super::patch::meet;
+use super::solid::{Core, Part, Pose, Solid};
+
+/// Features count as near a place within so many sizes of a part: parry's places are less wrong.
+const NEAR: f64 = 1e-4;
+/// A place counts as on a feature up to so many sizes beyond its end. What that changes of a gap is the square of it.
+pub(super) const EDGE: f64 = 1e-9;
+/// Parts with no more features than that are compared feature by feature.
+const FEW: usize = 16;
+
+/// Where two solids are nearest to each other.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dynamics) struct Nearest {
+    /// The distance, m; where they overlap, minus the depth.
+    pub gap: f64,
+    /// The unit normal there, from the first to the second.
+    pub normal: DVec3,
+    /// The nearest place of the first and of the second, m.
+    pub on: [DVec3; 2],
+}
+
+impl Nearest {
+    /// The same with the second solid first.
+    pub(super) fn flipped(self) -> Nearest {
+        Nearest { gap: self.gap, normal: -self.normal, on: [self.on[1], self.on[0]] }
+    }
+
+    /// The same at another place.
+    pub(super) fn moved(self, by: DVec3) -> Nearest {
+        Nearest { on: self.on.map(|place| place + by), ..self }
+    }
+}
+
+/// Where two solids are nearest to each other; `None` where they are farther apart than `beyond`, m.
+///
+/// The gap is exact to rounding where it is small, and never larger than the true one. The parts of one body are not compared
+/// with each other.
+pub(in crate::dynamics) fn nearest(
+    a: &Solid,
+    pa: &Pose,
+    b: &Solid,
+    pb: &Pose,
+    beyond: f64,
+) -> Option<Nearest> {
+    let mut best: Option<Nearest> = None;
+    for part_a in a.parts() {
+        for part_b in b.parts() {
+            let limit = best.map_or(beyond, |best| best.gap.min(beyond));
+            if apart(part_a, pa, part_b, pb) > limit {
+                continue;
+            }
+            let found = between(part_a, pa, part_b, pb);
+            if found.gap <= beyond && best.is_none_or(|best| found.gap < best.gap) {
+                best = Some(found);
+            }
+        }
+    }
+    best
+}
+
+/// A distance that is not larger than that of two parts, m.
+pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
+    match (&a.core, &b.core) {
+        (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
+        (Core::Ground { at, normal }, _) => above(pa, *at, *normal, pb.point(b.centre)) - b.bound,
+        (_, Core::Ground { at, normal }) => above(pb, *at, *normal, pa.point(a.centre)) - a.bound,
+        _ => (pb.point(b.centre) - pa.point(a.centre)).length() - a.bound - b.bound,
+    }
+}
+
+fn above(pose: &Pose, at: DVec3, normal: DVec3, place: DVec3) -> f64 {
+    (place - pose.point(at)).dot(pose.orientation * normal)
+}
+
+/// Where two convex parts are nearest to each other.
+pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
+    match (&a.core, &b.core) {
+        (Core::Ground { at, normal }, _) => on_ground(pa, *at, *normal, b, pb),
+        (_, Core::Ground { at, normal }) => on_ground(pb, *at, *normal, a, pa).flipped(),
+        _ => match (a.ball(), b.ball()) {
+            (Some(_), Some(_)) => meet(&a.features[0].patch, pa, &b.features[0].patch, pb),
+            (Some(_), None) => ball_and(a, pa, b, pb).0,
+            (None, Some(_)) => ball_and(b, pb, a, pa).0.flipped(),
+            (None, None) => convex(a, pa, b, pb),
+        },
+    }
+}
+
+/// Ground is the first.
+fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
+    let normal = ground.orientation * normal;
+    // Near the ground's origin, so that digits are not lost far from that of the world.
+    let shift = pose.location - ground.location;
+    let lowest = pose.orientation * part.support(-(pose.orientation.conjugate() * normal));
+    let gap = (shift + lowest - ground.orientation * at).dot(normal);
+    let place = pose.location + lowest;
+    Nearest { gap, normal, on: [place - gap * normal, place] }
+}
+
+/// Where a ball and a convex part are nearest, and the feature of the part.
+pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
+    let patch = &ball.features[0].patch;
+    let meeting = |feature: &Feature| meet(patch, pose, &feature.patch, at);
+    let edge = -EDGE * part.bound;
+    let mut best: Option<(f64, Nearest, usize)> = None;
+    for (i, feature) in part.features.iter().enumerate() {
+        let found = meeting(feature);
+        let inside = margin(feature, at, found.on[1], -found.normal, part.bound).max(edge);
+        // Where the feature ends and another begins, rounding may put the place on neither: then the one that is nearest to it.
+        let better = best.is_none_or(|(other, nearest, _)| {
+            let (inside, other) = (inside.min(0.0), other.min(0.0));
+            let (is_in, was_in) = (inside > edge, other > edge);
+            is_in && !was_in
+                || is_in == was_in && if is_in { found.gap > nearest.gap } else { inside > other }
+        });
+        if better {
+            best = Some((inside, found, i));
+        }
+    }
+    best.map_or_else(|| (meet(patch, pose, patch, at), 0), |(_, found, i)| (found, i))
+}
+
+/// How far a meeting is within a feature, m, both by its place and by its normal out of the body.
+pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
+    let place = pose.local(place);
+    let normal = pose.orientation.conjugate() * normal;
+    feature.margin(place).min(size * feature.slack(place, normal))
+}
+
+/// Where two convex parts are nearest to each other.
+///
+/// For any unit vector n, the distance along n is no more than that of the parts, and it is the same for the right n (W. H. Nelson's
+/// separating planes; Ericson, *Real-Time Collision Detection*, 5.2). So the largest one over the normals of all pairs of features that may be the
+/// nearest ones is the gap, exact to rounding, and with its sign.
+fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
+    let few = a.features.len() * b.features.len() <= FEW;
+    let guess = if few { None } else { gjk::cores(a, pa, b, pb) };
+    let tolerance = NEAR * a.bound.max(b.bound);
+    let near = |part: &Part, pose: &Pose, place: Option<DVec3>| -> Vec<usize> {
+        let near = |feature: &Feature| {
+            place.is_none_or(|place| feature.is_near(pose.local(place), part.radius, tolerance))
+        };
+        (0..part.features.len()).filter(|&i| near(&part.features[i])).collect()
+    };
+    let places = guess.map(|guess| guess.on);
+    let near_a = near(a, pa, places.map(|on| on[0]));
+    let near_b = near(b, pb, places.map(|on| on[1]));
+    let mut best: Option<(f64, Nearest)> = None;
+    let mut consider = |found: Nearest| {
+        let along = separation(a, pa, b, pb, found.normal);
+        let better = best.is_none_or(|(other, nearest)| {
+            let digits = 1e-14 * (a.bound + b.bound + along.abs());
+            along > other + digits
+                || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits
+        });
+        if better {
+            best = Some((along, found));
+        }
+    };
+    for &i in &near_a {
+        for &j in &near_b {
+            consider(meet(&a.features[i].patch, pa, &b.features[j].patch, pb));
+        }
+    }
+    if let Some(guess) = guess {
+        let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
+        consider(Nearest { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
+    }
+    let Some((along, found)) = best else {
+        // Not a number went in.
+        return Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] };
+    };
+    // The mean of the two values of the gap would be no better: what is between supporting planes bounds it from below.
+    Nearest { gap: along, ..found }
+}
+
+/// How far apart two parts are along a unit vector from the first to the second, m.
+fn separation(a: &Part, pa: &Pose, b: &Part, pb: &Pose, normal: DVec3) -> f64 {
+    let (local_a, local_b) = (pa.orientation.conjugate() * normal, -(pb.orientation.conjugate() * normal));
+    let (high_a, high_b) = (a.core.support(local_a).dot(local_a), b.core.support(local_b).dot(local_b));
+    (pb.location - pa.location).dot(normal) - high_a - high_b - a.radius - b.radius
+}

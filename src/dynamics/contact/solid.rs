@@ -1,0 +1,263 @@
+//! What touches of a body: its shape as convex parts, each with its corners, edges and faces.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::feature::{
+    Feature, features_of_box, features_of_capsule, features_of_frustum, features_of_ground,
+};
+use super::patch::Patch;
+use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
+
+/// A place of a body's own axes in the world (not of its principal axes).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dynamics) struct Pose {
+    /// Its centre of mass, m.
+    pub location: DVec3,
+    /// `world_from_body`.
+    pub orientation: DQuat,
+}
+
+/// What touches of a body.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct Solid {
+    parts: Arc<[Part]>,
+}
+
+/// A convex part: all that is within `radius` of its core. Everything is in the axes of the body.
+#[derive(Debug)]
+pub(super) struct Part {
+    pub(super) core: Core,
+    pub(super) radius: f64,
+    /// A ball that holds the part.
+    pub(super) centre: DVec3,
+    pub(super) bound: f64,
+    /// Its corners, edges and faces.
+    pub(super) features: Vec<Feature>,
+}
+
+/// What a part is without its rounding.
+#[derive(Debug)]
+pub(super) enum Core {
+    /// The hull of some points.
+    Hull(Vec<DVec3>),
+    /// What lies between two discs about one axis.
+    Frustum {
+        /// The centres of the discs.
+        ends: [DVec3; 2],
+        /// The unit direction from the first to the second.
+        axis: DVec3,
+        /// Their radii, m.
+        radii: [f64; 2],
+    },
+    /// All that lies below a plane.
+    Ground {
+        /// A place on the plane.
+        at: DVec3,
+        /// Its unit normal, out of the ground.
+        normal: DVec3,
+    },
+}
+
+impl Solid {
+    /// What touches of a shape. `None` for a torus, for axes, and for compounds of them.
+    pub(in crate::dynamics) fn of(shape: &Shape) -> Option<Solid> {
+        let mut parts = Vec::new();
+        add(shape, &Pose::IDENTITY, &mut parts)?;
+        Some(Solid { parts: parts.into() })
+    }
+
+    /// The largest distance of a point of the core from the centre of mass, m: turning moves no place of the surface faster.
+    /// 0 for a ball around its centre; infinite for a plane.
+    pub(in crate::dynamics) fn reach(&self) -> f64 {
+        self.parts.iter().map(Part::reach).fold(0.0, f64::max)
+    }
+
+    /// A typical size, m: the smallest thickness of a part. 1 for a plane.
+    pub(in crate::dynamics) fn size(&self) -> f64 {
+        let size = self.parts.iter().map(Part::size).fold(f64::INFINITY, f64::min);
+        if size.is_finite() { size } else { 1.0 }
+    }
+
+    /// The box along the axes of the world that holds the body, by its lowest and its highest corner. It is infinite for a
+    /// plane.
+    pub(in crate::dynamics) fn bounds(&self, pose: &Pose) -> [DVec3; 2] {
+        let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for part in &*self.parts {
+            if part.is_ground() {
+                return [DVec3::NEG_INFINITY, DVec3::INFINITY];
+            }
+            let reach = |axis: DVec3| {
+                let direction = pose.orientation.conjugate() * axis;
+                part.support(direction).dot(direction)
+            };
+            let high = DVec3::new(reach(DVec3::X), reach(DVec3::Y), reach(DVec3::Z));
+            let low = -DVec3::new(reach(-DVec3::X), reach(-DVec3::Y), reach(-DVec3::Z));
+            bounds = [bounds[0].min(pose.location + low), bounds[1].max(pose.location + high)];
+        }
+        bounds
+    }
+
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+}
+
+impl Part {
+    fn new(core: Core, radius: f64, features: Vec<Feature>) -> Part {
+        let (centre, bound) = match &core {
+            Core::Hull(corners) => {
+                let centre = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+                (centre, corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max))
+            }
+            Core::Frustum { ends, radii, .. } => {
+                let half = 0.5 * ends[0].distance(ends[1]);
+                (0.5 * (ends[0] + ends[1]), half.hypot(radii[0].max(radii[1])))
+            }
+            Core::Ground { at, .. } => (*at, f64::INFINITY),
+        };
+        Part { core, radius, centre, bound: bound + radius, features }
+    }
+
+    /// The place that is farthest in a direction of any length.
+    pub(super) fn support(&self, direction: DVec3) -> DVec3 {
+        let core = self.core.support(direction);
+        if self.radius > 0.0 { core + self.radius * direction.normalize_or_zero() } else { core }
+    }
+
+    pub(super) fn is_ground(&self) -> bool {
+        matches!(self.core, Core::Ground { .. })
+    }
+
+    /// The centre, if it is a ball.
+    pub(super) fn ball(&self) -> Option<DVec3> {
+        match &self.core {
+            Core::Hull(corners) if corners.len() == 1 => Some(corners[0]),
+            _ => None,
+        }
+    }
+
+    fn reach(&self) -> f64 {
+        match &self.core {
+            Core::Hull(corners) => corners.iter().map(|corner| corner.length()).fold(0.0, f64::max),
+            Core::Frustum { ends, axis, radii } => {
+                let rim = |i: usize| {
+                    let along = ends[i].dot(*axis);
+                    ((ends[i] - along * *axis).length() + radii[i]).hypot(along)
+                };
+                rim(0).max(rim(1))
+            }
+            Core::Ground { .. } => f64::INFINITY,
+        }
+    }
+
+    fn size(&self) -> f64 {
+        let core = match &self.core {
+            // Along the normals of the faces.
+            Core::Hull(corners) if corners.len() > 2 => {
+                let width = |feature: &Feature| match feature.patch {
+                    Patch::Plane { at, normal } => {
+                        Some((at - self.core.support(-normal)).dot(normal) - self.radius)
+                    }
+                    _ => None,
+                };
+                self.features.iter().filter_map(width).fold(f64::INFINITY, f64::min)
+            }
+            Core::Hull(_) => 0.0,
+            Core::Frustum { ends, radii, .. } => ends[0].distance(ends[1]).min(2.0 * radii[0].max(radii[1])),
+            Core::Ground { .. } => return f64::INFINITY,
+        };
+        core + 2.0 * self.radius
+    }
+}
+
+impl Core {
+    /// The place that is farthest in a direction of any length.
+    pub(super) fn support(&self, direction: DVec3) -> DVec3 {
+        match self {
+            Core::Hull(corners) => {
+                let mut best = (f64::NEG_INFINITY, DVec3::ZERO);
+                for &corner in corners {
+                    let height = corner.dot(direction);
+                    if height > best.0 {
+                        best = (height, corner);
+                    }
+                }
+                best.1
+            }
+            Core::Frustum { ends, axis, radii } => {
+                let across = direction - direction.dot(*axis) * *axis;
+                let rim = across.normalize_or_zero();
+                let places = [ends[0] + radii[0] * rim, ends[1] + radii[1] * rim];
+                if places[1].dot(direction) > places[0].dot(direction) { places[1] } else { places[0] }
+            }
+            Core::Ground { at, .. } => *at,
+        }
+    }
+}
+
+/// Adds the parts of a shape that stands at a place of the body's axes.
+fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
+    let up = pose.orientation * DVec3::Y;
+    let along = |y: f64| pose.location + y * up;
+    let ball = |radius: f64| {
+        let patch = Patch::Point { at: pose.location, radius };
+        Part::new(Core::Hull(vec![pose.location]), radius, vec![Feature::all(patch)])
+    };
+    let rod = |half: f64, radius: f64, up: DVec3| {
+        let ends = [pose.location - half * up, pose.location + half * up];
+        Part::new(Core::Hull(ends.to_vec()), radius, features_of_capsule(ends, radius))
+    };
+    parts.push(match *shape {
+        Shape::Sphere { radius } => ball(radius),
+        Shape::Capsule { radius, height } if height <= 2.0 * radius => ball(radius),
+        Shape::Capsule { radius, height } => rod(0.5 * height - radius, radius, up),
+        Shape::Box { size } => block(pose, 0.5 * size, 0.0),
+        Shape::RoundedBox { size, rounding } => {
+            let half = (0.5 * size - rounding).max(DVec3::ZERO);
+            let long = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter(|axis| half.dot(*axis) > 0.0);
+            match long.clone().count() {
+                0 => ball(rounding),
+                1 => rod(half.max_element(), rounding, pose.orientation * long.sum::<DVec3>()),
+                _ => block(pose, half, rounding),
+            }
+        }
+        Shape::Cylinder { radius, height } => {
+            frustum([along(-0.5 * height), along(0.5 * height)], [radius; 2])
+        }
+        Shape::Cone { radius, top_radius, height } => {
+            let base = cone_base(radius, top_radius, height);
+            frustum([along(base), along(base + height)], [radius, top_radius])
+        }
+        Shape::Plane { normal } => {
+            let normal = pose.orientation * normal;
+            let at = pose.location;
+            Part::new(Core::Ground { at, normal }, 0.0, features_of_ground(at, normal))
+        }
+        Shape::Compound(ref compound) => {
+            for Piece { shape, location, orientation } in compound.parts() {
+                let pose =
+                    Pose { location: pose.point(*location), orientation: pose.orientation * *orientation };
+                add(shape, &pose, parts)?;
+            }
+            return Some(());
+        }
+        Shape::Torus { .. } | Shape::Axes { .. } | Shape::Mesh { .. } => return None,
+    });
+    Some(())
+}
+
+fn block(pose: &Pose, half: DVec3, radius: f64) -> Part {
+    let corner = |i: u32| {
+        let sign = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        pose.point(half * DVec3::new(sign(0), sign(1), sign(2)))
+    };
+    let corners = (0..8).map(corner).collect();
+    Part::new(Core::Hull(corners), radius, features_of_box(pose, half, radius))
+}
+
+fn frustum(ends: [DVec3; 2], radii: [f64; 2]) -> Part {
+    let axis = (ends[1] - ends[0]).normalize_or(DVec3::Y);
+    Part::new(Core::Frustum { ends, axis, radii }, 0.0, features_of_frustum(ends, axis, radii))
+}

@@ -1,0 +1,283 @@
+//! All places at which two solids touch.
+
+use glam::DVec3;
+
+use super::feature::Feature;
+use super::nearest::{EDGE, Nearest, apart, ball_and, between, margin};
+use super::patch::{Patch, meet};
+use super::solid::{Core, Part, Pose, Solid};
+
+/// A flat end counts as lying flat where the sine of its tilt is smaller.
+const FLAT: f64 = 1e-7;
+/// Places that are nearer to each other than so many sizes are one.
+const SAME: f64 = 1e-6;
+/// No more places than that are needed to hold one part on another.
+const MOST: usize = 8;
+
+/// A place at which two solids touch, or nearly so.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dynamics) struct Touch {
+    /// The surfaces around it, each in the axes of its body.
+    pub patches: [Patch; 2],
+    /// Where they are nearest.
+    pub meeting: Nearest,
+    /// The number of the part of either body, and of its feature; none where the patch is one place of a rim.
+    features: [(usize, Option<usize>); 2],
+}
+
+/// All places at which two solids are nearer than `within`, m, which must be small beside them. Each is listed once, in an
+/// order that depends on nothing but the arguments.
+pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
+    let mut all = Vec::new();
+    for (i, part_a) in a.parts().iter().enumerate() {
+        for (j, part_b) in b.parts().iter().enumerate() {
+            if apart(part_a, pa, part_b, pb) <= within {
+                Pair { a: part_a, pa, b: part_b, pb, parts: [i, j], within, found: Vec::new() }
+                    .add_to(&mut all);
+            }
+        }
+    }
+    all
+}
+
+/// How far a touch is from where one of its patches ends, m; negative beyond it, infinite where nothing ends.
+///
+/// It counts 1e-9 sizes beyond the end as inside, so bodies with faces of one size may lie on each other.
+pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) -> f64 {
+    let meeting = meet(&touch.patches[0], pa, &touch.patches[1], pb);
+    let parts = [&a.parts()[touch.features[0].0], &b.parts()[touch.features[1].0]];
+    let round = |patch: &Patch| match *patch {
+        Patch::Point { radius, .. } | Patch::Line { radius, .. } | Patch::Side { radius, .. } => radius,
+        Patch::Plane { .. } | Patch::Circle { .. } => 0.0,
+    };
+    let sum = round(&touch.patches[0]) + round(&touch.patches[1]);
+    let mut least = f64::INFINITY;
+    for (side, pose) in [pa, pb].into_iter().enumerate() {
+        let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
+        let place = pose.local(meeting.on[side]);
+        least = least.min(feature.margin(place) + EDGE * parts[side].bound);
+        // Where something round passes from an edge to a face, the normal leaves the edge before any place does. A flat face
+        // is met by its corners at any tilt.
+        if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
+            let normal = if side == 0 { meeting.normal } else { -meeting.normal };
+            let slack = feature.slack(place, pose.orientation.conjugate() * normal);
+            least = least.min(sum * (slack + EDGE));
+        }
+    }
+    least
+}
+
+/// Two convex parts, and where they touch.
+struct Pair<'a> {
+    a: &'a Part,
+    pa: &'a Pose,
+    b: &'a Part,
+    pb: &'a Pose,
+    parts: [usize; 2],
+    within: f64,
+    found: Vec<Touch>,
+}
+
+impl Pair<'_> {
+    fn add_to(mut self, all: &mut Vec<Touch>) {
+        match (&self.a.core, &self.b.core) {
+            (Core::Ground { .. }, Core::Ground { .. }) => return,
+            (Core::Ground { .. }, _) | (_, Core::Ground { .. }) => self.on_ground(),
+            _ => match (self.a.ball().is_some(), self.b.ball().is_some()) {
+                (true, _) => {
+                    let (_, i) = ball_and(self.a, self.pa, self.b, self.pb);
+                    self.add(0, i);
+                }
+                (_, true) => {
+                    let (_, i) = ball_and(self.b, self.pb, self.a, self.pa);
+                    self.add(i, 0);
+                }
+                _ => self.convex(),
+            },
+        }
+        self.thin_out();
+        all.append(&mut self.found);
+    }
+
+    /// The corners and rims of a part that are near the ground.
+    fn on_ground(&mut self) {
+        let ground_first = self.a.is_ground();
+        let part = if ground_first { self.b } else { self.a };
+        for (i, feature) in part.features.iter().enumerate() {
+            if matches!(feature.patch, Patch::Point { .. } | Patch::Circle { .. }) {
+                let (i, j) = if ground_first { (0, i) } else { (i, 0) };
+                self.add(i, j);
+            }
+        }
+    }
+
+    /// All pairs of features between which the parts touch.
+    fn convex(&mut self) {
+        let nearest = between(self.a, self.pa, self.b, self.pb);
+        if nearest.gap > self.within {
+            return;
+        }
+        let depth = self.within + nearest.gap.abs();
+        let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, depth);
+        let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, depth);
+        for &i in &near_a {
+            for &j in &near_b {
+                if is_needed(&self.a.features[i].patch, &self.b.features[j].patch) {
+                    self.add(i, j);
+                }
+            }
+        }
+        if self.found.is_empty() {
+            // A corner on a corner or an edge: there is no smooth normal, but they touch.
+            for &i in &near_a {
+                for &j in &near_b {
+                    self.add(i, j);
+                }
+            }
+        }
+    }
+
+    /// Adds a pair of features, if the parts touch there.
+    fn add(&mut self, i: usize, j: usize) {
+        let (a, b) = (&self.a.features[i], &self.b.features[j]);
+        match (a.patch, b.patch) {
+            (Patch::Circle { .. }, Patch::Plane { normal, .. }) if self.is_flat(&a.patch, normal, false) => {
+                for patch in self.rim_points(0, &a.patch, b) {
+                    self.keep([patch, b.patch], [None, Some(j)]);
+                }
+            }
+            (Patch::Plane { normal, .. }, Patch::Circle { .. }) if self.is_flat(&b.patch, normal, true) => {
+                for patch in self.rim_points(1, &b.patch, a) {
+                    self.keep([a.patch, patch], [Some(i), None]);
+                }
+            }
+            _ => self.keep([a.patch, b.patch], [Some(i), Some(j)]),
+        }
+    }
+
+    /// Whether a rim of one body lies flat on a plane of the other.
+    fn is_flat(&self, rim: &Patch, normal: DVec3, of_second: bool) -> bool {
+        let (own, other) = if of_second { (self.pb, self.pa) } else { (self.pa, self.pb) };
+        match *rim {
+            Patch::Circle { axis, .. } => {
+                (own.orientation * axis).cross(other.orientation * normal).length() < FLAT
+            }
+            _ => false,
+        }
+    }
+
+    /// Places of a rim that lies flat on a face: four, and those where it crosses the face's edges.
+    fn rim_points(&self, side: usize, rim: &Patch, face: &Feature) -> Vec<Patch> {
+        let Patch::Circle { centre, axis, radius } = *rim else { return Vec::new() };
+        let (own, other) = if side == 0 { (self.pa, self.pb) } else { (self.pb, self.pa) };
+        let x = axis.any_orthonormal_vector();
+        let y = axis.cross(x);
+        let mut places: Vec<DVec3> = [x, y, -x, -y].iter().map(|radial| centre + radius * *radial).collect();
+        for [at, inward] in face.edges() {
+            let at = own.local(other.point(*at)) - centre;
+            let inward = own.orientation.conjugate() * (other.orientation * *inward);
+            let from = at.dot(inward);
+            let half = (radius * radius - from * from).max(0.0).sqrt();
+            if half > 0.0 {
+                let along = axis.cross(inward);
+                let middle = centre + from * inward;
+                places.extend([middle + half * along, middle - half * along]);
+            }
+        }
+        places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
+    }
+
+    /// Keeps a pair of patches, if the bodies touch there.
+    fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
+        let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
+        if meeting.gap.is_nan() || meeting.gap > self.within {
+            return;
+        }
+        let parts = [(self.a, self.pa, meeting.normal), (self.b, self.pb, -meeting.normal)];
+        for (side, (part, pose, normal)) in parts.into_iter().enumerate() {
+            let Some(feature) = features[side].map(|i| &part.features[i]) else { continue };
+            let edge = EDGE * part.bound;
+            // Of a face that lies on another, the corners are within reach at a small tilt.
+            let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
+            let place = feature.margin(pose.local(meeting.on[side]));
+            if place < -edge || margin(feature, pose, meeting.on[side], normal, part.bound) < -edge.max(tilt)
+            {
+                return;
+            }
+        }
+        let same = SAME * self.a.bound.min(self.b.bound);
+        let known = |touch: &Touch| {
+            touch.meeting.on[1].distance(meeting.on[1]) < same
+                && touch.meeting.normal.dot(meeting.normal) > 1.0 - SAME
+        };
+        if self.found.iter().any(known) {
+            return;
+        }
+        let features = [(self.parts[0], features[0]), (self.parts[1], features[1])];
+        self.found.push(Touch { patches, meeting, features });
+    }
+
+    /// Leaves the places that are farthest from each other.
+    fn thin_out(&mut self) {
+        let lines = |touch: &Touch| match touch.patches {
+            [
+                Patch::Line { along: u, .. } | Patch::Side { along: u, .. },
+                Patch::Line { along: v, .. } | Patch::Side { along: v, .. },
+            ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT,
+            _ => false,
+        };
+        // Of parallel lines, the ends say more than the middle.
+        if self.found.iter().any(|touch| !lines(touch)) {
+            let parallel: Vec<bool> = self.found.iter().map(lines).collect();
+            let mut parallel = parallel.into_iter();
+            self.found.retain(|_| !parallel.next().unwrap_or(false));
+        }
+        if self.found.len() <= MOST {
+            return;
+        }
+        let lowest = (0..self.found.len())
+            .min_by(|&i, &j| self.found[i].meeting.gap.total_cmp(&self.found[j].meeting.gap));
+        let mut kept: Vec<usize> = lowest.into_iter().collect();
+        while kept.len() < MOST {
+            let far = |i: usize| {
+                let place = self.found[i].meeting.on[0];
+                kept.iter()
+                    .map(|&k| self.found[k].meeting.on[0].distance(place))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let mut best = (0.0, None);
+            for i in 0..self.found.len() {
+                let distance = far(i);
+                if distance > best.0 {
+                    best = (distance, Some(i));
+                }
+            }
+            match best.1 {
+                Some(i) => kept.push(i),
+                None => break,
+            }
+        }
+        kept.sort_unstable();
+        self.found = kept.into_iter().map(|i| self.found[i]).collect();
+    }
+}
+
+/// Whether the meeting of two patches says what others do not: the ends of lines and the corners of faces are patches of their own.
+fn is_needed(a: &Patch, b: &Patch) -> bool {
+    match (a, b) {
+        (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
+            matches!(other, Patch::Point { .. } | Patch::Circle { .. })
+        }
+        // Two edges cross; of other sharp things, the normal is not smooth.
+        (Patch::Line { .. } | Patch::Circle { .. }, Patch::Line { .. } | Patch::Circle { .. }) => true,
+        _ => !(a.is_sharp() && b.is_sharp()),
+    }
+}
+
+/// The features of a part that reach as far along a normal as its nearest place does, but for `depth`.
+fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
+    let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
+    // What is tilted by rounding reaches less far at its other end.
+    let lowest = at.dot(normal) - depth - SAME * part.bound;
+    (0..part.features.len()).filter(|&i| part.features[i].highest(normal, part) >= lowest).collect()
+}
