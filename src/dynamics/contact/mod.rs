@@ -4,12 +4,18 @@
 //! does not rebound becomes a constraint that pushes and never pulls. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics
 //! with Unilateral Contacts* (1996).
 
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod feature;
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod gjk;
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod nearest;
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod patch;
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod solid;
 mod surface;
+#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod touch;
 
 use std::collections::BTreeSet;
