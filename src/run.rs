@@ -110,7 +110,7 @@ impl<'a> Run<'a> {
             .chain(small)
             .chain(grid)
             .chain(plan.not_drawn().iter().map(not_drawn::warning))
-            .chain(drift(self.survey().drift))
+            .chain(first_order(self.scene(), self.survey().drift).or_else(|| drift(self.survey().drift)))
             .collect()
     }
 
@@ -162,7 +162,7 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
-pub(crate) const RUN_WARNINGS: [Code; 8] = [
+pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::CorrectedStart,
     Code::Crossing,
     Code::Overlap,
@@ -171,6 +171,7 @@ pub(crate) const RUN_WARNINGS: [Code; 8] = [
     Code::TooFine,
     Code::NotDrawn,
     Code::EnergyDrift,
+    Code::FirstOrder,
 ];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
@@ -179,6 +180,22 @@ fn drift(drift: f64) -> Option<Diagnostic> {
     let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
     let help = "take a smaller `simulation.step`, or an `integrator` of higher order";
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
+}
+
+/// That contacts go with a method of first order, which is not exact enough for them; by how much the energy is wrong.
+fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
+    const NOTICEABLE: f64 = 1e-6;
+    let simulation = &scene.simulation;
+    let method = simulation.method;
+    let is_said = simulation.contacts.is_some() && method.order == 1 && drift.abs() > NOTICEABLE;
+    let percent = rounded(drift * 100.0);
+    let message = format!(
+        "the contacts of this run are not exact: with `{}`, the energy drifts by {percent} % of the largest kinetic energy",
+        method.name
+    );
+    let warning = Diagnostic::warning(Code::FirstOrder, message);
+    let help = "write `integrator = \"velocity-verlet\"` or `\"rk4\"` in [simulation]";
+    is_said.then(|| warning.help(help))
 }
 
 /// That the largest body is too small to be seen in the picture, or would be in one of the whole run.
@@ -239,6 +256,9 @@ fn corrected(corrected: &Corrected) -> Diagnostic {
     Diagnostic::warning(Code::CorrectedStart, message).help(help)
 }
 
+/// What stops bodies where they touch.
+const STOPS: &str = "`simulation.contacts = \"event-driven\"` stops bodies where they touch";
+
 /// That a body goes through a plane.
 fn crossing(crossing: &Crossing) -> Diagnostic {
     let plane = crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
@@ -248,14 +268,14 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
         others => format!(", and {others} other bodies later"),
     };
     let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
-    Diagnostic::warning(Code::Crossing, message).help("bodies do not collide yet: nothing stops it")
+    Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
 }
 
 /// That two bodies go into each other.
 fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
-    Diagnostic::warning(Code::Overlap, message).help("bodies do not collide yet: they go through each other")
+    Diagnostic::warning(Code::Overlap, message).help(format!("they pass through each other; {STOPS}"))
 }
 
 impl From<SimulateError> for RunError {

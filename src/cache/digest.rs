@@ -25,8 +25,14 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     let simulation = &scene.simulation;
     let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
     writeln!(text, "{duration:?} {rate:?} {step:?} {} {:?}", simulation.method.name, simulation.gravity)?;
+    let contacts = simulation.contacts;
+    writeln!(text, "{contacts:?} {:?} {:?}", contacts.and(scene.ground_that_stops()), scene.pairs)?;
     for body in &scene.bodies {
         writeln!(text, "{:?} {:?} {:?}", body.start, body.presence, body.motion)?;
+        if contacts.is_some() {
+            // Only where bodies touch, their shapes move them.
+            writeln!(text, "{:?} {:?}", body.shape, body.collider)?;
+        }
     }
     for force in &scene.forces {
         match &force.kind {
@@ -38,7 +44,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         }
     }
     for joint in &scene.joints {
-        writeln!(text, "{:?} {:?}", joint.kind, joint.servo)?;
+        writeln!(text, "{:?} {:?} {}", joint.kind, joint.servo, joint.collides)?;
     }
     Ok(())
 }

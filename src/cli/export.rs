@@ -5,7 +5,7 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{ExportError, Exported, write_csv, write_glb, write_joints};
+use jabuka::export::{ExportError, Exported, write_csv, write_events, write_glb, write_joints};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
 use jabuka::simulate::{Moments, Recorded, Selection};
@@ -28,6 +28,9 @@ pub(super) struct Arguments {
     /// Write what the joints do, as a table: their forces and torques, and not where the bodies are
     #[arg(long)]
     joints: bool,
+    /// Write the impacts, as a table: when and where, between which bodies, impulse and energy lost
+    #[arg(long, conflicts_with_all = ["joints", "frames"])]
+    events: bool,
     /// Take only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
@@ -65,6 +68,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.joints && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
     }
+    if arguments.events && matches!(format, Format::Glb) {
+        return Err(Failure::Usage("`--events` makes a table, `.csv`".to_owned()));
+    }
+    if arguments.events && scene.simulation.contacts.is_none() {
+        let message = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if arguments.joints && scene.joints.is_empty() {
         return Err(Failure::Usage("this scene has no joints".to_owned()));
     }
@@ -97,6 +107,10 @@ fn table(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Re
     if arguments.joints {
         let rows = whole(&arguments.output, |file| write_joints(run, selection, file))?;
         return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));
+    }
+    if arguments.events {
+        let rows = whole(&arguments.output, |file| write_events(run, file))?;
+        return Ok(if rows == 1 { "1 impact".to_owned() } else { format!("{rows} impacts") });
     }
     let rows = whole(&arguments.output, |file| write_csv(run, selection, file))?;
     Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
-use crate::simulate::{Broken, Diverged, SimulateError};
+use crate::simulate::{Broken, Diverged, SimulateError, Stuck};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -32,6 +32,8 @@ pub enum OutputError {
     Diverged(Diverged),
     /// A joint cannot be kept.
     Broken(Broken),
+    /// A contact cannot be computed.
+    Stuck(Stuck),
     /// The recording of the run could not be written or read.
     Recording(String),
     /// A script cannot be written.
@@ -53,6 +55,8 @@ impl OutputError {
             OutputError::Diverged(_) => Code::Diverged,
             OutputError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
             OutputError::Broken(_) => Code::BrokenJoint,
+            OutputError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
+            OutputError::Stuck(_) => Code::Jammed,
             OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
             OutputError::Emit(_) => Code::CannotEmit,
@@ -72,6 +76,10 @@ impl OutputError {
         if let OutputError::Broken(Broken { place: (Some(span), sources), .. }) = self {
             return Report { sources: sources.clone(), diagnostics: vec![diagnostic.at(*span, "")] };
         }
+        if let OutputError::Stuck(Stuck { place: (spans, sources), .. }) = self {
+            let diagnostic = spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, ""));
+            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
+        }
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
@@ -86,6 +94,12 @@ impl OutputError {
             ),
             OutputError::Broken(_) => Some(
                 "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
+            ),
+            OutputError::Stuck(stuck) if stuck.depth.is_some() => Some(
+                "move them apart, or let them pass through each other: `collides = false`, or the same `collision_group`",
+            ),
+            OutputError::Stuck(_) => Some(
+                "give bodies that are wedged in more room or a smaller `restitution`; frames before that time can be drawn with `simulation.duration`",
             ),
             OutputError::Recording(_) => Some(
                 "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
@@ -134,6 +148,7 @@ impl fmt::Display for OutputError {
             OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
             OutputError::Diverged(error) => error.fmt(f),
             OutputError::Broken(error) => error.fmt(f),
+            OutputError::Stuck(error) => error.fmt(f),
             OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
             OutputError::Emit(error) => error.fmt(f),
         }
@@ -147,6 +162,7 @@ impl From<SimulateError> for OutputError {
         match error {
             SimulateError::Diverged(error) => OutputError::Diverged(error),
             SimulateError::Broken(error) => OutputError::Broken(error),
+            SimulateError::Stuck(error) => OutputError::Stuck(error),
             SimulateError::Recording(message) => OutputError::Recording(message),
         }
     }

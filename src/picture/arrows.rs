@@ -4,20 +4,31 @@ use glam::{DQuat, DVec3};
 
 use super::beside;
 use super::camera::Placed;
+use super::in_front::lift_from_body;
 use crate::dynamics::{BodyId, BodySnapshot};
 use crate::scene::{self, Body, Color, Quantity, Scene};
-use crate::simulate::{Frame, JointEnd, axis, root, shown};
+use crate::simulate::{Frame, JointEnd, Load, axis, loads, root, shown};
 
-/// The colors of arrows, by the numbers of their quantities: those of no usual body, and far apart for any eye.
-const COLORS: [Color; Quantity::COUNT] = [
+/// The colors of arrows, in the order of their quantities: those of no usual body, and far apart for any eye.
+const COLORS: [Color; Quantity::COLORS] = [
     Color([0.03, 0.30, 0.70]),
     Color([0.93, 0.50, 0.04]),
     Color([0.76, 0.08, 0.48]),
     Color([0.05, 0.48, 0.30]),
+    Color([0.20, 0.62, 0.16]),
+    Color([0.85, 0.10, 0.10]),
+    Color([0.96, 0.78, 0.05]),
 ];
 /// The same before a dark background.
-const LIGHT_COLORS: [Color; Quantity::COUNT] =
-    [Color([0.35, 0.72, 1.0]), Color([1.0, 0.70, 0.25]), Color([1.0, 0.45, 0.80]), Color([0.45, 0.95, 0.65])];
+const LIGHT_COLORS: [Color; Quantity::COLORS] = [
+    Color([0.35, 0.72, 1.0]),
+    Color([1.0, 0.70, 0.25]),
+    Color([1.0, 0.45, 0.80]),
+    Color([0.45, 0.95, 0.65]),
+    Color([0.55, 0.95, 0.40]),
+    Color([1.0, 0.40, 0.35]),
+    Color([1.0, 0.92, 0.35]),
+];
 
 /// What an arrow belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,6 +95,8 @@ pub(super) struct Arrows {
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,
+    /// Where there are arrows for loads: the scene, and the colors of arrows.
+    of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
     /// The longest vector of each kind whose arrows have no scale, in its own unit.
     longest: [f64; Quantity::COUNT],
 }
@@ -142,8 +155,7 @@ pub(super) fn round_down(number: f64) -> f64 {
 
 impl Arrows {
     pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT]) -> Arrows {
-        let shows =
-            |body: &Body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some);
+        let shows = |body: &Body| body.showing.axes.is_some() || body.showing.has_arrows();
         let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| shows(body));
         let bodies: Vec<(usize, Body)> = bodies.map(|(number, body)| (number, body.clone())).collect();
         let colors = if scene.environment.is_dark() { LIGHT_COLORS } else { COLORS };
@@ -160,12 +172,14 @@ impl Arrows {
             let bearer = Bearer::Joint { joint: number, body: second.or(first) };
             Quantity::OF_JOINTS.into_iter().zip(joint.arrows).filter_map(move |(quantity, arrow)| {
                 let scene::Arrow { scale, color } = arrow?;
-                let color = color.unwrap_or(colors[quantity.number()]);
+                let color = color.unwrap_or(colors[quantity.color()]);
                 Some(OfJoint { bearer, end: JointEnd::new(scene, number), quantity, scale, color })
             })
         });
         let of_joints = of_joints.collect();
-        Arrows { bodies, arrows, of_joints, longest }
+        let shows_loads = |body: &Body| body.showing.loads.iter().any(Option::is_some);
+        let of_loads = scene.bodies.iter().any(shows_loads).then(|| (Box::new(scene.clone()), colors));
+        Arrows { bodies, arrows, of_joints, of_loads, longest }
     }
 
     /// The sizes in all pictures of a camera that stands still, by scales for which it has made room.
@@ -184,6 +198,7 @@ impl Arrows {
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
         let mut arrows: Vec<Arrow> =
             of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect();
+        arrows.extend(self.loads(frame, sizes, camera));
         arrows.extend(self.of_joints.iter().filter_map(|arrow| {
             let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
             let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.quantity.number()]);
@@ -198,6 +213,22 @@ impl Arrows {
             })
         }));
         arrows
+    }
+
+    /// The arrows for weight and contacts, in front of their bodies: they begin inside or at the far side.
+    fn loads(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+        let Some((scene, colors)) = &self.of_loads else { return Vec::new() };
+        let arrow = |load: &Load| {
+            let Load { body, quantity, root: from, vector, .. } = *load;
+            let to = from + vector * load.arrow.scale.unwrap_or(sizes.scales[quantity.number()]);
+            let color = load.arrow.color.unwrap_or(colors[quantity.color()]);
+            let mut arrow =
+                Arrow { bearer: Bearer::Body(body), quantity, from, to, radius: sizes.radius, color };
+            let seen = is_seen(from, to, sizes);
+            lift_from_body(&mut arrow, &scene.bodies[body], frame.body(body)?, camera);
+            seen.then_some(arrow)
+        };
+        loads(scene, frame).iter().filter_map(arrow).collect()
     }
 
     /// The axes of a frame.

@@ -6,8 +6,8 @@ use super::arrows::{Arrow, HEAD};
 use super::camera::{Lens, Placed};
 use super::links::Link;
 use super::stage::Stage;
-use crate::dynamics::Shape;
-use crate::scene::Scene;
+use crate::dynamics::{BodySnapshot, Shape};
+use crate::scene::{Body, Quantity, Scene};
 
 /// No arrow is moved nearer to the camera than this part of its distance.
 const NEAREST: f64 = 0.02;
@@ -65,6 +65,25 @@ pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed
         Lens::Perspective { .. } => nearer(arrow, camera, 1.0 - way / camera.location().distance(middle)),
         Lens::Orthographic { .. } => shifted(arrow, camera.towards(middle) * way),
     };
+}
+
+/// Moves an arrow for a load in front of the body that it acts on. Of two that lie on each other, friction is in front of the normal
+/// force, and that in front of the weight.
+pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, camera: &Placed) {
+    let middle = (arrow.from + arrow.to) / 2.0;
+    let towards = camera.towards(middle);
+    let order = Quantity::OF_LOADS.iter().position(|quantity| *quantity == arrow.quantity).unwrap_or(0);
+    #[allow(clippy::cast_precision_loss, reason = "there are three")]
+    let room = HEAD * arrow.radius * (1.0 + 0.5 * order as f64);
+    let reach = body.drawn().support(at.orientation, towards).unwrap_or(0.0) + room;
+    let depth = |point: DVec3| (point - at.location).dot(towards);
+    let way = reach - depth(arrow.from).min(depth(arrow.to));
+    if way > 0.0 {
+        *arrow = match camera.lens() {
+            Lens::Perspective { .. } => nearer(arrow, camera, 1.0 - way / camera.location().distance(middle)),
+            Lens::Orthographic { .. } => shifted(arrow, towards * way),
+        };
+    }
 }
 
 /// The same arrow at a part of its distance from the camera, which sees no difference.

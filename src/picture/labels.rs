@@ -11,7 +11,7 @@ use crate::dynamics::{Balance, BodyId, BodySnapshot, Coordinate, Reaction, find}
 use crate::scene::{
     Body, BodyMeasure, Color, Corner, Format, Label, LabelPlace, Measure, Piece, RunMeasure, Scene, Side,
 };
-use crate::simulate::{Frame, Ghost};
+use crate::simulate::{Frame, Ghost, ImpactCounts};
 
 /// The usual height of a line, as part of the picture's height.
 const SIZE: f64 = 0.055;
@@ -50,6 +50,8 @@ struct Moment<'a> {
     bodies: &'a [BodySnapshot],
     /// What the joints do; of ghosts, that is not kept.
     reactions: &'a [Reaction],
+    /// The impacts so far; of ghosts, they are not kept.
+    impacts: Option<&'a ImpactCounts>,
 }
 
 impl<'a> Moment<'a> {
@@ -61,6 +63,7 @@ impl<'a> Moment<'a> {
             balance: Some(&frame.balance),
             bodies: &frame.bodies,
             reactions: &frame.reactions,
+            impacts: Some(&frame.impacts),
         }
     }
 }
@@ -131,7 +134,14 @@ impl Labels {
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
                 let bodies = std::slice::from_ref(&ghost.body);
-                let then = Moment { time: ghost.time, frame: 0, balance: None, bodies, reactions: &[] };
+                let then = Moment {
+                    time: ghost.time,
+                    frame: 0,
+                    balance: None,
+                    bodies,
+                    reactions: &[],
+                    impacts: None,
+                };
                 let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
                 texts.extend(text.map(|text| (number, text)));
             }
@@ -266,12 +276,18 @@ impl Labels {
     #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
     fn measure(&self, measure: Measure, moment: &Moment<'_>) -> f64 {
         let energy = |of: fn(&Balance) -> f64| moment.balance.map_or(f64::NAN, of);
+        let impacts = |of: fn(&ImpactCounts) -> f64| moment.impacts.map_or(f64::NAN, of);
         match measure {
             Measure::Run(RunMeasure::Time) => moment.time,
             Measure::Run(RunMeasure::Frame) => moment.frame as f64,
             Measure::Run(RunMeasure::Energy) => energy(|balance| balance.total),
             Measure::Run(RunMeasure::Kinetic) => energy(|balance| balance.kinetic),
             Measure::Run(RunMeasure::Potential) => energy(|balance| balance.potential),
+            Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
+            Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
+            Measure::Body(number, BodyMeasure::Impacts) => {
+                moment.impacts.map_or(f64::NAN, |impacts| impacts.of_body(number))
+            }
             Measure::Body(number, measure) => {
                 let at = find(moment.bodies, number);
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
@@ -374,6 +390,8 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
         BodyMeasure::Spin => at.angular_velocity.length(),
         BodyMeasure::Mass => mass,
         BodyMeasure::Momentum => mass * at.velocity.length(),
+        // Frames count them.
+        BodyMeasure::Impacts => f64::NAN,
         BodyMeasure::Kinetic => {
             let turned = at.orientation * body.start.principal_axes;
             let spin = turned.conjugate() * at.angular_velocity;

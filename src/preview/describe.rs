@@ -279,10 +279,7 @@ fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
 }
 
 fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
-    let bodies = scene
-        .bodies
-        .iter()
-        .any(|body| body.showing.axes.is_some() || body.showing.arrows.iter().any(Option::is_some));
+    let bodies = scene.bodies.iter().any(|body| body.showing.axes.is_some() || body.showing.has_arrows());
     let joints =
         scene.joints.iter().any(|joint| joint.look.is_some() || joint.arrows.iter().any(Option::is_some));
     let springs = scene

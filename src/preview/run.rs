@@ -139,7 +139,7 @@ impl Simulation {
 
     /// A frame that has been recorded, with as much of its past as pictures of the preview show.
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
-        let mut frame = Frame::of(index, self.recording().read().frame(index)?);
+        let mut frame = self.recording().read().seen(index)?;
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
         let slack = 1e-6 / self.scene.simulation.frame_rate;
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < frame.time - slack;

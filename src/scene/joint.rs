@@ -17,6 +17,8 @@ pub struct Joint {
     pub kind: JointKind,
     /// The motor that gives way, if it has one.
     pub servo: Option<Servo>,
+    /// Whether the bodies that it joins can collide with each other.
+    pub collides: bool,
     /// How it is drawn, if it is.
     pub look: Option<JointLook>,
     /// Arrows for what it does, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).

@@ -141,6 +141,18 @@ pub enum Measure {
     Body(usize, BodyMeasure),
     /// A number of the joint with this number in the scene.
     Joint(usize, JointMeasure),
+    /// How many impacts there have been of the pair with this number in the scene.
+    Impacts(usize),
+}
+
+impl Measure {
+    /// Whether it is a number of things, which is written with all of its digits.
+    pub fn is_count(self) -> bool {
+        matches!(
+            self,
+            Measure::Run(RunMeasure::Impacts) | Measure::Body(_, BodyMeasure::Impacts) | Measure::Impacts(_)
+        )
+    }
 }
 
 /// A number of the whole run at a moment.
@@ -156,16 +168,19 @@ pub enum RunMeasure {
     Kinetic,
     /// The potential energy, J.
     Potential,
+    /// How many impacts there have been.
+    Impacts,
 }
 
 impl RunMeasure {
     /// All of them, each with its name in formulas and what it is.
-    pub const ALL: [(&'static str, RunMeasure, &'static str); 5] = [
+    pub const ALL: [(&'static str, RunMeasure, &'static str); 6] = [
         ("t", RunMeasure::Time, "the time, s"),
         ("frame", RunMeasure::Frame, "the number of the frame"),
         ("energy", RunMeasure::Energy, "kinetic and potential energy of the whole scene, J"),
         ("kinetic_energy", RunMeasure::Kinetic, "its kinetic energy, J"),
         ("potential_energy", RunMeasure::Potential, "its potential energy, J"),
+        ("impacts", RunMeasure::Impacts, "the number of impacts so far; needs `simulation.contacts`"),
     ];
 }
 
@@ -194,11 +209,13 @@ pub enum BodyMeasure {
     Momentum,
     /// The kinetic energy of its translation, J.
     Kinetic,
+    /// How many impacts it has had.
+    Impacts,
 }
 
 impl BodyMeasure {
     /// All of them, each with its name in formulas and what it is.
-    pub const ALL: [(&'static str, BodyMeasure, &'static str); 19] = [
+    pub const ALL: [(&'static str, BodyMeasure, &'static str); 20] = [
         ("x", BodyMeasure::Location(0), "its location, m"),
         ("y", BodyMeasure::Location(1), "its location, m"),
         ("z", BodyMeasure::Location(2), "its location, m"),
@@ -218,6 +235,11 @@ impl BodyMeasure {
         ("mass", BodyMeasure::Mass, "its mass, kg"),
         ("momentum", BodyMeasure::Momentum, "the size of its momentum, kg·m/s"),
         ("kinetic", BodyMeasure::Kinetic, "its kinetic energy, of translation and rotation, J"),
+        (
+            "impacts",
+            BodyMeasure::Impacts,
+            "the number of its impacts so far; `a.impacts.b` counts those of two bodies, `a.impacts.ground` those with the ground",
+        ),
     ];
 }
 

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::sdl::FileKind;
 use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
+use crate::dynamics::Surface;
 
 /// What bodies look like.
 #[derive(Clone, Debug)]
@@ -298,6 +299,8 @@ pub struct Ground {
     pub height: Option<f64>,
     /// The edge of one tile, m.
     pub tile: Option<f64>,
+    /// How it behaves where bodies touch it; none: they pass through it.
+    pub surface: Option<Surface>,
 }
 
 /// The sky.

@@ -8,6 +8,7 @@
 mod check;
 mod color;
 mod color_names;
+mod contact;
 mod expand;
 pub mod expression;
 mod force;
@@ -34,6 +35,7 @@ use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use contact::{Collider, ContactLaw};
 pub use force::{Force, ForceKind};
 pub use joint::{Course, Joint, JointKind, JointLook};
 pub use label::{
@@ -52,6 +54,7 @@ pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, Spring
 pub use source::Override;
 
 use crate::diagnostic::Report;
+use crate::dynamics::Surface;
 
 /// Whether a scene may have so many frames.
 pub(crate) fn is_possible_number_of_frames(frames: usize) -> bool {
@@ -85,6 +88,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Ground, sky and fog.
     pub environment: Environment,
+    /// The pairs of bodies whose impacts the labels count, the smaller number first; that of the ground is the number of bodies.
+    pub pairs: Vec<[usize; 2]>,
     /// The texts in the picture, in the order of the file.
     pub labels: Vec<Label>,
     /// The scale bar, if there is one.
@@ -145,6 +150,12 @@ impl Scene {
             },
             options,
         )
+    }
+
+    /// The height of the ground, m, and its surface, if it stops bodies.
+    pub fn ground_that_stops(&self) -> Option<(f64, Surface)> {
+        let ground = self.environment.ground.as_ref()?;
+        Some((ground.height?, ground.surface?))
     }
 
     /// The files that the scene was read from: its own, and all that it names.

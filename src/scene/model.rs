@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::Showing;
 use super::motion::BodyMotion;
+use super::{Collider, ContactLaw, Showing};
 use crate::dynamics::{Method, Presence, RigidBody, Shape};
 
 /// How the world is advanced.
@@ -21,6 +21,8 @@ pub struct Simulation {
     pub method: &'static Method,
     /// The acceleration of every body that can move, m/s².
     pub gravity: DVec3,
+    /// What stops bodies where they touch; none: they pass through each other.
+    pub contacts: Option<ContactLaw>,
 }
 
 impl Simulation {
@@ -66,6 +68,8 @@ pub struct Body {
     pub presence: Presence,
     /// The motion that it follows, whatever acts on it.
     pub motion: Option<Arc<BodyMotion>>,
+    /// How it collides; none: others pass through it.
+    pub collider: Option<Arc<Collider>>,
     /// The number of its material among the scene's; none for axes, which have colors of their own, and for
     /// an object in SDL that is given none.
     pub material: Option<usize>,

@@ -9,6 +9,8 @@ pub struct Places {
     pub bodies: Vec<Span>,
     /// The name of each joint, in the order of [`Scene::joints`](super::Scene::joints).
     pub joints: Vec<Span>,
+    /// The value of `simulation.contacts`, if there is one.
+    pub contacts: Option<Span>,
     /// The table of the main camera, if there is one.
     pub camera: Option<Span>,
     /// The value of `povray.unit`, if there is one.

@@ -9,12 +9,21 @@ use super::Color;
 pub struct Showing {
     /// Arrows for its vectors, in the order of [`Quantity::OF_BODIES`].
     pub arrows: [Option<Arrow>; 3],
+    /// Arrows for its weight and what touches it, in the order of [`Quantity::OF_LOADS`].
+    pub loads: [Option<Arrow>; 3],
     /// Its own axes.
     pub axes: Option<BodyAxes>,
     /// Where it has been, every so many seconds.
     pub ghosts: Option<Ghosts>,
     /// The way that it has come.
     pub trail: Option<Trail>,
+}
+
+impl Showing {
+    /// Whether the body has any arrow.
+    pub fn has_arrows(&self) -> bool {
+        self.arrows.iter().chain(&self.loads).any(Option::is_some)
+    }
 }
 
 /// A vector of a body or of a joint that an arrow can show.
@@ -28,20 +37,36 @@ pub enum Quantity {
     Force,
     /// The torque of a joint on its second end, N m.
     Torque,
+    /// The weight of a body, N.
+    Weight,
+    /// The normal force of another body that touches it, N.
+    Normal,
+    /// The friction of another body that touches it, N.
+    Friction,
 }
 
 impl Quantity {
-    /// How many there are.
-    pub const COUNT: usize = 4;
+    /// How many scales there are.
+    pub const COUNT: usize = 5;
+    /// How many colors there are.
+    pub const COLORS: usize = 7;
 
     /// Those of bodies.
     pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
 
+    /// The weight of a body, and the forces of what touches it.
+    pub const OF_LOADS: [Quantity; 3] = [Quantity::Weight, Quantity::Normal, Quantity::Friction];
+
     /// Those of joints.
     pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
 
-    /// Its number among all, in the order of the enum.
+    /// The number of its scale. Weight, normal force and friction share one, since they are to be compared.
     pub fn number(self) -> usize {
+        self.color().min(Self::COUNT - 1)
+    }
+
+    /// The number of its color, in the order of the enum.
+    pub fn color(self) -> usize {
         self as usize
     }
 
@@ -52,6 +77,9 @@ impl Quantity {
             Quantity::Acceleration => "acceleration",
             Quantity::Force => "force",
             Quantity::Torque => "torque",
+            Quantity::Weight => "weight",
+            Quantity::Normal => "normal",
+            Quantity::Friction => "friction",
         }
     }
 }

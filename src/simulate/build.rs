@@ -1,8 +1,10 @@
 //! Scene → world.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec3;
 
-use crate::dynamics::{Dynamics, Effort, UniformGravity, World};
+use crate::dynamics::{Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World};
 use crate::scene::{Body, Scene};
 
 /// What advances a scene, chosen by what the scene says; the interactions of pairs are counted meanwhile. An engine with steppers
@@ -14,7 +16,7 @@ pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
 }
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
-/// is the same in both.
+/// is the same in both. A ground that stops bodies is one more, behind all of the scene's.
 pub fn world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
@@ -30,7 +32,47 @@ pub fn world(scene: &Scene) -> World {
     scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
     scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
     scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
+    if scene.simulation.contacts.is_some() {
+        add_ground(&mut world, scene);
+        world.collide(contacts(scene));
+    }
     world
+}
+
+/// The ground is a plane like any other: a body of the world that the scene does not have.
+fn add_ground(world: &mut World, scene: &Scene) {
+    let Some(height) = scene.ground_that_stops().map(|(height, _)| height) else { return };
+    let plane = Shape::Plane { normal: DVec3::Y };
+    world.add(RigidBody::new(&plane, 1.0).with_location(DVec3::Y * height).with_fixed(true));
+    world.add_shapes([plane]);
+}
+
+/// How the bodies of a scene collide. Joined bodies pass through each other, and so do those of one group.
+fn contacts(scene: &Scene) -> Contacts {
+    let surface = |body: &Body| body.collider.as_ref().map(|collider| collider.surface);
+    let ground = scene.ground_that_stops().map(|(_, surface)| Some(surface));
+    let surfaces = scene.bodies.iter().map(surface).chain(ground).collect();
+    let mut apart = BTreeSet::new();
+    for joint in scene.joints.iter().filter(|joint| !joint.collides) {
+        if let [Some(one), Some(two)] = joint.kind.between().map(|end| end.body().map(|id| id.index())) {
+            apart.insert((one.min(two), one.max(two)));
+        }
+    }
+    let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (id, body) in scene.bodies.iter().enumerate() {
+        if let Some(group) = body.collider.as_ref().and_then(|collider| collider.group.as_deref()) {
+            groups.entry(group).or_default().push(id);
+        }
+    }
+    let moves = |id: usize| !scene.bodies[id].start.fixed && scene.bodies[id].motion.is_none();
+    for group in groups.values() {
+        for (place, &one) in group.iter().enumerate() {
+            // Of two that no force moves, no contact is looked for.
+            let others = group[place + 1..].iter().filter(|&&two| moves(one) || moves(two));
+            apart.extend(others.map(|&two| (one, two)));
+        }
+    }
+    Contacts { surfaces, apart }
 }
 
 fn add(world: &mut World, body: &Body) {
@@ -62,5 +104,28 @@ mod tests {
         assert_eq!(world.forces(), [DVec3::ZERO; 3], "each begins at its own rest length");
         let mut world = self::world(&scene("rest_length = 1"));
         assert_eq!(world.forces(), [DVec3::ZERO, 2.0 * DVec3::X, -2.0 * DVec3::X]);
+    }
+
+    #[test]
+    fn joined_bodies_and_those_of_one_group_pass_through_each_other() {
+        let text = "simulation = { contacts = 'event-driven', integrator = 'rk4' }
+            defaults.body.location = [0, 5, 0]
+            [body.wall]\nshape.box.size = [1, 1, 1]\nfixed = true\ncollision_group = 'car'
+            [body.a]\nshape.sphere.radius = 1\ncollision_group = 'car'
+            [body.rail]\nshape.box.size = [1, 1, 1]\nfixed = true\ncollision_group = 'car'
+            [body.b]\nshape.sphere.radius = 1\nrestitution = 0.5
+            [body.ghost]\nshape.sphere.radius = 1\ncollides = false
+            [joint.j.ball]\nbetween = ['a', 'b']\nat = [0, 5, 0]
+            [joint.k.ball]\nbetween = ['wall', 'b']\nat = [0, 5, 0]\ncollides = true
+            [environment]\nground.friction = 0.3
+            ";
+        let Contacts { surfaces, apart } = contacts(&Scene::parse(text).unwrap());
+        assert_eq!(apart.into_iter().collect::<Vec<_>>(), [(0, 1), (1, 2), (1, 3)]);
+        assert_eq!(surfaces.len(), 6, "the ground is one");
+        assert_eq!(surfaces[3].unwrap().restitution, Some(0.5));
+        assert_eq!(surfaces[4], None);
+        assert_eq!(surfaces[5].unwrap().friction, Some(0.3));
+        let none = text.replace("ground.friction = 0.3", "ground = false");
+        assert_eq!(contacts(&Scene::parse(&none).unwrap()).surfaces.len(), 5);
     }
 }

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::past::History;
 use super::recording::{Reader, Recording};
-use super::simulation::Entry;
 use super::{Frame, SimulateError};
 use crate::scene::Shutter;
 
@@ -45,13 +44,13 @@ fn moment(
 ) -> Result<Frame, SimulateError> {
     let lost = || SimulateError::Recording(format!("t = {time} s was not recorded"));
     loop {
-        let Entry { snapshot, .. } = reader.entry()?.ok_or_else(lost)?;
-        if snapshot.time > time {
+        let entry = reader.entry()?.ok_or_else(lost)?;
+        if entry.snapshot.time > time {
             return Err(lost());
         }
-        history.note_ghosts(&snapshot);
-        if snapshot.time == time {
-            let mut frame = Frame::of(index, snapshot);
+        history.note_ghosts(&entry.snapshot);
+        if entry.snapshot.time == time {
+            let mut frame = Frame::of_entry(index, entry);
             frame.past = history.before(&frame);
             return Ok(frame);
         }

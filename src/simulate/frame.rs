@@ -1,6 +1,7 @@
 //! What can be seen at one moment.
 
-use super::Past;
+use super::simulation::Entry;
+use super::{ImpactCounts, Past};
 use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot, find};
 
 /// What can be seen at one moment of a run.
@@ -18,15 +19,23 @@ pub struct Frame {
     pub contacts: Vec<ContactSnapshot>,
     /// Energies, momenta and the drift.
     pub balance: Balance,
+    /// How many impacts there have been.
+    pub impacts: ImpactCounts,
     /// What has been before, as far as the scene asks for it.
     pub past: Past,
 }
 
 impl Frame {
-    /// The frame of a moment, without what has been before.
+    /// The frame of a moment, without what has been before, and without the impacts up to it.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
         let Snapshot { time, bodies, reactions, contacts, balance } = moment;
-        Frame { index, time, bodies, reactions, contacts, balance, past: Past::default() }
+        let (impacts, past) = (ImpactCounts::default(), Past::default());
+        Frame { index, time, bodies, reactions, contacts, balance, impacts, past }
+    }
+
+    /// The frame of a moment of a run, without what has been before.
+    pub(super) fn of_entry(index: usize, entry: Entry) -> Frame {
+        Frame { impacts: entry.counts, ..Frame::of(index, entry.snapshot) }
     }
 
     /// A body, by its number in the scene; none if it is not there.

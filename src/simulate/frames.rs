@@ -65,12 +65,12 @@ impl<'a> Frames<'a> {
     /// The moment of a time (s), which must be that of a frame or a recorded one, with what has been before.
     fn moment(mut self, time: f64) -> Result<Frame, SimulateError> {
         let mut before = 0;
-        while let Some(Entry { frame, snapshot }) = self.entry()? {
-            before = frame.unwrap_or(before);
-            if snapshot.time >= time {
-                return Ok(self.see(frame.is_some(), Frame::of(before, snapshot)));
+        while let Some(entry) = self.entry()? {
+            before = entry.frame.unwrap_or(before);
+            if entry.snapshot.time >= time {
+                return Ok(self.see(entry.frame.is_some(), Frame::of_entry(before, entry)));
             }
-            self.remember(frame, snapshot);
+            self.remember(entry.frame, entry.snapshot);
         }
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
@@ -86,13 +86,13 @@ impl<'a> Frames<'a> {
         {
             reader.seek(moment);
         }
-        while let Some(Entry { frame, snapshot }) = self.entry()? {
+        while let Some(entry) = self.entry()? {
             if self.position() > moment {
-                self.history.note_ghosts(&snapshot);
-                let frame = self.see(frame.is_some(), Frame::of(index, snapshot));
+                self.history.note_ghosts(&entry.snapshot);
+                let frame = self.see(entry.frame.is_some(), Frame::of_entry(index, entry));
                 return Ok((frame, self.history));
             }
-            self.remember(frame, snapshot);
+            self.remember(entry.frame, entry.snapshot);
         }
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
@@ -176,13 +176,16 @@ impl Iterator for Frames<'_> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             match self.entry() {
-                Ok(Some(Entry { frame: Some(index), snapshot })) => {
+                Ok(Some(entry)) => {
+                    let Some(index) = entry.frame else {
+                        self.remember(None, entry.snapshot);
+                        continue;
+                    };
                     if !self.history.is_idle() {
-                        self.history.note_ghosts(&snapshot);
+                        self.history.note_ghosts(&entry.snapshot);
                     }
-                    return Some(Ok(self.see(true, Frame::of(index, snapshot))));
+                    return Some(Ok(self.see(true, Frame::of_entry(index, entry))));
                 }
-                Ok(Some(Entry { frame: None, snapshot })) => self.remember(None, snapshot),
                 Ok(None) => return None,
                 Err(error) => return Some(Err(error)),
             }

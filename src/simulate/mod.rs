@@ -18,8 +18,10 @@ mod build;
 mod exposure;
 mod frame;
 mod frames;
+mod impacts;
 mod labour;
 mod lag;
+mod loads;
 mod moments;
 mod overlap;
 mod past;
@@ -35,7 +37,7 @@ mod tests;
 mod vectors;
 
 use crate::diagnostic::{self, Sources};
-use crate::dynamics::Breakdown;
+use crate::dynamics::{BodyId, Breakdown};
 use crate::scene::Scene;
 
 pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSlider, AskedSpring, AskedTrail};
@@ -43,8 +45,10 @@ pub use build::world;
 pub use exposure::Exposure;
 pub use frame::Frame;
 pub use frames::{Frames, within};
+pub use impacts::ImpactCounts;
 pub use labour::Labour;
 pub use lag::Lagging;
+pub use loads::{Load, loads};
 pub use moments::Moments;
 pub use overlap::Overlap;
 pub use past::{Ghost, Passed, Past, Way};
@@ -73,6 +77,8 @@ pub enum SimulateError {
     Diverged(Diverged),
     /// A joint cannot be kept.
     Broken(Broken),
+    /// A contact cannot be computed.
+    Stuck(Stuck),
     /// Its recording cannot be written or read.
     Recording(String),
 }
@@ -97,6 +103,35 @@ impl PartialEq for Broken {
     }
 }
 
+/// That a contact of two bodies cannot be computed.
+#[derive(Clone, Debug)]
+pub struct Stuck {
+    /// The names of the two; none for the ground.
+    pub bodies: [Option<String>; 2],
+    /// The time, s.
+    pub time: f64,
+    /// How deep they are within each other where contacts begin, m; none: their impacts do not end.
+    pub depth: Option<f64>,
+    /// Where the scene says their names, and the texts of the scene.
+    pub place: (Vec<diagnostic::Span>, Sources),
+}
+
+impl PartialEq for Stuck {
+    /// The texts do not count.
+    fn eq(&self, other: &Stuck) -> bool {
+        (&self.bodies, self.time, self.depth) == (&other.bodies, other.time, other.depth)
+    }
+}
+
+impl Stuck {
+    fn of(scene: &Scene, ids: [BodyId; 2], time: f64, depth: Option<f64>) -> Stuck {
+        let ids = ids.map(BodyId::index);
+        let bodies = ids.map(|id| Some(scene.bodies.get(id)?.name.to_string()));
+        let spans = ids.iter().filter_map(|&id| scene.places.bodies.get(id).copied()).collect();
+        Stuck { bodies, time, depth, place: (spans, scene.warnings.sources.clone()) }
+    }
+}
+
 impl SimulateError {
     /// Why the dynamics of a scene cannot go on.
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
@@ -104,9 +139,10 @@ impl SimulateError {
             Breakdown::Diverged { body, time } => {
                 SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
             }
-            Breakdown::Overlapping { .. } | Breakdown::Jammed { .. } => {
-                SimulateError::Recording(error.to_string())
+            Breakdown::Overlapping { bodies, time, depth } => {
+                SimulateError::Stuck(Stuck::of(scene, bodies, time, Some(depth)))
             }
+            Breakdown::Jammed { bodies, time } => SimulateError::Stuck(Stuck::of(scene, bodies, time, None)),
             Breakdown::Broken { constraint, time, missing } => {
                 let joint = scene.joints[constraint].name.clone();
                 let span = scene.places.joints.get(constraint).copied();
@@ -137,11 +173,29 @@ impl std::fmt::Display for Broken {
 
 impl std::error::Error for Broken {}
 
+impl std::fmt::Display for Stuck {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names =
+            self.bodies.clone().map(|name| name.map_or("the ground".to_owned(), |name| format!("`{name}`")));
+        let ([one, two], time) = (names, self.time);
+        match self.depth {
+            Some(depth) => write!(
+                f,
+                "{one} and {two} overlap by {depth:.3e} m at t = {time} s, where their contact begins"
+            ),
+            None => write!(f, "the impacts of {one} and {two} do not end: at t = {time} s they are jammed"),
+        }
+    }
+}
+
+impl std::error::Error for Stuck {}
+
 impl std::fmt::Display for SimulateError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SimulateError::Diverged(error) => error.fmt(f),
             SimulateError::Broken(error) => error.fmt(f),
+            SimulateError::Stuck(error) => error.fmt(f),
             SimulateError::Recording(message) => f.write_str(message),
         }
     }

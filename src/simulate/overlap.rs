@@ -108,7 +108,7 @@ impl<'a> Watch<'a> {
             let size = sizes.partition_point(|size| size.level < level);
             Watched { size, ..body }
         };
-        let is_over = !sizes.iter().any(|size| size.has_moving);
+        let is_over = scene.simulation.contacts.is_some() || !sizes.iter().any(|size| size.has_moving);
         let bodies: Vec<Watched> = bodies.into_iter().map(numbered).collect();
         let grid = Grid::new(if is_over { 0 } else { bodies.len() });
         let number = |id: usize| bodies.binary_search_by_key(&id, |body| body.id).ok();

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use super::frames::within;
 use super::past::History;
 use super::recording::{Counts, MemoryStore, Recording, Store};
-use super::simulation::{Entry, Simulation};
+use super::simulation::Simulation;
 use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, Surveyor};
-use crate::dynamics::{Dynamics, Effort};
+use crate::dynamics::{Dynamics, Effort, Impact};
 use crate::scene::Scene;
 
 /// A run of a scene that has been simulated, to be read in any order by all that draws, measures or exports.
@@ -65,11 +65,11 @@ impl<'a> Recorded<'a> {
         let mut reader = recording.read();
         for index in 0..recording.frames() {
             reader.seek_frame(index);
-            let Entry { frame, snapshot } = reader.entry()?.ok_or_else(lost)?;
-            if frame != Some(index) {
+            let entry = reader.entry()?.ok_or_else(lost)?;
+            if entry.frame != Some(index) {
                 return Err(lost());
             }
-            let frame = Frame::of(index, snapshot);
+            let frame = Frame::of_entry(index, entry);
             surveyor.see(&frame);
             seen(&frame);
         }
@@ -94,6 +94,23 @@ impl<'a> Recorded<'a> {
     /// All frames, from the first on.
     pub fn frames(&self) -> Frames<'a> {
         Frames::recorded(self.scene, &self.recording)
+    }
+
+    /// All impacts of the run, in the order in which they happened.
+    pub fn impacts(&self) -> impl Iterator<Item = Result<Impact, SimulateError>> + use<'a> {
+        let mut reader = self.recording.read();
+        let mut waiting = Vec::new().into_iter();
+        std::iter::from_fn(move || {
+            loop {
+                if let Some(impact) = waiting.next() {
+                    return Some(Ok(impact));
+                }
+                match reader.entry() {
+                    Ok(entry) => waiting = entry?.impacts.into_iter(),
+                    Err(error) => return Some(Err(error.into())),
+                }
+            }
+        })
     }
 
     /// The selected frames, and with each the run from there on as far as shutters are open.
@@ -202,8 +219,8 @@ impl<'a> Recorder<'a> {
         while seen.is_none() && failed.is_none() {
             let goes_on = simulation.advance(&mut |entry| {
                 failed = failed.take().or(recording.push(&entry).err());
-                if let Entry { frame: Some(index), snapshot } = entry {
-                    seen = Some(Frame::of(index, snapshot));
+                if let Some(index) = entry.frame {
+                    seen = Some(Frame::of_entry(index, entry));
                 }
             })?;
             if !goes_on {

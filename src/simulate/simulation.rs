@@ -1,8 +1,8 @@
 //! A run that is being computed.
 
 use super::build::dynamics;
-use super::{Moments, SimulateError};
-use crate::dynamics::{Breakdown, Dynamics, Effort, Snapshot};
+use super::{ImpactCounts, Moments, SimulateError};
+use crate::dynamics::{Breakdown, Dynamics, Effort, Impact, Snapshot};
 use crate::scene::Scene;
 
 /// A moment of a run, and whether it is that of a frame.
@@ -11,6 +11,10 @@ pub(super) struct Entry {
     /// The number of the frame; none between two frames.
     pub(super) frame: Option<usize>,
     pub(super) snapshot: Snapshot,
+    /// The impacts since the moment before.
+    pub(super) impacts: Vec<Impact>,
+    /// How many impacts there have been.
+    pub(super) counts: ImpactCounts,
 }
 
 /// A run of a scene from its initial state on.
@@ -20,6 +24,9 @@ pub(super) struct Simulation<'a> {
     moments: Moments,
     next: usize,
     intervals: usize,
+    counts: ImpactCounts,
+    /// Impacts after the last moment that was seen.
+    waiting: Vec<Impact>,
 }
 
 impl<'a> Simulation<'a> {
@@ -31,7 +38,8 @@ impl<'a> Simulation<'a> {
     /// That of somebody else's dynamics, at time 0.
     pub(super) fn of(scene: &'a Scene, moments: Moments, dynamics: Box<dyn Dynamics>) -> Simulation<'a> {
         let intervals = moments.intervals();
-        Simulation { scene, dynamics, moments, next: 0, intervals }
+        let counts = ImpactCounts::new(scene);
+        Simulation { scene, dynamics, moments, next: 0, intervals, counts, waiting: Vec::new() }
     }
 
     /// Advances to the next frame, or by the time between two where there are moments after the last; `see` is told of
@@ -50,12 +58,55 @@ impl<'a> Simulation<'a> {
         let simulation = &self.scene.simulation;
         if let Some(before) = self.next.checked_sub(1) {
             let moments = self.moments.after(before);
-            let mut between = |snapshot| see(Entry { frame: None, snapshot });
-            self.dynamics.advance(simulation.time(self.next), &moments, &mut between)?;
+            let mut between = Vec::new();
+            let counts_impacts = simulation.contacts.is_some();
+            let done = self.dynamics.advance(simulation.time(self.next), &moments, &mut |snapshot| {
+                if counts_impacts {
+                    between.push(snapshot);
+                } else {
+                    see(of_scene(self.scene, snapshot));
+                }
+            });
+            self.see_between(between, see);
+            done?;
         }
         if self.next < simulation.frames() {
-            see(Entry { frame: Some(self.next), snapshot: self.dynamics.snapshot()? });
+            let snapshot = self.dynamics.snapshot()?;
+            let impacts = self.dynamics.impacts();
+            let entry = self.with_impacts(of_scene(self.scene, snapshot), impacts);
+            see(Entry { frame: Some(self.next), ..entry });
         }
         Ok(())
     }
+
+    /// Shows moments between two frames, each with the impacts up to it.
+    fn see_between(&mut self, between: Vec<Snapshot>, see: &mut dyn FnMut(Entry)) {
+        if between.is_empty() {
+            return;
+        }
+        let mut impacts = self.dynamics.impacts();
+        for snapshot in between {
+            let later = impacts.split_off(impacts.partition_point(|impact| impact.time <= snapshot.time));
+            let entry =
+                self.with_impacts(of_scene(self.scene, snapshot), std::mem::replace(&mut impacts, later));
+            see(entry);
+        }
+        self.waiting.append(&mut impacts);
+    }
+
+    /// A moment with the impacts up to it.
+    fn with_impacts(&mut self, entry: Entry, impacts: Vec<Impact>) -> Entry {
+        let mut all = std::mem::take(&mut self.waiting);
+        all.extend(impacts);
+        all.iter().for_each(|impact| self.counts.note(self.scene, impact));
+        Entry { impacts: all, counts: self.counts.clone(), ..entry }
+    }
+}
+
+/// A moment between frames with the bodies of the scene alone: the ground is a body of the world only.
+fn of_scene(scene: &Scene, mut snapshot: Snapshot) -> Entry {
+    while snapshot.bodies.last().is_some_and(|body| body.id >= scene.bodies.len()) {
+        snapshot.bodies.pop();
+    }
+    Entry { frame: None, snapshot, impacts: Vec::new(), counts: ImpactCounts::default() }
 }

@@ -34,7 +34,7 @@ pub struct Span {
     pub arrows: [Reach; Quantity::COUNT],
 }
 
-/// An arrow of a joint at a moment.
+/// An arrow of a joint, or for a load of a body, at a moment.
 pub(super) struct JointArrow {
     pub(super) quantity: Quantity,
     /// Its length for one unit, m, if that is given.

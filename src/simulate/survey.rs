@@ -18,9 +18,9 @@ pub struct Survey {
     /// Where everything takes place, from the start until several moments; the last is the end. A body counts until
     /// it goes through a plane. Empty if the scene has no body but planes.
     pub spans: Vec<Span>,
-    /// The first passage of a body through each plane or ground that is given.
+    /// The first passage of a body through each plane or ground that is given; none where contacts stop bodies.
     pub crossings: Vec<Crossing>,
-    /// The first two bodies that go into each other.
+    /// The first two bodies that go into each other; none where contacts stop bodies.
     pub overlap: Option<Overlap>,
     /// The first body that starts otherwise than the scene says, since joints hold it.
     pub corrected: Option<Corrected>,
@@ -176,7 +176,13 @@ impl<'a> Surveyor<'a> {
             let (root, vector) = end.arrow(*quantity, frame)?;
             Some(JointArrow { quantity: *quantity, scale: *scale, root, vector })
         });
-        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints);
+        let loads = super::loads(scene, frame).into_iter().map(|load| JointArrow {
+            quantity: load.quantity,
+            scale: load.arrow.scale,
+            root: load.root,
+            vector: load.vector,
+        });
+        self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints.chain(loads));
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;
         if error_now.abs() > self.error.abs() {
@@ -241,6 +247,9 @@ struct Watched {
 }
 
 fn planes(scene: &Scene) -> Vec<Watched> {
+    if scene.simulation.contacts.is_some() {
+        return Vec::new();
+    }
     let watched = |name: Option<String>, body: Option<usize>, point: DVec3, normal: DVec3| Watched {
         name,
         body,

@@ -13,8 +13,8 @@ pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
         Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
         Quantity::Acceleration => frame.force / body.start.mass,
         Quantity::Force => frame.force,
-        // Only joints show it.
-        Quantity::Torque => DVec3::ZERO,
+        // Only joints show a torque; loads are seen by themselves.
+        Quantity::Torque | Quantity::Weight | Quantity::Normal | Quantity::Friction => DVec3::ZERO,
     }
 }
 
@@ -62,7 +62,7 @@ impl JointEnd {
         let vector = match quantity {
             Quantity::Force => reaction.force,
             Quantity::Torque => reaction.torque,
-            Quantity::Velocity | Quantity::Acceleration => DVec3::ZERO,
+            _ => DVec3::ZERO,
         };
         let Some(id) = self.end.body() else {
             return Some((self.end.place(|_| (DVec3::ZERO, DQuat::IDENTITY)), vector));

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, habits, look, mesh, motion, presence, shape, showing};
+use super::{Context, contact, habits, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -62,6 +62,8 @@ pub(super) fn read(
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }
+            let collider = contact::collider(name, view, &shape, simulation, context);
+            let collider = contact::shared(bodies.last(), collider);
             let look = look::of_body(name, view, &shape, context);
             let same = last.as_ref().filter(|last| *last.look == look);
             let look = same.map_or_else(|| Arc::new(look), |last| last.look.clone());
@@ -75,7 +77,7 @@ pub(super) fn read(
                 showing: showing.clone(),
             });
             let motion = motion.map(Arc::new);
-            Body { name: name.clone(), shape, start, presence, motion, material, look, showing }
+            Body { name: name.clone(), shape, start, presence, motion, collider, material, look, showing }
         });
         context.once(before, name, span);
         bodies.push(body);

@@ -171,6 +171,12 @@ impl Reader<'_, '_, '_> {
         };
         let start = range.start;
         let (plain, dotted) = self.without_dots(formula, start)?;
+        let name = plain.trim();
+        let is_count = dotted.iter().any(|(known, measure)| known == name && measure.is_count());
+        let format = match format {
+            Format::Short if is_count || name == "impacts" => Format::Decimals(0),
+            format => format,
+        };
         let parsed = self.keep(Formula::parse(&plain), start)?;
         let (scope, inputs) = self.scope(dotted);
         let formula = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
@@ -254,9 +260,19 @@ impl Reader<'_, '_, '_> {
                 });
                 return None;
             };
+            let mut measure = Measure::Body(number, known);
+            let mut end = end;
+            if known == BodyMeasure::Impacts {
+                self.needs_contacts(start + begin..start + end)?;
+                if let Some(other) = formula[end..].strip_prefix('.').and_then(body_name) {
+                    let begin_of_other = end + 1;
+                    end = begin_of_other + other.len();
+                    measure = self.of_pair(number, other, start + begin_of_other)?;
+                    taken = end;
+                }
+            }
             let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
             plain.replace_range(begin..end, &joined);
-            let measure = Measure::Body(number, known);
             self.note(&mut dotted, joined, measure, &formula[begin..end], start + begin)?;
         }
         Some((plain, dotted))
@@ -279,6 +295,37 @@ impl Reader<'_, '_, '_> {
         }
         dotted.push((joined, measure));
         Some(())
+    }
+
+    /// Says it where impacts are asked for, and nothing finds them.
+    fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
+        if self.root.table("simulation").has("contacts") {
+            return Some(());
+        }
+        let error = Diagnostic::error(Code::NoContacts, "`impacts` needs `simulation.contacts`")
+            .help("write `contacts = \"event-driven\"` in [simulation]");
+        self.report(error, range, "without it, bodies pass through each other");
+        None
+    }
+
+    /// The impacts of a body with another, whose name begins at a place of the text; `ground` is the ground, unless a body is called so.
+    fn of_pair(&mut self, body: usize, other: &str, begin: usize) -> Option<Measure> {
+        let named = self.context.names.bodies.get(other).copied();
+        let Some(other) = named.or_else(|| (other == "ground").then_some(self.bodies.len())) else {
+            let names = self.bodies.iter().map(|body| &*body.name);
+            let near = crate::diagnostic::nearest(other, names.take(1000));
+            let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+            let error = Diagnostic::error(Code::UnknownName, format!("there is no body `{other}`"));
+            self.report(error, begin..begin + other.len(), &label);
+            return None;
+        };
+        let pair = [body.min(other), body.max(other)];
+        let pairs = &mut self.context.pairs;
+        let known = pairs.iter().position(|known| *known == pair);
+        Some(Measure::Impacts(known.unwrap_or_else(|| {
+            pairs.push(pair);
+            pairs.len() - 1
+        })))
     }
 
     /// A measure of a joint whose name begins at a place of the text.
@@ -337,15 +384,20 @@ impl Reader<'_, '_, '_> {
             inputs.push(measure);
         };
         let mut with_run = true;
+        let has_contacts = self.root.table("simulation").has("contacts");
+        let of_body = matches!(self.place, LabelPlace::Body { .. });
         if let LabelPlace::Body { body, ghosts, .. } = self.place {
-            BodyMeasure::ALL
-                .into_iter()
-                .for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
             with_run = !ghosts;
+            let known = BodyMeasure::ALL.into_iter();
+            let known =
+                known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
+            known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
+            // Beside a body, `impacts` are those of the body.
+            let is_known = measure != RunMeasure::Impacts || has_contacts && !of_body;
             // Of ghosts, no more is kept than what they look like.
-            if with_run || measure == RunMeasure::Time {
+            if is_known && (with_run || measure == RunMeasure::Time) {
                 add(name, Measure::Run(measure));
             }
         }
@@ -365,6 +417,10 @@ impl Reader<'_, '_, '_> {
             Err(errors) => errors,
         };
         for error in errors {
+            let range = start + error.range.start..start + error.range.end;
+            if self.text.get(range.clone()) == Some("impacts") && self.needs_contacts(range).is_none() {
+                continue;
+            }
             let at = self.at(&(start + error.range.start..start + error.range.end));
             // What is said of variables is not all that there is here.
             let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
@@ -398,6 +454,17 @@ fn joint_name(text: &str) -> Option<&str> {
     let measure = text[name.len()..].strip_prefix('.')?;
     let is_name = !name.is_empty() && measure.starts_with(|c: char| c.is_ascii_alphabetic());
     is_name.then_some(name)
+}
+
+/// The name of a body at the beginning of a text, with the indices of a copy.
+fn body_name(text: &str) -> Option<&str> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    let indices = match text[end..].strip_prefix('[') {
+        Some(rest) => rest.find(']')? + 2,
+        None => 0,
+    };
+    text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_').then(|| &text[..end + indices])
 }
 
 /// A letter as POV-Ray's font has it; none: it has none. Dashes stand in for the minus sign, a raised point for its like.

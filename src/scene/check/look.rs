@@ -68,7 +68,7 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
     let preset = name.and_then(Preset::named).unwrap_or_default();
     let has_plane = bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
     let table = view.variant("ground");
-    let given = table.map(|t| Ground { height: t.number("height"), tile: t.number("tile") });
+    let given = table.map(|t| Ground { height: t.number("height"), tile: t.number("tile"), surface: None });
     let wanted = view.boolean("ground").unwrap_or(preset.has_ground() && !has_plane);
     let sky = match (view.boolean("sky"), view.color("sky")) {
         (_, Some(color)) => Sky::Plain(color),

@@ -5,6 +5,7 @@ mod body;
 mod braces;
 mod camera;
 mod consequence;
+mod contact;
 mod counts;
 mod effect;
 mod end;
@@ -108,6 +109,8 @@ struct Context<'a> {
     validated: HashSet<(usize, bool)>,
     /// The digests of other files that are read.
     files: Vec<[u8; 32]>,
+    /// The pairs of bodies whose impacts are counted.
+    pairs: Vec<[usize; 2]>,
 }
 
 impl Context<'_> {
@@ -140,6 +143,7 @@ impl Context<'_> {
             operations: motion::MAX_OPERATIONS,
             validated: HashSet::new(),
             files: Vec::new(),
+            pairs: Vec::new(),
         }
     }
 
@@ -292,6 +296,9 @@ fn build(
     if !context.forces_are_wrong {
         effect::check(&root, &bodies, &forces, context);
     }
+    let mut environment = look::environment(&root, &bodies);
+    contact::ground(&root, &simulation, &mut environment);
+    contact::check(&root, &simulation, &bodies, &environment, context);
     let joints = joint::read(&root, &bodies, &simulation, context);
     let mut bodies = bodies;
     joint::swing(&joints, &mut bodies);
@@ -316,10 +323,11 @@ fn build(
         views: camera::views(&root, &simulation, &bodies, context),
         lights: look::lights(&root, &simulation, context),
         simulation,
-        environment: look::environment(&root, &bodies),
+        environment,
         labels: label::read(&root, &bodies, &joints, context),
         scale_bar: label::scale_bar(&root),
         grid: label::grid(&root),
+        pairs: std::mem::take(&mut context.pairs),
         output,
         digest: digest(input, options, included, &povray, context),
         bodies,
@@ -330,6 +338,7 @@ fn build(
         places: Places {
             joints: places_of_joints,
             bodies: root.bodies().map(NamedTable::span).collect(),
+            contacts: root.table("simulation").span("contacts"),
             camera: root.key_span("camera"),
             unit: root.table("povray").span("unit"),
         },

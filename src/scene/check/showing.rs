@@ -25,6 +25,7 @@ pub(super) fn of_body(
     };
     let mut showing = Showing {
         arrows: Quantity::OF_BODIES.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
+        loads: Quantity::OF_LOADS.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
         axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.number("length") }),
         ghosts: view.variant("ghosts").and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
         trail: wanted(view, "trail").map(|trail| Trail {
@@ -34,6 +35,9 @@ pub(super) fn of_body(
             at: trail.vector("at").unwrap_or_default(),
         }),
     };
+    if useless.is_none() {
+        loads_without_cause(name, &view.table("arrows"), &showing, simulation, context);
+    }
     if let Some((keys, why)) = useless {
         for key in keys {
             let message = format!("`{key}` of `{name}` has no effect");
@@ -43,6 +47,33 @@ pub(super) fn of_body(
         showing = Showing { axes: showing.axes.filter(|_| !shape.is_unbounded()), ..Showing::default() };
     }
     showing
+}
+
+/// Says it where arrows for loads can show nothing.
+fn loads_without_cause(
+    name: &str,
+    arrows: &View<'_>,
+    showing: &Showing,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) {
+    let [weight, normal, friction] = showing.loads;
+    if weight.is_some() && simulation.gravity == glam::DVec3::ZERO {
+        let warning =
+            Diagnostic::warning(Code::NoEffect, format!("`arrows.weight` of `{name}` has no effect"));
+        let why = "there is no `simulation.gravity`";
+        context.diagnostics.extend(arrows.key_span("weight").map(|span| warning.at(span, why)));
+    }
+    if simulation.contacts.is_some() {
+        return;
+    }
+    for (key, _) in [("normal", normal), ("friction", friction)].iter().filter(|(_, arrow)| arrow.is_some()) {
+        let error =
+            Diagnostic::error(Code::NoContacts, format!("`arrows.{key}` needs `simulation.contacts`"))
+                .help("write `contacts = \"event-driven\"` in [simulation]");
+        let why = "without it, bodies pass through each other";
+        context.diagnostics.extend(arrows.key_span(key).map(|span| error.at(span, why)));
+    }
 }
 
 /// The ghosts of a body; none where they are more than can be drawn, which is said.

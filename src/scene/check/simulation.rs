@@ -1,5 +1,6 @@
 //! `[simulation]`.
 
+use super::contact;
 use super::counts::Counts;
 use super::view::View;
 use crate::dynamics::{METHODS, Method};
@@ -14,6 +15,7 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
         step: view.number("step").unwrap_or_default(),
         method,
         gravity: view.vector("gravity").unwrap_or_default(),
+        contacts: contact::law(view),
     };
     let Simulation { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };

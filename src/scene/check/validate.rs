@@ -314,7 +314,15 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
         Some(word) => {
             let noun = entry.map_or("word", |entry| &*entry.name.text);
             let error = Diagnostic::error(Code::UnknownName, format!("unknown {noun} `{word}`"));
-            let known = format!("there are {}", quoted(words));
+            let known = match words {
+                [only] => format!("there is `{only}`"),
+                words => format!("there are {}", quoted(words)),
+            };
+            if let ([only], true) = (words, habits::is_word_to_come(noun, word)) {
+                let error = error.at(node.span, "not built yet").help(known);
+                context.diagnostics.push(error.fix(node.span, format!("\"{only}\"")));
+                return;
+            }
             let other = habits::other_word(word, words);
             context.diagnostics.push(match other.or_else(|| suggest::nearest(word, words.iter().copied())) {
                 Some(near) => error

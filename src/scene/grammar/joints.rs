@@ -1,6 +1,7 @@
 //! The keys of `[joint.NAME]`.
 
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
+use super::contact::JOINT_COLLIDES;
 use super::forces::END;
 use super::keys::{POSITIVE, VECTOR};
 use super::repeat::LINKS;
@@ -80,7 +81,13 @@ static LOOK_TABLE: TableSpec = TableSpec {
 static BALL: TableSpec = TableSpec {
     noun: "a ball joint",
     rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the end that is a point of the world"), LOOK, JOINT_ARROWS],
+    keys: &[
+        between(PAIR),
+        AT.default("the end that is a point of the world"),
+        JOINT_COLLIDES,
+        LOOK,
+        JOINT_ARROWS,
+    ],
 };
 
 static HINGE: TableSpec = TableSpec {
@@ -94,6 +101,7 @@ static HINGE: TableSpec = TableSpec {
             .unit("degrees")
             .also(&["limit", "range", "min_max"]),
         motor(&TURNING, "What turns it"),
+        JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
     ],
@@ -110,6 +118,7 @@ static SLIDER: TableSpec = TableSpec {
             .unit("m")
             .also(&["limit", "range", "min_max"]),
         motor(&MOVING, "What moves it"),
+        JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
     ],
@@ -118,7 +127,7 @@ static SLIDER: TableSpec = TableSpec {
 static FIXED: TableSpec = TableSpec {
     noun: "a fixed joint",
     rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the centre of the second"), LOOK, JOINT_ARROWS],
+    keys: &[between(PAIR), AT.default("the centre of the second"), JOINT_COLLIDES, LOOK, JOINT_ARROWS],
 };
 
 static ROD: TableSpec = TableSpec {
@@ -132,6 +141,7 @@ static ROD: TableSpec = TableSpec {
             .unit("m")
             .default("as at the start")
             .also(&["distance", "l"]),
+        JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
     ],
@@ -216,6 +226,7 @@ static ROPE: TableSpec = TableSpec {
             .unit("m")
             .default("their distance at the start")
             .also(&["distance", "max_length", "l"]),
+        JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
     ],
@@ -241,6 +252,7 @@ static PULLEY: TableSpec = TableSpec {
         Key::new("length", POSITIVE, "The length of the first part, and `ratio` times that of the second")
             .unit("m")
             .default("as at the start"),
+        JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
     ],
@@ -266,6 +278,7 @@ static GEAR: TableSpec = TableSpec {
         )
         .required()
         .also(&["factor"]),
+        JOINT_COLLIDES,
         JOINT_ARROWS,
     ],
 };

@@ -7,6 +7,7 @@ use super::Kind::{
     Numbers, Partial, Reference, Sdl, Table, Text, Variables,
 };
 use super::camera::CAMERA;
+use super::contact::{COLLIDES, COLLISION_GROUP, FRICTION, RESTITUTION, ROLLING_FRICTION};
 use super::forces::FORCE;
 use super::joints::JOINT;
 use super::labels;
@@ -18,7 +19,7 @@ use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 use crate::dynamics::METHODS;
 use crate::scene::sdl::Where;
-use crate::scene::{Finish, Layout, MATERIALS, Preset};
+use crate::scene::{ContactLaw, Finish, Layout, MATERIALS, Preset};
 
 pub(super) const ANY: Kind = Number(Bound::Any);
 pub(super) const POSITIVE: Kind = Number(Bound::Positive);
@@ -28,6 +29,10 @@ pub(super) const AXIS: Kind = Direction(3);
 
 fn integrators() -> Vec<&'static str> {
     METHODS.iter().map(|method| method.name).collect()
+}
+
+fn contact_laws() -> Vec<&'static str> {
+    ContactLaw::ALL.iter().map(|law| law.name()).collect()
 }
 
 fn finishes() -> Vec<&'static str> {
@@ -171,6 +176,14 @@ static SIMULATION: TableSpec = TableSpec {
             .unit("m/s²")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["g"]),
+        Key::new(
+            "contacts",
+            Choice(contact_laws),
+            "Bodies stop each other where they touch, and a ground that is not given lies at height 0; \
+             `\"event-driven\"` finds the time of each impact",
+        )
+        .default("bodies pass through each other")
+        .also(&["contact", "collisions", "collision", "collide", "collides"]),
     ],
 };
 
@@ -233,6 +246,11 @@ static BODY: TableSpec = TableSpec {
         Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
             .default_flag(false)
             .also(&["static", "anchored"]),
+        RESTITUTION.default("the other body's; with neither's, 0"),
+        FRICTION.default("the other body's; with neither's, 0.5"),
+        ROLLING_FRICTION.default("the other body's; with neither's, 0"),
+        COLLIDES,
+        COLLISION_GROUP,
         Key::new(
             "material",
             Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
@@ -366,11 +384,14 @@ static GROUND: TableSpec = TableSpec {
     keys: &[
         Key::new("height", ANY, "Its height")
             .unit("m")
-            .default("just under the lowest point of the motion")
+            .default("just under the lowest point of the motion; with `simulation.contacts`, 0")
             .also(&["y", "level"]),
         Key::new("tile", POSITIVE, "The edge of one tile")
             .unit("m")
             .default("the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, after the size of the motion"),
+        RESTITUTION.default("that of the body on it; with neither's, 0"),
+        FRICTION.default("that of the body on it; with neither's, 0.5"),
+        ROLLING_FRICTION.default("that of the body on it; with neither's, 0"),
     ],
 };
 

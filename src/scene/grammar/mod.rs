@@ -5,6 +5,7 @@
 //! hold is reached from it.
 
 mod camera;
+mod contact;
 mod default;
 mod forces;
 mod joints;

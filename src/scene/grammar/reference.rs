@@ -19,9 +19,53 @@ pub fn reference() -> String {
     page.formulas();
     page.text.push_str(MANY);
     page.text.push_str(MOTION);
+    page.text.push_str(CONTACTS);
     page.labels();
     page.text
 }
+
+/// What there is to say of contacts.
+const CONTACTS: &str = "
+## Contacts
+
+```toml
+[simulation]
+duration = 4
+gravity = [0, -9.81, 0]
+contacts = \"event-driven\"
+integrator = \"velocity-verlet\"
+
+[body.ball]
+shape.sphere.radius = 0.1
+location = [0, 2, 0]
+restitution = 0.8
+
+[environment.ground]
+friction = 0.3
+
+[label.count]
+text = \"${impacts} impacts, ${ball.impacts.ground} with the ground\"
+```
+
+Without `contacts`, bodies pass through each other, and the first two that do so get a warning. With it, each impact has its own time, found
+within the step. Newton's law gives the rebound, Coulomb's law the friction. A body whose rebound nobody could see comes to rest, and then
+sticks, slides or rolls as the forces on it ask.
+
+- **What collides**: all bodies but axes. Bodies that a joint holds together pass through each other unless the joint says
+  `collides = true`; so do bodies with the same `collision_group`, and a body with `collides = false` passes through everything. Contacts
+  of a torus cannot be computed; build it as a `compound`.
+- **The ground** lies at height 0 if the scene does not say where. It stops bodies, and has `restitution`, `friction` and
+  `rolling_friction` of its own. With `ground = false`, and in an environment without one, no ground stops them.
+- **Two surfaces**: what one body does not say, the other one says. Where both do, the larger restitution, the geometric mean of the
+  frictions and the larger rolling friction count. Where neither does, these are 0, 0.5 and 0 m.
+- **Impacts at the same time** happen one after another, in the order of their approach speeds, the fastest first. Of equal ones, that of
+  the bodies that stand first in the scene comes first. In a Newton's cradle, so as many balls leave as arrive.
+- **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much
+  the energy is wrong. Take `velocity-verlet` or `rk4`.
+- **Energy**: what impacts and friction take are the accounts `impacts` and `friction` of the balance; neither is part of the drift.
+- **To see it**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it from where they act. `impacts`
+  counts in labels, and `jabuka export --events FILE.csv` writes a row for each impact.
+";
 
 /// What there is to say of formulas before their functions are listed.
 const FORMULAS: &str = "
@@ -193,7 +237,7 @@ body = \"ball\"
 ```
 
 Between `${` and `}` stands a [formula](#formulas) over the numbers of the moment and `[variables]`. Behind a colon, `.2` is two
-decimals, `.2e` two decimals and a power of ten; without it, three digits are shown. A label beside a body knows the numbers of
+decimals, `.2e` two decimals and a power of ten; without it, three digits are shown, and all digits of a number of impacts. A label beside a body knows the numbers of
 that body also without its name, and they come before variables of the same name; one with `ghosts` knows these and `t` alone.
 
 A label beside a body is left out of pictures that do not show the body. Where it would lie on an arrow or on another

@@ -12,7 +12,7 @@ static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 // What is shown of a body beside itself.
 
 pub(super) const ARROWS: Key =
-    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it; parallel ones stand side by side")
+    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it, where parallel ones stand side by side; and arrows for its weight and the forces of contacts, from where they act")
         .also(&["vectors", "arrow"]);
 pub(super) const JOINT_ARROWS: Key = Key::new(
     "arrows",
@@ -62,6 +62,21 @@ static ARROWS_TABLE: TableSpec = TableSpec {
         Key::new("force", ARROW, "The sum of the forces on it, magenta")
             .default_flag(false)
             .also(&["f", "forces"]),
+        Key::new("weight", ARROW, "Its weight, green, from its centre").default_flag(false).also(&["gravity"]),
+        Key::new(
+            "normal",
+            ARROW,
+            "The normal force of each body that touches it, red, from where they touch; needs `simulation.contacts`",
+        )
+        .default_flag(false)
+        .also(&["normal_force", "contact", "contacts", "reaction"]),
+        Key::new(
+            "friction",
+            ARROW,
+            "The friction of each body that touches it, yellow, from where they touch; needs `simulation.contacts`",
+        )
+        .default_flag(false)
+        .also(&["friction_force"]),
     ],
 };
 
@@ -84,7 +99,7 @@ static ARROW_TABLE: TableSpec = TableSpec {
     keys: &[
         Key::new("scale", POSITIVE, "Its length for each m/s, m/s², N or N·m")
             .unit("m")
-            .default("the same for all of its kind, so that the longest is easily seen")
+            .default("the same for all of its kind, so that the longest is easily seen; weight, normal force and friction are of one kind")
             .also(&["length", "factor", "size"]),
         COLOR.default("that of its kind"),
     ],

@@ -9,6 +9,9 @@
 //! | the number of runs, and of each run: a mask, and for how many bodies that holds | `u32`; `u8`, `u32` |
 //! | of each body, the numbers that its mask names | `f64` each |
 //! | where there are joints: runs of masks, and numbers, in the same way | |
+//! | where impacts are counted: runs of masks, and counts, in the same way | |
+//! | there as well: the number of contacts, and of each two bodies, place, normal, force, friction | `u32`; `f64` |
+//! | there as well: the number of impacts since the moment before, and of each two bodies, time, place, normal, impulse, energy | `u32`; `f64` |
 //!
 //! A bit of a mask says that a column has changed: location, orientation, velocity, angular velocity, force; of a
 //! joint, force and torque. Before the first moment of a page, all numbers are those of a body at rest at the origin, and of a joint
@@ -18,7 +21,11 @@ use std::io;
 
 use glam::{DQuat, DVec3};
 
+use super::super::ImpactCounts;
 use super::super::simulation::Entry;
+use super::events::{
+    CONTACT_NUMBERS, IMPACT_NUMBERS, contact_numbers, contact_of, impact_numbers, impact_of,
+};
 use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 use crate::scene::Scene;
 
@@ -44,19 +51,24 @@ const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
 /// The numbers of a joint.
 const JOINT_NUMBERS: usize = 6;
 
-/// How many bodies and joints a run has.
+/// Where the one column of a count begins and ends.
+const COUNT_COLUMNS: [usize; 2] = [0, 1];
+
+/// How many bodies and joints a run has, and how many numbers count its impacts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     /// The number of bodies.
     pub bodies: usize,
     /// The number of joints.
     pub joints: usize,
+    /// The number of counts of impacts; 0 without contacts.
+    pub impacts: usize,
 }
 
 impl Counts {
     /// Those of a scene.
     pub fn of(scene: &Scene) -> Counts {
-        Counts { bodies: scene.bodies.len(), joints: scene.joints.len() }
+        Counts { bodies: scene.bodies.len(), joints: scene.joints.len(), impacts: ImpactCounts::size(scene) }
     }
 }
 
@@ -64,24 +76,32 @@ impl Counts {
 pub(super) struct Encoder {
     last: Vec<[f64; NUMBERS]>,
     joints: Vec<[f64; JOINT_NUMBERS]>,
+    impacts: Vec<f64>,
     masks: Vec<u8>,
 }
 
 impl Encoder {
     /// For so many bodies and joints.
-    pub(super) fn new(Counts { bodies, joints }: Counts) -> Encoder {
-        Encoder { last: vec![AT_REST; bodies], joints: vec![[0.0; JOINT_NUMBERS]; joints], masks: Vec::new() }
+    pub(super) fn new(Counts { bodies, joints, impacts }: Counts) -> Encoder {
+        Encoder {
+            last: vec![AT_REST; bodies],
+            joints: vec![[0.0; JOINT_NUMBERS]; joints],
+            impacts: vec![0.0; impacts],
+            masks: Vec::new(),
+        }
     }
 
     /// A new page begins: it can be read without those before it.
     pub(super) fn begin_page(&mut self) {
         self.last.fill(AT_REST);
         self.joints.fill([0.0; JOINT_NUMBERS]);
+        self.impacts.fill(0.0);
     }
 
     /// Appends a moment.
-    pub(super) fn encode(&mut self, frame: Option<usize>, snapshot: &Snapshot, bytes: &mut Vec<u8>) {
-        let Self { last, joints, masks } = self;
+    pub(super) fn encode(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
+        let Self { last, joints, masks, .. } = self;
+        let Entry { frame, snapshot, .. } = entry;
         let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
         bytes.extend_from_slice(&number.to_le_bytes());
         put(bytes, &[snapshot.time]);
@@ -102,9 +122,16 @@ impl Encoder {
             *last = numbers;
         }
         put_runs(bytes, start, masks);
-        if joints.is_empty() {
-            return;
+        if !joints.is_empty() {
+            self.encode_joints(snapshot, bytes);
         }
+        if !self.impacts.is_empty() {
+            self.encode_contacts(entry, bytes);
+        }
+    }
+
+    fn encode_joints(&mut self, snapshot: &Snapshot, bytes: &mut Vec<u8>) {
+        let Self { joints, masks, .. } = self;
         masks.clear();
         let start = bytes.len();
         // What has no reaction does nothing.
@@ -115,6 +142,24 @@ impl Encoder {
             *last = numbers;
         }
         put_runs(bytes, start, masks);
+    }
+
+    /// The counts of impacts, the contacts of the moment, and the impacts since the one before.
+    fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
+        let Self { impacts, masks, .. } = self;
+        masks.clear();
+        let start = bytes.len();
+        let counts = entry.counts.0.iter().copied().chain(std::iter::repeat(0.0));
+        for (last, count) in impacts.iter_mut().zip(counts) {
+            masks.push(put_changed(bytes, &COUNT_COLUMNS, &[count], &[*last]));
+            *last = count;
+        }
+        put_runs(bytes, start, masks);
+        let contacts = &entry.snapshot.contacts;
+        bytes.extend_from_slice(&u32_of(contacts.len()).to_le_bytes());
+        contacts.iter().for_each(|contact| put(bytes, &contact_numbers(contact)));
+        bytes.extend_from_slice(&u32_of(entry.impacts.len()).to_le_bytes());
+        entry.impacts.iter().for_each(|impact| put(bytes, &impact_numbers(impact)));
     }
 }
 
@@ -148,26 +193,33 @@ fn put_runs(bytes: &mut Vec<u8>, start: usize, masks: &[u8]) {
 pub(super) struct Decoder {
     last: Vec<[f64; NUMBERS]>,
     joints: Vec<[f64; JOINT_NUMBERS]>,
+    impacts: Vec<f64>,
     at: usize,
 }
 
 impl Decoder {
     /// For so many bodies and joints, at the beginning of a page.
-    pub(super) fn new(Counts { bodies, joints }: Counts) -> Decoder {
-        Decoder { last: vec![AT_REST; bodies], joints: vec![[0.0; JOINT_NUMBERS]; joints], at: 0 }
+    pub(super) fn new(Counts { bodies, joints, impacts }: Counts) -> Decoder {
+        Decoder {
+            last: vec![AT_REST; bodies],
+            joints: vec![[0.0; JOINT_NUMBERS]; joints],
+            impacts: vec![0.0; impacts],
+            at: 0,
+        }
     }
 
     /// Goes back to the beginning of a page, of this or another recording of so many.
     pub(super) fn begin_page(&mut self) {
         self.last.fill(AT_REST);
         self.joints.fill([0.0; JOINT_NUMBERS]);
+        self.impacts.fill(0.0);
         self.at = 0;
     }
 
     /// The next moment.
     pub(super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
-        let Parts { head, bodies: (runs, mut values), joints } =
-            parts(page, &mut self.at, self.joints.len())?;
+        let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts } =
+            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
         let mut bodies = Vec::with_capacity(self.last.len());
         let mut id = 0;
         for (mask, count) in runs {
@@ -190,17 +242,30 @@ impl Decoder {
                 values = take_changed(values, mask, &JOINT_COLUMNS, last)?;
             }
         }
+        let (runs, mut values) = counts;
+        let mut next = 0;
+        for (mask, count) in runs {
+            for last in self.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
+                values = take_changed(values, mask, &COUNT_COLUMNS, std::slice::from_mut(last))?;
+            }
+            next += count;
+        }
         let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
             force: DVec3::new(n[0], n[1], n[2]),
             torque: DVec3::new(n[3], n[4], n[5]),
         };
-        Ok(head.entry(bodies, self.joints.iter().map(reaction).collect()))
+        let mut entry = head.entry(bodies, self.joints.iter().map(reaction).collect());
+        entry.snapshot.contacts = numbers_in(contacts, contact_of)?;
+        entry.impacts = numbers_in(impacts, impact_of)?;
+        entry.counts = ImpactCounts(self.impacts.clone());
+        Ok(entry)
     }
 
-    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others and of joints is
-    /// lost.
+    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others, of joints and
+    /// of contacts is lost.
     pub(super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
-        let Parts { head, bodies: (runs, mut values), .. } = parts(page, &mut self.at, self.joints.len())?;
+        let Parts { head, bodies: (runs, mut values), .. } =
+            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
             if mask != ABSENT && (id..id + count).contains(&wanted) {
@@ -239,6 +304,8 @@ impl Head {
         Entry {
             frame: self.frame,
             snapshot: Snapshot { time: n[0], bodies, reactions, contacts: Vec::new(), balance },
+            impacts: Vec::new(),
+            counts: ImpactCounts::default(),
         }
     }
 }
@@ -246,15 +313,20 @@ impl Head {
 /// A mask, and for how many bodies it holds.
 type Run = (u8, usize);
 
-/// A moment in a page: of bodies and of joints, the runs and the bytes of the values.
+/// A moment in a page: of bodies, joints and counts of impacts, the runs and the bytes of the values; of contacts and impacts,
+/// the bytes.
 struct Parts<'a> {
     head: Head,
     bodies: (Vec<Run>, &'a [u8]),
     joints: (Vec<Run>, &'a [u8]),
+    counts: (Vec<Run>, &'a [u8]),
+    contacts: &'a [u8],
+    impacts: &'a [u8],
 }
 
-/// The parts of the moment at a place of a page of a run with so many joints. The place becomes that of the moment after it.
-fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize) -> io::Result<Parts<'a>> {
+/// The parts of the moment at a place of a page of a run with so many joints and counts of impacts. The place becomes that of the
+/// moment after it.
+fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
     let number = u32::from_le_bytes(*number);
@@ -265,9 +337,34 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize) -> io::Result<Parts<
     if joints > 0 {
         (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
     }
+    let mut of_counts = (Vec::new(), &rest[..0]);
+    let [mut contacts, mut impacts] = [&rest[..0]; 2];
+    if counts > 0 {
+        (of_counts, rest) = runs_of(rest, &COUNT_COLUMNS)?;
+        (contacts, rest) = list(rest, CONTACT_NUMBERS)?;
+        (impacts, rest) = list(rest, IMPACT_NUMBERS)?;
+    }
     *at = page.len() - rest.len();
     let frame = (number != NO_FRAME).then_some(number as usize);
-    Ok(Parts { head: Head { frame, numbers }, bodies, joints: of_joints })
+    let head = Head { frame, numbers };
+    Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
+}
+
+/// The bytes of a list of things of so many numbers each, and what is behind them.
+fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
+    let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let count = u32::from_le_bytes(*count) as usize;
+    rest.split_at_checked(count.saturating_mul(8 * numbers)).ok_or_else(damaged)
+}
+
+/// The things of a list, each of so many numbers.
+fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> io::Result<Vec<T>> {
+    let thing = |bytes: &[u8]| {
+        let mut numbers = [0.0; N];
+        take(bytes, &mut numbers)?;
+        Ok(of(&numbers))
+    };
+    bytes.chunks(8 * N).map(thing).collect()
 }
 
 /// Runs, the bytes of their values, and what is behind them.
@@ -364,8 +461,9 @@ pub(super) fn damaged() -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::{ContactSnapshot, Impact};
 
-    const COUNTS: Counts = Counts { bodies: 3, joints: 2 };
+    const COUNTS: Counts = Counts { bodies: 3, joints: 2, impacts: 5 };
 
     fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
         let body = |&(id, x): &(usize, f64)| BodySnapshot {
@@ -390,15 +488,22 @@ mod tests {
             Reaction::default(),
             Reaction { force: DVec3::new(0.0, -0.0, 3.0), torque: DVec3::splat((time - 1.5).max(0.0)) },
         ];
+        let vector = |n: f64| DVec3::new(n, -0.0, time);
+        let (place, normal) = (vector(1.0), vector(2.0));
+        let contact =
+            ContactSnapshot { bodies: [1, 2], place, normal, force: vector(3.0), friction: vector(4.0) };
+        let impact = Impact { time, bodies: [0, 3], place, normal, impulse: vector(5.0), energy: 6.0 };
         Entry {
             frame,
             snapshot: Snapshot {
                 time,
                 bodies: bodies.iter().map(body).collect(),
                 reactions,
-                contacts: Vec::new(),
+                contacts: vec![contact; usize::from(time > 0.5)],
                 balance,
             },
+            impacts: vec![impact; usize::from(time > 1.5) * 2],
+            counts: ImpactCounts(vec![time.floor(), 0.0, -0.0, 7.0, time]),
         }
     }
 
@@ -412,13 +517,20 @@ mod tests {
             entry(3.0, &[]),
         ];
         let (mut encoder, mut page, mut sizes) = (Encoder::new(COUNTS), Vec::new(), Vec::new());
-        for Entry { frame, snapshot } in &entries {
+        for entry in &entries {
             let before = page.len();
-            encoder.encode(*frame, snapshot, &mut page);
+            encoder.encode(entry, &mut page);
             sizes.push(page.len() - before);
         }
         let head = 4 + 8 * HEAD + 4;
-        assert_eq!(sizes[1], head + 3 * 5 + 4 + 5, "present, absent, present; two joints; and no number");
+        let of_counts = 4 + 3 * 5 + 2 * 8;
+        let of_contacts = 4 + 8 * CONTACT_NUMBERS + 4;
+        let bodies_and_joints = 3 * 5 + 4 + 5;
+        assert_eq!(
+            sizes[1],
+            head + bodies_and_joints + of_counts + of_contacts,
+            "present, absent, present; two joints; of five counts, the first and the last; one contact"
+        );
         let mut decoder = Decoder::new(COUNTS);
         for entry in &entries {
             let found = decoder.decode(&page).unwrap();
@@ -441,8 +553,8 @@ mod tests {
     fn what_is_cut_or_changed_never_panics() {
         let mut page = Vec::new();
         let mut encoder = Encoder::new(COUNTS);
-        for Entry { frame, snapshot } in [entry(0.0, &[(0, 1.0), (2, 2.0)]), entry(2.0, &[(1, 3.0)])] {
-            encoder.encode(frame, &snapshot, &mut page);
+        for entry in [entry(0.0, &[(0, 1.0), (2, 2.0)]), entry(2.0, &[(1, 3.0)])] {
+            encoder.encode(&entry, &mut page);
         }
         for cut in 0..page.len() {
             let mut decoder = Decoder::new(COUNTS);

@@ -4,6 +4,7 @@
 //! A page can be read without those before it. While a run goes on, what is recorded so far can be read.
 
 mod codec;
+mod events;
 mod store;
 #[cfg(test)]
 mod tests;
@@ -13,6 +14,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 
 use self::codec::{Decoder, Encoder, damaged};
+use super::Frame;
 use super::simulation::Entry;
 use crate::dynamics::{BodySnapshot, Snapshot};
 
@@ -63,10 +65,11 @@ impl Recording {
     }
 
     /// Adds the next moment.
-    pub(super) fn push(&self, Entry { frame, snapshot }: &Entry) -> io::Result<()> {
+    pub(super) fn push(&self, entry: &Entry) -> io::Result<()> {
+        let Entry { frame, snapshot, .. } = entry;
         let mut encoder = self.encoder();
         let mut bytes = Vec::new();
-        encoder.encode(*frame, snapshot, &mut bytes);
+        encoder.encode(entry, &mut bytes);
         let mut contents = self.contents.write().unwrap_or_else(PoisonError::into_inner);
         let number = contents.times.len();
         contents.times.push(snapshot.time);
@@ -249,6 +252,17 @@ impl Reader {
             return Err(damaged());
         }
         Ok(self.entry()?.ok_or_else(damaged)?.snapshot)
+    }
+
+    /// A frame as it can be seen, without what has been before.
+    ///
+    /// # Errors
+    /// Where it is not there, or cannot be read.
+    pub fn seen(&mut self, frame: usize) -> io::Result<Frame> {
+        if !self.seek_frame(frame) {
+            return Err(damaged());
+        }
+        Ok(Frame::of_entry(frame, self.entry()?.ok_or_else(damaged)?))
     }
 
     /// One body in a frame, and what is said of all bodies together; none if the body is not there. It takes less time than to

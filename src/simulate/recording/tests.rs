@@ -2,6 +2,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::dynamics::{Accounts, Balance};
+use crate::simulate::ImpactCounts;
 
 /// More than two pages of frames, in which body 0 moves and body 1 rests.
 const FRAMES: usize = 2 * MOMENTS + 5;
@@ -32,14 +33,16 @@ fn push(recording: &Recording, frame: usize) {
         contacts: Vec::new(),
         balance,
     };
-    recording.push(&Entry { frame: Some(frame), snapshot }).unwrap();
+    let (impacts, counts) = (Vec::new(), ImpactCounts::default());
+    recording.push(&Entry { frame: Some(frame), snapshot, impacts, counts }).unwrap();
 }
 
 /// A moment is what has changed since the one before. Who follows a run while it is recorded must not read the
 /// page from its beginning for each frame.
 #[test]
 fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
-    let recording = Arc::new(Recording::new(Counts { bodies: 2, joints: 0 }, Box::<MemoryStore>::default()));
+    let recording =
+        Arc::new(Recording::new(Counts { bodies: 2, joints: 0, impacts: 0 }, Box::<MemoryStore>::default()));
     let (mut all, mut one) = (recording.read(), recording.read());
     for frame in 0..FRAMES {
         push(&recording, frame);
@@ -54,7 +57,8 @@ fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
 /// A reader that has read one body only knows nothing of the others.
 #[test]
 fn one_body_and_all_can_be_read_in_any_order() {
-    let recording = Arc::new(Recording::new(Counts { bodies: 2, joints: 0 }, Box::<MemoryStore>::default()));
+    let recording =
+        Arc::new(Recording::new(Counts { bodies: 2, joints: 0, impacts: 0 }, Box::<MemoryStore>::default()));
     (0..FRAMES).for_each(|frame| push(&recording, frame));
     let mut reader = recording.read();
     for frame in [3, 40, 41, 2, 68, 0, 35] {

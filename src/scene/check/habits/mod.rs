@@ -25,6 +25,8 @@ pub(super) use self::unknown::{known_keys, unknown};
 pub(super) use self::value::{color_for_material, mend_value};
 pub(super) use self::word::other_word;
 
+pub(super) use self::not_built::is_word_to_come;
+
 use self::not_built::not_built;
 use crate::scene::grammar::{Key, TableSpec, quoted};
 

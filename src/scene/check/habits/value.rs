@@ -128,6 +128,9 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             "false" | "no" | "off" => Some("false".to_owned()),
             _ => None,
         },
+        (Kind::Choice(words), Value::Boolean(true)) if key == "contacts" => {
+            words().first().map(|word| format!("\"{word}\""))
+        }
         (Kind::Boolean, Value::Integer(number @ (0 | 1))) => Some((*number == 1).to_string()),
         (Kind::Integer(..), Value::Float(number)) if number.fract() == 0.0 => Some(format!("{number:.0}")),
         (Kind::Text, Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Datetime) => {

@@ -2,11 +2,12 @@
 
 /// A word that is meant by another one, if it is one of those that there are.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
-    const OTHERS: [(&str, &[&str]); 16] = [
+    const OTHERS: [(&str, &[&str]); 17] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4", "rk45", "ode45", "dopri5"]),
         ("velocity-verlet", &["verlet", "leapfrog", "leap-frog", "stormer-verlet", "vv", "kdk"]),
         ("euler-cromer", &["euler", "symplectic", "symplectic-euler", "semi-implicit-euler", "cromer"]),
         ("explicit-euler", &["forward-euler", "euler-forward", "explicit"]),
+        ("event-driven", &["true", "yes", "on", "event", "events", "exact", "hard", "rigid", "impulse"]),
         ("orthographic", &["ortho", "parallel", "orthogonal"]),
         ("daylight", &["day", "outdoor", "outdoors", "sky", "default"]),
         ("studio", &["indoor", "indoors", "lab", "room"]),

@@ -49,7 +49,9 @@ pub(super) fn read(
         context.once(before, name, span);
         let Some((kind, servo)) = found else { continue };
         let arrows = arrows(&view);
-        joints.push(Joint { name: name.to_owned(), look: look(&view, &kind), kind, servo, arrows });
+        let collides = self::kind(&view).and_then(|kind| kind.boolean("collides")).unwrap_or_default();
+        let look = look(&view, &kind);
+        joints.push(Joint { name: name.to_owned(), look, collides, kind, servo, arrows });
     }
     joints
 }
@@ -62,9 +64,14 @@ fn about(length: f64) -> String {
 /// The kinds of joints.
 const KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
 
+/// The table of the kind of a joint.
+pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
+    KINDS.into_iter().find_map(|kind| joint.variant(kind))
+}
+
 /// The arrows for what the joint does.
 fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
-    let kind = KINDS.into_iter().find_map(|kind| view.variant(kind));
+    let kind = kind(view);
     let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table("arrows"), quantity.name());
     Quantity::OF_JOINTS.map(arrow)
 }
@@ -74,7 +81,7 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
     if matches!(kind, JointKind::Gear(_)) {
         return None;
     }
-    let kind = KINDS.into_iter().find_map(|kind| view.variant(kind))?;
+    let kind = self::kind(view)?;
     let look = kind.table("look");
     (kind.text("look") != Some("none"))
         .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })

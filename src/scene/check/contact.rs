@@ -1,0 +1,209 @@
+//! How bodies collide: `simulation.contacts`, and the keys that need it.
+
+use std::sync::Arc;
+
+use super::Context;
+use super::habits::{before, is_file};
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
+use crate::dynamics::{Shape, Surface};
+use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, Simulation};
+
+/// What a surface is like.
+const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
+/// The keys of a body that need contacts.
+const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
+
+/// Bodies may begin so far below the ground, as a part of their size: their numbers have few digits. The dynamics sees to them.
+const BELOW: f64 = 1e-3;
+
+/// What stops bodies where they touch, if anything does.
+pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
+    let word = simulation.text("contacts")?;
+    ContactLaw::ALL.into_iter().find(|law| law.name() == word)
+}
+
+/// How a body collides, if it does.
+pub(super) fn collider(
+    name: &str,
+    view: &View<'_>,
+    shape: &Shape,
+    simulation: &Simulation,
+    context: &mut Context<'_>,
+) -> Option<Collider> {
+    // Without contacts, `check` says what these keys need.
+    simulation.contacts?;
+    let mut has_no_effect = |keys: &[&str], why: &str| {
+        for key in keys {
+            let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
+            context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
+        }
+    };
+    let collides = view.boolean("collides");
+    if matches!(shape, Shape::Axes { .. }) {
+        let keys = if collides == Some(false) { &OF_BODIES[..3] } else { &OF_BODIES[..] };
+        has_no_effect(keys, "axes do not collide");
+        return None;
+    }
+    if collides == Some(false) {
+        has_no_effect(&SURFACE, "it does not collide");
+        has_no_effect(&["collision_group"], "it does not collide");
+        return None;
+    }
+    if has_torus(shape) {
+        let message = format!("contacts of `{name}` cannot be computed");
+        let error = Diagnostic::error(Code::BadContacts, message);
+        let help = "build it as a `compound` of capsules or spheres, or let others pass through it: `collides = false`";
+        let span = view.table("shape").key_span("torus").or(view.key_span("shape"));
+        let error = error.help(help);
+        context.diagnostics.push(match span {
+            Some(span) => error.at(span, "no distance is computed for a torus"),
+            None => error,
+        });
+    }
+    Some(Collider { surface: surface(view), group: view.shared_text("collision_group") })
+}
+
+fn has_torus(shape: &Shape) -> bool {
+    match shape {
+        Shape::Torus { .. } => true,
+        Shape::Compound(compound) => compound.parts().iter().any(|part| has_torus(&part.shape)),
+        _ => false,
+    }
+}
+
+/// The surface of a body, or of the ground.
+fn surface(view: &View<'_>) -> Surface {
+    let [restitution, friction, rolling_friction] = SURFACE.map(|key| view.number(key));
+    Surface { restitution, friction, rolling_friction }
+}
+
+/// The ground as contacts have it: where its height is not given, it is 0, and it stops bodies.
+pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut Environment) {
+    if let (Some(_), Some(ground)) = (simulation.contacts, &mut environment.ground) {
+        let table = root.table("environment").variant("ground");
+        ground.height = Some(ground.height.unwrap_or(0.0));
+        ground.surface = Some(table.map_or(Surface::default(), |table| surface(&table)));
+    }
+}
+
+/// Says which keys need contacts and do not have them, and which bodies and methods contacts cannot take.
+pub(super) fn check(
+    root: &View<'_>,
+    simulation: &Simulation,
+    bodies: &[Body],
+    environment: &Environment,
+    context: &mut Context<'_>,
+) {
+    let table = root.table("simulation");
+    // What is wrong with the word has been said.
+    if simulation.contacts.is_none() && !table.has("contacts") {
+        needed(root, &table, context);
+    }
+    let Some(span) = table.span("contacts").filter(|_| simulation.contacts.is_some()) else { return };
+    if !simulation.method.constraints {
+        let message = format!("the integrator `{}` cannot compute contacts", simulation.method.name);
+        let error = Diagnostic::error(Code::BadContacts, message).at(span, "");
+        context
+            .diagnostics
+            .push(error.help("take another one: `simulation.integrator = \"velocity-verlet\"`"));
+    }
+    if let Some(ground) = &environment.ground {
+        below(root, bodies, ground, context);
+    }
+}
+
+/// Says which keys need `simulation.contacts`; each place of the text once, and what to write with the first.
+fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
+    let mut wrong: Vec<(&str, Span)> = Vec::new();
+    for body in root.bodies() {
+        body.look(|view| wrong.extend(OF_BODIES.iter().filter_map(|key| Some((*key, view.key_span(key)?)))));
+    }
+    for (_, _, joint) in root.named("joint") {
+        let span = super::joint::kind(&joint).and_then(|kind| kind.key_span("collides"));
+        wrong.extend(span.map(|span| ("collides", span)));
+    }
+    if let Some(ground) = root.table("environment").variant("ground") {
+        wrong.extend(SURFACE.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
+    }
+    let mut said: Vec<Span> = Vec::new();
+    for (key, span) in wrong {
+        if said.contains(&span) {
+            continue;
+        }
+        let message = format!("`{key}` needs `simulation.contacts`");
+        let error = Diagnostic::error(Code::NoContacts, message)
+            .at(span, "without it, bodies pass through each other")
+            .help("write `contacts = \"event-driven\"` in [simulation]");
+        let fix = said.is_empty().then(|| insertion(root, simulation, span.source, context));
+        said.push(span);
+        context.diagnostics.push(match fix {
+            Some((place, text)) => error.fix(place, text),
+            None => error,
+        });
+    }
+}
+
+/// Where `simulation.contacts` belongs, and the text that puts it there.
+fn insertion(
+    root: &View<'_>,
+    simulation: &View<'_>,
+    source: SourceId,
+    context: &Context<'_>,
+) -> (Span, String) {
+    const LINE: &str = "contacts = \"event-driven\"";
+    let keys = ["duration", "frame_rate", "step", "integrator", "gravity"];
+    let mut spans = keys.into_iter().filter_map(|key| simulation.key_span(key));
+    if let Some(span) = spans.find(|span| is_file(span.source, context)) {
+        return before(span, LINE, context);
+    }
+    match root.key_span("simulation").filter(|span| is_file(span.source, context)) {
+        // An empty table: its header ends the line.
+        Some(span) => {
+            let text = &context.sources.get(span.source).text;
+            let end = text[span.end..].find('\n').map_or(text.len(), |newline| span.end + newline);
+            (Span { start: end, end, ..span }, format!("\n{LINE}"))
+        }
+        None => (Span::new(source, 0..0), format!("simulation.{LINE}\n")),
+    }
+}
+
+/// Says which bodies begin below the ground.
+fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Context<'_>) {
+    let Some(height) = ground.height else { return };
+    for (table, body) in root.bodies().zip(bodies) {
+        let is_free = body.collider.is_some() && !body.start.fixed && body.motion.is_none();
+        let Some(reach) = body.shape.support(body.start.orientation, -glam::DVec3::Y).filter(|_| is_free)
+        else {
+            continue;
+        };
+        let lowest = body.start.location.y - reach;
+        if height - lowest <= BELOW * reach.abs() {
+            continue;
+        }
+        let before = context.diagnostics.len();
+        let name = table.name();
+        let message = format!("`{name}` begins below the ground");
+        let depth = about(height - lowest);
+        let label =
+            format!("its lowest point is {depth} m below the ground, which is at {} m", figure(height));
+        let help = "put it higher, or give the ground another height with `environment.ground.height`, or take it away \
+                    with `environment.ground = false`";
+        let span = table.look(|view| view.span("location")).unwrap_or(table.span());
+        context.diagnostics.push(Diagnostic::error(Code::BelowGround, message).at(span, label).help(help));
+        context.once(before, name, table.span());
+    }
+}
+
+/// A length with as many digits as people read.
+fn about(length: f64) -> String {
+    figure(format!("{length:.3e}").parse().unwrap_or(length))
+}
+
+/// The collider of a body, which copies share where it is the same.
+pub(super) fn shared(last: Option<&Body>, collider: Option<Collider>) -> Option<Arc<Collider>> {
+    let collider = collider?;
+    let same = last.and_then(|body| body.collider.as_ref()).filter(|last| ***last == collider);
+    Some(same.map_or_else(|| Arc::new(collider), Arc::clone))
+}

@@ -1,0 +1,124 @@
+//! The weight of bodies, and the forces of what touches them, as arrows show them.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::Frame;
+use crate::scene::{Arrow, Quantity, Scene};
+
+/// A force on a body that an arrow shows: its weight, or what another body does to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// The number of the body that it acts on.
+    pub body: usize,
+    /// What it is.
+    pub quantity: Quantity,
+    /// The arrow that the scene asks for.
+    pub arrow: Arrow,
+    /// Where it acts, m: the centre of the body, or the point of contact.
+    pub root: DVec3,
+    /// The force, N.
+    pub vector: DVec3,
+}
+
+/// What one body does to another where they touch, as one force at one place.
+#[derive(Default)]
+struct Touch {
+    normal: DVec3,
+    friction: DVec3,
+    /// The places of contact, each times the size of its normal force.
+    places: DVec3,
+    /// The sum of those sizes.
+    sizes: f64,
+}
+
+/// The loads of a frame that a scene shows, in the order of the bodies. Where two bodies touch at several places, there is one arrow
+/// for all of them, at their centre of pressure.
+pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
+    let asks =
+        |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.loads.iter().any(Option::is_some));
+    let mut touches: BTreeMap<(usize, usize), Touch> = BTreeMap::new();
+    for contact in &frame.contacts {
+        let [one, two] = contact.bodies;
+        for (body, other, sign) in [(one, two, -1.0), (two, one, 1.0)] {
+            if asks(body) {
+                let touch = touches.entry((body, other)).or_default();
+                let size = contact.force.length();
+                touch.normal += sign * contact.force;
+                touch.friction += sign * contact.friction;
+                touch.places += size * contact.place;
+                touch.sizes += size;
+            }
+        }
+    }
+    let mut loads = Vec::new();
+    for at in frame.bodies.iter().filter(|at| asks(at.id)) {
+        let body = &scene.bodies[at.id];
+        let mut add = |quantity: Quantity, arrow: Option<Arrow>, root: DVec3, vector: DVec3| {
+            loads.extend(arrow.map(|arrow| Load { body: at.id, quantity, arrow, root, vector }));
+        };
+        let [weight, normal, friction] = body.showing.loads;
+        add(Quantity::Weight, weight, at.location, body.start.mass * scene.simulation.gravity);
+        for touch in touches.range((at.id, 0)..=(at.id, usize::MAX)).map(|(_, touch)| touch) {
+            if touch.sizes > 0.0 {
+                let place = touch.places / touch.sizes;
+                add(Quantity::Normal, normal, place, touch.normal);
+                add(Quantity::Friction, friction, place, touch.friction);
+            }
+        }
+    }
+    loads
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+    use crate::dynamics::{Accounts, Balance, BodySnapshot, ContactSnapshot, Snapshot};
+
+    #[test]
+    fn several_places_of_one_contact_make_one_arrow_at_the_centre_of_pressure() {
+        let text = "simulation = { contacts = 'event-driven', gravity = [0, -10, 0] }
+            [body.block]\nshape.box.size = [2, 1, 1]\nlocation = [0, 0.5, 0]\nmass = 3
+            arrows = { weight = true, normal = true, friction = true }
+            [body.other]\nshape.sphere.radius = 1\nlocation = [5, 5, 0]";
+        let scene = Scene::parse(text).unwrap();
+        let contact = |x: f64, force: f64| ContactSnapshot {
+            bodies: [0, 2],
+            place: DVec3::X * x,
+            normal: -DVec3::Y,
+            force: DVec3::NEG_Y * force,
+            friction: DVec3::X,
+        };
+        let at = |id: usize| BodySnapshot {
+            id,
+            location: scene.bodies[id].start.location,
+            orientation: DQuat::IDENTITY,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            force: DVec3::ZERO,
+        };
+        let balance = Balance {
+            kinetic: 0.0,
+            potential: 0.0,
+            accounts: Accounts::default(),
+            total: 0.0,
+            linear_momentum: DVec3::ZERO,
+            angular_momentum: DVec3::ZERO,
+            drift: 0.0,
+        };
+        let (bodies, contacts) = (vec![at(0), at(1)], vec![contact(-1.0, 10.0), contact(1.0, 20.0)]);
+        let frame = Frame::of(0, Snapshot { time: 0.0, bodies, reactions: Vec::new(), contacts, balance });
+        let loads = loads(&scene, &frame);
+        let found: Vec<_> = loads.iter().map(|load| (load.quantity, load.root, load.vector)).collect();
+        let third = DVec3::X * (10.0 / 30.0);
+        let expected = [
+            (Quantity::Weight, DVec3::Y * 0.5, DVec3::Y * -30.0),
+            (Quantity::Normal, third, DVec3::Y * 30.0),
+            (Quantity::Friction, third, DVec3::X * -2.0),
+        ];
+        assert_eq!(found, expected);
+    }
+}
