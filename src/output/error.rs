@@ -33,7 +33,7 @@ pub enum OutputError {
     /// A joint cannot be kept.
     Broken(Broken),
     /// A contact cannot be computed.
-    Stuck(Stuck),
+    Stuck(Box<Stuck>),
     /// The recording of the run could not be written or read.
     Recording(String),
     /// A script cannot be written.
@@ -76,7 +76,8 @@ impl OutputError {
         if let OutputError::Broken(Broken { place: (Some(span), sources), .. }) = self {
             return Report { sources: sources.clone(), diagnostics: vec![diagnostic.at(*span, "")] };
         }
-        if let OutputError::Stuck(Stuck { place: (spans, sources), .. }) = self {
+        if let OutputError::Stuck(stuck) = self {
+            let (spans, sources) = &stuck.place;
             let diagnostic = spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, ""));
             return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
         }
@@ -99,7 +100,7 @@ impl OutputError {
                 "move them apart, or let them pass through each other: `collides = false`, or the same `collision_group`",
             ),
             OutputError::Stuck(_) => Some(
-                "give bodies that are wedged in more room or a smaller `restitution`; frames before that time can be drawn with `simulation.duration`",
+                "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
             ),
             OutputError::Recording(_) => Some(
                 "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",

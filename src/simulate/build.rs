@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use crate::dynamics::{Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World};
+use crate::dynamics::{BodyId, Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World};
 use crate::scene::{Body, Scene};
 
 /// What advances a scene, chosen by what the scene says; the interactions of pairs are counted meanwhile. An engine with steppers
@@ -54,7 +54,7 @@ fn contacts(scene: &Scene) -> Contacts {
     let surfaces = scene.bodies.iter().map(surface).chain(ground).collect();
     let mut apart = BTreeSet::new();
     for joint in scene.joints.iter().filter(|joint| !joint.collides) {
-        if let [Some(one), Some(two)] = joint.kind.between().map(|end| end.body().map(|id| id.index())) {
+        if let [Some(one), Some(two)] = joint.kind.between().map(|end| end.body().map(BodyId::index)) {
             apart.insert((one.min(two), one.max(two)));
         }
     }

@@ -78,7 +78,7 @@ pub enum SimulateError {
     /// A joint cannot be kept.
     Broken(Broken),
     /// A contact cannot be computed.
-    Stuck(Stuck),
+    Stuck(Box<Stuck>),
     /// Its recording cannot be written or read.
     Recording(String),
 }
@@ -140,9 +140,11 @@ impl SimulateError {
                 SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
             }
             Breakdown::Overlapping { bodies, time, depth } => {
-                SimulateError::Stuck(Stuck::of(scene, bodies, time, Some(depth)))
+                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Some(depth))))
             }
-            Breakdown::Jammed { bodies, time } => SimulateError::Stuck(Stuck::of(scene, bodies, time, None)),
+            Breakdown::Jammed { bodies, time } => {
+                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, None)))
+            }
             Breakdown::Broken { constraint, time, missing } => {
                 let joint = scene.joints[constraint].name.clone();
                 let span = scene.places.joints.get(constraint).copied();
