@@ -308,6 +308,16 @@ impl Model {
         self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
     }
 
+    /// The velocity and the angular velocity that an impulse and its moment about the centre of mass give a body.
+    pub(super) fn respond(&self, i: usize, state: &State, (push, moment): (DVec3, DVec3)) -> (DVec3, DVec3) {
+        let inverse_mass = self.inverse_mass[i];
+        if inverse_mass == 0.0 {
+            return (DVec3::ZERO, DVec3::ZERO);
+        }
+        let (inverse, turn) = (self.inverse_inertia[i], state.orientation[i]);
+        (inverse_mass * push, turn * (inverse * (turn.conjugate() * moment)))
+    }
+
     /// The angular velocity of body `i`, ω = R I⁻¹ Rᵀ L, world axes, rad/s.
     #[must_use]
     pub fn angular_velocity(&self, i: usize, state: &State) -> DVec3 {

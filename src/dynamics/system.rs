@@ -1,7 +1,7 @@
 //! The equations of motion, as a method of integration sees them.
 
 use super::constraint::Solver;
-use super::{Loads, Model, Reaction, State};
+use super::{ContactSnapshot, Loads, Model, Reaction, State};
 
 /// Bodies, the forces on them, and the constraints that hold them together.
 pub struct System<'a> {
@@ -23,7 +23,7 @@ impl<'a> System<'a> {
     /// Whether constraints hold bodies.
     #[must_use]
     pub fn is_constrained(&self) -> bool {
-        !self.model.constraints().is_empty()
+        !self.solver.is_idle(self.model)
     }
 
     /// All that acts at time `t`, s: the forces, and what the constraints take to be kept. Bodies whose motion is given must
@@ -40,6 +40,12 @@ impl<'a> System<'a> {
         self.solver.reactions(self.model)
     }
 
+    /// The places where bodies stay in touch at the moment that was evaluated last.
+    #[must_use]
+    pub fn contacts(&self) -> Vec<ContactSnapshot> {
+        self.solver.contact_snapshots(self.model)
+    }
+
     /// Places the bodies whose motion is given where they are at time `t`, and then [evaluates](Self::evaluate).
     pub fn arrive(&mut self, t: f64, state: &mut State, loads: &mut Loads) {
         self.model.place(t, state);
@@ -50,7 +56,7 @@ impl<'a> System<'a> {
     /// impulses.
     pub fn evaluate_forces(&mut self, t: f64, state: &State, loads: &mut Loads) {
         self.model.sum(t, state, loads);
-        self.solver.drive(self.model, t, state, loads);
+        self.solver.drive(t, state, loads);
         self.model.bear(state, loads);
     }
 

@@ -8,10 +8,12 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::constraint::Solver;
+use super::contact::Collider;
 use super::presence::Calendar;
 use super::{
     Balance, BodyId, BodySnapshot, Breakdown, Constraint, Contacts, Dynamics, Effort, EnergyLedger, Force,
-    Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State, System,
+    Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State,
+    System,
 };
 
 /// The longest timestep where none is set, s.
@@ -34,7 +36,8 @@ pub struct World {
     is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
-    contacts: Option<Contacts>,
+    /// The bodies that touch each other, if they do.
+    collider: Option<Collider>,
     steps: u64,
     /// Room for the loads at one moment.
     loads: Loads,
@@ -58,7 +61,7 @@ impl World {
             is_settled: true,
             ledger: EnergyLedger::new(),
             calendar: Calendar::default(),
-            contacts: None,
+            collider: None,
             steps: 0,
             loads: Loads::default(),
             before: State::default(),
@@ -145,7 +148,7 @@ impl World {
     /// From now on, bodies touch each other as `contacts` says. Their shapes are those of [`add_shapes`](Self::add_shapes).
     pub fn collide(&mut self, contacts: Contacts) {
         self.about_to_change();
-        self.contacts = Some(contacts);
+        self.collider = Some(Collider::new(contacts));
     }
 
     /// From now on, `force` (world axes, N) is the body's constant force.
@@ -165,6 +168,9 @@ impl World {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
         self.solver.forget();
+        if let Some(collider) = &mut self.collider {
+            collider.forget();
+        }
         self.is_settled = false;
     }
 
@@ -178,6 +184,7 @@ impl World {
                 self.ledger.see_given(&self.model, &self.state);
             }
             system.start(self.time, &mut self.state, &mut self.loads);
+            self.begin_contacts();
             // What this gives and takes is booked with the change itself.
             self.state.accounts = accounts;
         }
@@ -332,6 +339,10 @@ impl Dynamics for World {
         self.solver.take_failure().map_or(snapshot, Err)
     }
 
+    fn impacts(&mut self) -> Vec<Impact> {
+        self.collider.as_mut().map(Collider::take_impacts).unwrap_or_default()
+    }
+
     fn steps(&self) -> u64 {
         self.steps
     }
@@ -359,7 +370,7 @@ fn picture(
     };
     let reactions = system.reactions();
     let present = (0..state.len()).filter(|&id| model.is_present(id));
-    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts: Vec::new(), balance }
+    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts: system.contacts(), balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

@@ -8,6 +8,7 @@ mod closed_forms;
 mod coming_and_going;
 mod common;
 mod conservation;
+mod contacts;
 mod dense;
 mod energy;
 mod events;

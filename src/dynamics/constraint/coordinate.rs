@@ -46,7 +46,8 @@ impl Coordinate {
             let BodySnapshot { location, orientation, velocity, angular_velocity, .. } = body(id)?;
             *member = Member { location, velocity, orientation, angular_velocity, ..Member::default() };
         }
-        let members = Members { all: &all, of: &[0, 1], time: 0.0, origin: &all, begun: 0.0 };
+        let members =
+            Members { all: &all, of: &[0, 1], time: 0.0, origin: &all, begun: 0.0, is_aiming: false };
         let ends = End::all(self.between, &members);
         let free = self.measure(&ends);
         Some([free.value, Coordinate::rate(&ends, &free)])

@@ -1,7 +1,8 @@
 //! When rows have to change what they do: how far a state is from the next event.
 
-use super::super::{Breakdown, Loads, Model, State};
+use super::super::{Loads, Model, State};
 use super::Law;
+use super::friction::Grip;
 use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
@@ -29,7 +30,7 @@ impl Solver {
         loads: &mut Loads,
     ) -> (f64, usize) {
         self.is_ready = false;
-        self.measure(model, t, state);
+        self.measure(t, state);
         let n = self.rows.len();
         let mut rates = vec![0.0; n];
         let size = match &self.structure {
@@ -61,16 +62,26 @@ impl Solver {
             }
             _ => f64::INFINITY,
         };
-        (0..n).map(|i| (margin(i), i)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
+        let of_grip = |grip: &Grip| match self.modes[grip.row] {
+            Mode::Held => {
+                let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();
+                part(left * self.weight(grip.row), force, PULLED)
+            }
+            Mode::Slid => part(grip.of(&rates).dot(grip.heading), size, PASSED),
+            Mode::Open | Mode::Pushed(_) => f64::INFINITY,
+        };
+        let grips = self.grips.iter().map(|grip| (of_grip(grip), grip.row));
+        let rows = (0..n).map(|i| (margin(i), i));
+        rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
     /// Notes that a run cannot go on, since a row changes again and again.
-    pub(in crate::dynamics) fn give_up(&mut self, row: usize, time: f64) {
+    pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
         let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));
-        let missing = self.rows[row].violation.abs();
+        let missing = self.rows.get(row).map_or(0.0, |row| row.violation.abs());
         if let (None, Some(place)) = (self.failure, place) {
-            self.failure = Some(Breakdown::Broken { constraint: place.constraint, time, missing });
+            self.failure = Some(self.broken(model, place.constraint, time, missing));
         }
     }
 }

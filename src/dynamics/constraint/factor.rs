@@ -27,6 +27,9 @@ pub(super) struct Factor {
     lower: Vec<Entry>,
     /// 1/D; 0 for a row that is left out.
     inverse: Vec<f64>,
+    /// Of rows that give way a little, so that those that others imply share the load, the row with which each does so alike: itself,
+    /// or the other tangent of a contact, so that it does not matter how tangents are turned. See [`SOFT`].
+    soft: Vec<Option<usize>>,
     /// Room to work in; all zero between two calls.
     work: Vec<f64>,
 }
@@ -67,6 +70,10 @@ struct Crossing {
     /// Its place in `lower`.
     at: usize,
 }
+
+/// By this part of its diagonal, or of the mean of two, a soft row gives way. Refining the solution takes it out again, but for how loads are shared: rows
+/// that imply each other get those with the smallest sum of squares.
+const SOFT: f64 = 1e-6;
 
 const NONE: usize = usize::MAX;
 
@@ -176,13 +183,16 @@ impl Factor {
     /// Factorises the matrix. `held` says which rows take part; where `choose` is set, those that others imply are taken out
     /// of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
-        let Factor { lines, matrix, crossings, lower, inverse, work, .. } = self;
+        let Factor { lines, matrix, crossings, lower, inverse, soft, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
             for entry in &matrix[line.column.clone()] {
                 work[entry.row] = entry.value;
             }
             let diagonal = std::mem::take(&mut work[k]);
-            let mut pivot = diagonal;
+            let partner = soft.get(k).copied().flatten();
+            let is_soft = partner.is_some();
+            let give = partner.map_or(0.0, |row| 0.5 * (diagonal + matrix[lines[row].column.end - 1].value));
+            let mut pivot = diagonal + SOFT * give;
             for &Crossing { column, first, at } in &crossings[line.crossings.clone()] {
                 let value = std::mem::take(&mut work[column]);
                 for entry in &lower[first..at] {
@@ -192,11 +202,51 @@ impl Factor {
                 pivot -= scaled * value;
                 lower[at].value = scaled;
             }
-            if choose && pivot <= IMPLIED * diagonal {
+            if choose && !is_soft && pivot <= IMPLIED * diagonal {
                 *held = false;
             }
             // A pivot that rounding has made negative would turn a force around.
             inverse[k] = if *held && pivot > 0.0 { 1.0 / pivot } else { 0.0 };
+        }
+    }
+
+    /// Sets which rows are soft, and with which other row; by default none is.
+    pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
+        self.soft = soft;
+    }
+
+    /// Whether some row is soft, so that solutions have to be refined.
+    pub(super) fn is_soft(&self) -> bool {
+        self.soft.iter().any(Option::is_some)
+    }
+
+    /// The sum of the sizes of the entries of a row of A, of those in which `counts` says so.
+    pub(super) fn row_size(&self, row: usize, counts: impl Fn(usize) -> bool) -> f64 {
+        let mut size = 0.0;
+        for (k, line) in self.lines.iter().enumerate() {
+            for entry in &self.matrix[line.column.clone()] {
+                if (k == row && counts(entry.row)) || (entry.row == row && k != row && counts(k)) {
+                    size += entry.value.abs();
+                }
+            }
+        }
+        size
+    }
+
+    /// Whether a row is soft.
+    pub(super) fn is_row_soft(&self, row: usize) -> bool {
+        self.soft.get(row).is_some_and(Option::is_some)
+    }
+
+    /// Subtracts A x from `out`, in all rows.
+    pub(super) fn subtract_product(&self, x: &[f64], out: &mut [f64]) {
+        for (k, line) in self.lines.iter().enumerate() {
+            for entry in &self.matrix[line.column.clone()] {
+                out[entry.row] -= entry.value * x[k];
+                if entry.row != k {
+                    out[k] -= entry.value * x[entry.row];
+                }
+            }
         }
     }
 

@@ -17,6 +17,8 @@ pub struct Member {
     pub orientation: DQuat,
     /// Its angular velocity, world axes, rad/s.
     pub angular_velocity: DVec3,
+    /// Its angular momentum about its centre of mass, world axes, kg m²/s.
+    pub(super) angular_momentum: DVec3,
     /// 1/m, 1/kg; 0 for a body that no force moves.
     pub(super) inverse_mass: f64,
     /// R I⁻¹ Rᵀ, 1/(kg m²); 0 for a body that no torque turns.
@@ -77,6 +79,7 @@ impl Member {
         self.location = state.location[i];
         self.velocity = state.velocity[i];
         self.orientation = orientation;
+        self.angular_momentum = angular_momentum;
         if nature.is_isotropic {
             // The inertia is the same in any orientation.
             self.angular_velocity = nature.inverse_inertia.x * angular_momentum;

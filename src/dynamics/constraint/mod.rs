@@ -5,11 +5,13 @@
 //! Integration*, 2nd ed., VII.1; the joints: D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
 mod ball;
+mod contacts;
 mod coordinate;
 mod events;
 mod factor;
 mod fixed;
 mod freedom;
+mod friction;
 mod gear;
 mod hinge;
 mod jacobian;
@@ -75,6 +77,12 @@ pub enum Law {
     Tie,
     /// c ≥ 0: it pushes only where c would become negative, and does not pull.
     Stop,
+    /// Two rows of this law follow each other: c' = 0 of both, as far as multipliers can make it that are together at most
+    /// `coefficient` times that of the first row of the constraint; where they cannot, they push as far as they can.
+    Friction {
+        /// Coulomb's coefficient, or, of turns, the coefficient of rolling friction, m; it is positive.
+        coefficient: f64,
+    },
     /// c' = 0, as far as a multiplier from −`limit` to `limit` can make it.
     Drive {
         /// The largest multiplier; it is positive.
@@ -122,6 +130,8 @@ pub struct Members<'a> {
     /// The same at the beginning of the step.
     origin: &'a [Member],
     begun: f64,
+    /// Whether a step is aimed at its end: bodies move freely meanwhile.
+    is_aiming: bool,
 }
 
 impl Members<'_> {
@@ -142,6 +152,20 @@ impl Members<'_> {
     pub fn at_origin(&self) -> Self {
         Self { all: self.origin, time: self.begun, ..*self }
     }
+
+    /// Where a step is aimed at its end, with bodies that move freely meanwhile: the first two bodies at its beginning, as they
+    /// move from then on.
+    pub(in crate::dynamics) fn aimed(&self) -> Option<[Member; 2]> {
+        let set_off = |i: usize| {
+            let (now, then) = (&self[i], &self.at_origin()[i]);
+            let angular_velocity = match then.inverse_mass {
+                0.0 => then.angular_velocity,
+                _ => then.turn(now.angular_momentum),
+            };
+            Member { velocity: now.velocity, angular_velocity, ..*then }
+        };
+        self.is_aiming.then(|| [set_off(0), set_off(1)])
+    }
 }
 
 impl std::ops::Index<usize> for Members<'_> {
@@ -161,7 +185,7 @@ pub struct Equations<'a> {
 
 impl Equations<'_> {
     /// Writes a row; the directions that are not set are zero.
-    fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
+    pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[row] = Row { violation, rate: 0.0, bias, scale };
         let first = row * self.bodies;
         for direction in &mut self.jacobian[first..first + self.bodies] {
@@ -170,12 +194,18 @@ impl Equations<'_> {
     }
 
     /// Says how fast a row changes with time itself.
-    fn moving(&mut self, row: usize, rate: f64) {
+    pub(in crate::dynamics) fn moving(&mut self, row: usize, rate: f64) {
         self.rows[row].rate = rate;
     }
 
     /// Adds to the direction of one body in a row; a point of the world has none.
-    fn direction(&mut self, row: usize, body: Option<usize>, linear: DVec3, angular: DVec3) {
+    pub(in crate::dynamics) fn direction(
+        &mut self,
+        row: usize,
+        body: Option<usize>,
+        linear: DVec3,
+        angular: DVec3,
+    ) {
         if let Some(body) = body {
             let direction = &mut self.jacobian[row * self.bodies + body];
             direction.linear += linear;

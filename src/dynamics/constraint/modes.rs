@@ -21,6 +21,8 @@ pub(super) enum Mode {
     Open,
     /// It pushes with its limit, with this sign.
     Pushed(f64),
+    /// It pushes with all the friction that there is.
+    Slid,
 }
 
 /// A stop is touched where c is below this part of its scale.
@@ -34,7 +36,7 @@ impl Mode {
     pub(super) fn first(law: &Law) -> Mode {
         match law {
             Law::Tie => Mode::Held,
-            Law::Stop | Law::Drive { .. } => Mode::Open,
+            Law::Stop | Law::Drive { .. } | Law::Friction { .. } => Mode::Open,
         }
     }
 
@@ -43,7 +45,7 @@ impl Mode {
         match (law, self) {
             (_, Mode::Held) => row.violation.abs(),
             (Law::Stop, _) => (-row.violation).max(0.0),
-            (Law::Tie | Law::Drive { .. }, _) => 0.0,
+            (Law::Tie | Law::Drive { .. } | Law::Friction { .. }, _) => 0.0,
         }
     }
 }
@@ -81,7 +83,8 @@ impl Solver {
         loads: &mut Loads,
     ) {
         self.is_ready = false;
-        self.measure(model, t, state);
+        self.plan(model);
+        self.measure(t, state);
         let touched: Vec<bool> = self
             .laws
             .iter()
@@ -90,7 +93,7 @@ impl Solver {
             .collect();
         let size = self.hit(model, state, &touched);
         // The velocities are new.
-        self.measure(model, t, state);
+        self.measure(t, state);
         let mut rates = vec![0.0; self.rows.len()];
         if let Some(structure) = &self.structure {
             jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
@@ -110,9 +113,14 @@ impl Solver {
                 Law::Stop => (Mode::Open, false),
                 Law::Drive { .. } if is_still => (Mode::Held, true),
                 Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
+                // Its normal row decides first.
+                Law::Friction { .. } => (Mode::Open, false),
             };
         }
-        self.go_on(model, t, state, loads, (&members, &can_hold));
+        for grip in 0..self.grips.len() {
+            self.take_grip(grip, &rates);
+        }
+        self.go_on(model, t, state, loads, (&members, &can_hold, &rates));
     }
 
     /// c'' of each row, as the present modes make it. `members` are the bodies, which this uses up.
@@ -162,7 +170,7 @@ impl Solver {
             for (value, rate) in self.unknown.iter_mut().zip(&before) {
                 *value = -rate;
             }
-            self.factor.solve(&mut self.unknown);
+            self.solve();
             let Solver { structure: Some(structure), members: moved, jacobian, unknown, .. } = self else {
                 return size;
             };
@@ -185,10 +193,13 @@ impl Solver {
         jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
         // The work of the impulses is ½ Λ (c' before + c' after), beside what guides and motors have given.
         let mut taken = 0.0;
+        let mut at_contacts = 0.0;
         for i in 0..n {
-            taken += 0.5 * unknown[i] * (before[i] + after[i]);
+            let work = 0.5 * unknown[i] * (before[i] + after[i]);
+            *if self.factor.is_row_soft(i) { &mut at_contacts } else { &mut taken } += work;
         }
         state.accounts.limits += taken;
+        state.accounts.impacts += at_contacts;
         size
     }
 
@@ -199,7 +210,7 @@ impl Solver {
         t: f64,
         state: &State,
         loads: &mut Loads,
-        (members, can_hold): (&[Member], &[bool]),
+        (members, can_hold, rates): (&[Member], &[bool], &[f64]),
     ) {
         let n = self.rows.len();
         let is_free = can_hold.iter().all(|can| !can);
@@ -210,31 +221,46 @@ impl Solver {
             }
             let accelerations = self.see_accelerations(model, t, state, loads, members);
             let size = self.largest_acceleration;
+            let one_by_one = round > together(n);
             let wrong = |i: usize| match (self.modes[i], self.laws[i]) {
+                (_, Law::Friction { .. }) if one_by_one => self.grip_is_wrong(i, &accelerations),
+                (_, Law::Friction { .. }) => 0.0,
                 _ if !can_hold[i] => 0.0,
                 (Mode::Held, Law::Stop) => -self.unknown[i] * self.weight(i),
                 (Mode::Held, Law::Drive { limit }) => (self.unknown[i].abs() - limit) * self.weight(i),
                 (Mode::Open, _) => -accelerations[i],
                 (Mode::Pushed(sign), _) => sign * accelerations[i],
-                (Mode::Held, Law::Tie) => 0.0,
+                (Mode::Held, Law::Tie) | (Mode::Slid, _) => 0.0,
             };
             match worst(n, round, SLIGHT * size, wrong) {
-                None => return,
+                None if one_by_one || !self.change_grips(&accelerations, SLIGHT * size) => return,
+                None => {}
+                Some(i) if matches!(self.laws[i], Law::Friction { .. }) => self.change_grip(i),
                 Some(i) => {
                     self.modes[i] = match (self.modes[i], self.laws[i]) {
                         (Mode::Held, Law::Drive { .. }) => Mode::Pushed(self.unknown[i].signum()),
                         (Mode::Held, _) => Mode::Open,
                         _ => Mode::Held,
                     };
+                    for grip in 0..self.grips.len() {
+                        if self.grips[grip].normal == i {
+                            self.take_grip(grip, rates);
+                        }
+                    }
                 }
             }
         }
     }
 }
 
+/// So many rounds change all contacts together that stick or begin to slide; after them, one by one. Large problems get fewer.
+fn together(n: usize) -> usize {
+    (100_000 / n.max(1)).clamp(100, 3_000)
+}
+
 /// As many changes as a problem of `n` rows may need.
 fn rounds(n: usize) -> usize {
-    100 + 20 * n
+    together(n) + 300 + 20 * n
 }
 
 /// The row that is most wrong, if some is by more than what is slight; after many rounds the first one, which ends every

@@ -9,17 +9,19 @@ use super::solver::Solver;
 impl Solver {
     /// Adds the forces and torques that keep the constraints to the loads.
     pub(in crate::dynamics) fn react(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
-        if model.constraints().is_empty() {
+        if self.is_idle(model) {
             return;
         }
         if !self.is_ready {
             self.plan(model);
-            self.measure(model, t, state);
+            self.measure(t, state);
             self.factorise(false);
         }
         self.is_ready = false;
         self.push_drives(loads);
+        self.see_slips();
         self.solve_forces(t, state, loads);
+        self.book_friction(loads);
         let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
         for (multiplier, row) in unknown.iter().zip(rows) {
             // The power λ J v, since J v + ∂c/∂t = 0.
@@ -35,8 +37,23 @@ impl Solver {
     /// Finds the multipliers at a state that has been measured and factorised. The accelerations without them take the place of
     /// velocities, which are not needed any more. Gives the largest size of the terms of c''.
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
-        let Solver { structure: Some(structure), members, motions, rows, jacobian, unknown, .. } = self
-        else {
+        let mut size = self.see_free_accelerations(t, state, loads);
+        for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
+            size = size.max(row.bias.abs());
+            *value = -(*value + row.bias);
+        }
+        if self.slides() {
+            self.solve_sliding();
+        } else {
+            self.solve();
+        }
+        size
+    }
+
+    /// Puts the accelerations without constraints in the place of velocities, and J times them into `unknown`. Gives the largest
+    /// size of their terms.
+    fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
+        let Solver { structure: Some(structure), members, motions, jacobian, unknown, .. } = self else {
             return 0.0;
         };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
@@ -49,13 +66,7 @@ impl Solver {
                 member.angular_velocity = member.turn(loads.torque[i] - gyroscopic);
             }
         }
-        let mut size = products(structure, jacobian, members, unknown);
-        for (value, row) in unknown.iter_mut().zip(&*rows) {
-            size = size.max(row.bias.abs());
-            *value = -(*value + row.bias);
-        }
-        self.factor.solve(unknown);
-        size
+        products(structure, jacobian, members, unknown)
     }
 
     /// Finds the multipliers as [`react`](Self::react) does, adds nothing but what drives push, and gives c'' of each row
@@ -69,6 +80,7 @@ impl Solver {
     ) -> f64 {
         self.is_ready = false;
         self.push_drives(loads);
+        self.see_slips();
         let size = self.solve_forces(t, state, loads);
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
             return size;
@@ -104,12 +116,33 @@ impl Solver {
         });
     }
 
-    /// Adds the forces of motors that are not strong enough for their speed, where they act as forces do.
-    pub(in crate::dynamics) fn drive(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
-        if self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {
-            self.measure(model, t, state);
-            self.is_ready = false;
-            self.push_drives(loads);
+    /// Adds the forces of motors that are not strong enough for their speed, and those of friction where contacts slide: they act as
+    /// forces do.
+    pub(in crate::dynamics) fn drive(&mut self, t: f64, state: &State, loads: &mut Loads) {
+        let slides = self.slides();
+        if !slides && !self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {
+            return;
         }
+        self.measure(t, state);
+        self.is_ready = false;
+        self.push_drives(loads);
+        if !slides {
+            return;
+        }
+        self.factorise(false);
+        self.see_slips();
+        self.solve_forces(t, state, loads);
+        self.book_friction(loads);
+        for i in 0..self.unknown.len() {
+            if self.modes[i] != Mode::Slid {
+                self.unknown[i] = 0.0;
+            }
+        }
+        let Solver { structure: Some(structure), jacobian, unknown, .. } = &*self else { return };
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
+            let i = structure.bodies[member];
+            loads.force[i] += multiplier * direction.linear;
+            loads.torque[i] += multiplier * direction.angular;
+        });
     }
 }

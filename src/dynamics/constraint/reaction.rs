@@ -32,9 +32,10 @@ impl Reaction {
 impl Solver {
     /// What all constraints do at the moment at which forces were evaluated last, in the order in which they were added.
     pub(in crate::dynamics) fn reactions(&self, model: &Model) -> Vec<Reaction> {
-        let mut all = vec![Reaction::default(); model.constraints().len()];
+        let joints = model.constraints().len();
+        let mut all = vec![Reaction::default(); joints];
         let Some(structure) = &self.structure else { return all };
-        for place in &structure.places {
+        for place in structure.places.iter().filter(|place| place.constraint < joints) {
             let width = place.bodies.len();
             // On each of the bodies, about its centre.
             let mut on = vec![Reaction::default(); width];

@@ -29,7 +29,14 @@ impl Force for Servo {
         for (member, id) in all.iter_mut().zip(&ids) {
             *member = Member::of(id.index(), moment.model, moment.state);
         }
-        let members = Members { all: &all, of: &[0, 1], time: moment.time, origin: &all, begun: moment.time };
+        let members = Members {
+            all: &all,
+            of: &[0, 1],
+            time: moment.time,
+            origin: &all,
+            begun: moment.time,
+            is_aiming: false,
+        };
         let ends = End::all(self.coordinate.between, &members);
         let free = self.coordinate.measure(&ends);
         let rate = Coordinate::rate(&ends, &free);

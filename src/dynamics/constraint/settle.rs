@@ -17,10 +17,11 @@ impl Solver {
     /// Changes the velocities at the beginning of a step such that free bodies are where the constraints hold after it: the
     /// impulses of SHAKE and RATTLE. The step has begun with [`begin`](Self::begin) at these places.
     pub(in crate::dynamics) fn aim(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
-        if model.constraints().is_empty() {
+        if self.is_idle(model) {
             return;
         }
         self.is_ready = false;
+        self.is_aiming = true;
         self.first.clone_from(&self.jacobian);
         self.first_rates.clear();
         self.first_rates.extend(self.rows.iter().map(|row| row.rate));
@@ -37,7 +38,7 @@ impl Solver {
                 trial.angular_momentum[i] = state.angular_momentum[i];
                 drift_body(model, dt, &mut trial, i);
             }
-            self.measure(model, t + dt, &trial);
+            self.measure(t + dt, &trial);
             let worst = self.worst();
             if worst <= ROUNDING || (worst < FAILURE && worst > 0.5 * before) {
                 break;
@@ -46,33 +47,36 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation / dt;
             }
-            self.factor.solve(&mut self.unknown);
+            self.solve();
             let Solver { structure: Some(structure), first, unknown, .. } = &*self else { break };
             push(structure, first, unknown, model, state);
             book(self.first_rates.iter().copied(), &self.unknown, state);
         }
         self.trial = trial;
         self.blame(model, t + dt);
+        self.is_aiming = false;
+        // Some rows are measured in another way while a step is aimed.
+        self.measured = f64::NAN;
     }
 
     /// Moves the bodies the shortest way to where all constraints hold, as M measures it, and takes out of their velocities what
     /// leads away from there.
     pub(in crate::dynamics) fn settle(&mut self, model: &Model, t: f64, state: &mut State) {
-        if model.constraints().is_empty() {
+        if self.is_idle(model) {
             return;
         }
         self.is_ready = false;
         self.plan(model);
-        self.settle_places(model, t, state);
+        self.settle_places(t, state);
         self.blame(model, t);
         self.settle_velocities(model, state);
     }
 
-    pub(super) fn settle_places(&mut self, model: &Model, t: f64, state: &mut State) {
+    pub(super) fn settle_places(&mut self, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
         self.is_factorised = false;
         for _ in 0..ITERATIONS {
-            self.measure_places(model, t, state);
+            self.measure_places(t, state);
             let worst = self.worst();
             let is_slow = worst > 0.1 * before;
             if worst <= ROUNDING || (worst < FAILURE && is_slow) {
@@ -85,7 +89,7 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation;
             }
-            self.factor.solve(&mut self.unknown);
+            self.solve();
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
             };
@@ -117,12 +121,11 @@ impl Solver {
             if !self.is_factorised {
                 self.factorise(false);
             }
-            let Solver { structure: Some(structure), members, jacobian, unknown, factor, rows, .. } = self
-            else {
+            self.unknown.iter_mut().for_each(|rate| *rate = -*rate);
+            self.solve();
+            let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self else {
                 return;
             };
-            unknown.iter_mut().for_each(|rate| *rate = -*rate);
-            factor.solve(unknown);
             push(structure, jacobian, unknown, model, state);
             book(rows.iter().map(|row| row.rate), unknown, state);
             move_members(structure, jacobian, unknown, members);

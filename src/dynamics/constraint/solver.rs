@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
+use super::super::contact::Closed;
 use super::super::{Breakdown, Model, Motion, State};
 use super::factor::Factor;
+use super::friction::Grip;
 use super::member::{Member, Nature};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
-use super::{Direction, Equations, Law, Members, Row};
+use super::{Constraint, Direction, Equations, Law, Members, Row};
 
 /// An equation that is off by more than this part of its scale after all that was tried is a failure.
 pub(super) const FAILURE: f64 = 1e-9;
@@ -21,12 +23,20 @@ pub(super) const FAILURE: f64 = 1e-9;
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
+    /// The places where bodies stay in touch, which hold beside the constraints of the model.
+    pub(super) contacts: Vec<Arc<Closed>>,
+    /// The constraints of the model, and then the contacts.
+    all: Vec<Arc<dyn Constraint>>,
+    /// The first row of each of them; none where bodies of it are away.
+    pub(super) first_row: Vec<Option<usize>>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
     pub(super) natures: Vec<Nature>,
     /// The members at the beginning of the step, and when that is, s.
     origin: Vec<Member>,
     begun: f64,
+    /// Whether a step is aimed at its end.
+    pub(super) is_aiming: bool,
     /// The motions of members that are given.
     pub(super) motions: Vec<Option<Arc<dyn Motion>>>,
     pub(super) rows: Vec<Row>,
@@ -38,6 +48,10 @@ pub(in crate::dynamics) struct Solver {
     /// What each row may do, and what it does at present.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
+    /// The pairs of rows that hold by friction.
+    pub(super) grips: Vec<Grip>,
+    /// J v of all rows, where contacts slide.
+    pub(super) slips: Vec<f64>,
     /// Whether some row may do anything but hold.
     pub(super) has_modes: bool,
     /// The largest sizes of the terms of c' and c'' so far: what is slight against them has come from rounding.
@@ -53,7 +67,7 @@ pub(in crate::dynamics) struct Solver {
     /// Whether there are factors near enough for the step that is being settled.
     pub(super) is_factorised: bool,
     /// When rows and Jacobian were measured.
-    measured: f64,
+    pub(super) measured: f64,
     pub(super) failure: Option<Breakdown>,
 }
 
@@ -71,15 +85,16 @@ impl Solver {
     /// Begins a step at a state in which the constraints hold: decides which equations take part, since others imply the rest.
     /// The same ones take part in the whole step, so that its right-hand side is smooth.
     pub(in crate::dynamics) fn begin(&mut self, model: &Model, t: f64, state: &State) {
-        if model.constraints().is_empty() {
+        if self.is_idle(model) {
             return;
         }
         self.plan(model);
-        self.measure(model, t, state);
+        self.measure(t, state);
         self.origin.clone_from(&self.members);
         self.begun = t;
         // Some rows are measured from the beginning of the step.
         self.measured = f64::NAN;
+        self.head();
         self.hold();
         self.is_ready = true;
     }
@@ -96,7 +111,7 @@ impl Solver {
     pub(in crate::dynamics) fn violation(&mut self, model: &Model, t: f64, state: &State) -> f64 {
         self.is_ready = false;
         self.plan(model);
-        self.measure(model, t, state);
+        self.measure(t, state);
         let missing = (0..self.rows.len()).map(|i| self.missing(i));
         missing.fold(0.0, f64::max)
     }
@@ -127,8 +142,7 @@ impl Solver {
         }
         let is_known = self.failure.is_some();
         if let (false, Some((constraint, missing))) = (is_known, failed) {
-            debug_assert!(constraint < model.constraints().len());
-            self.failure = Some(Breakdown::Broken { constraint, time, missing });
+            self.failure = Some(self.broken(model, constraint, time, missing));
         }
     }
 
@@ -138,8 +152,26 @@ impl Solver {
             return;
         }
         let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
-        let structure = Structure::of(model.constraints(), |body| model.is_present(body), can_move);
+        self.all.clear();
+        self.all.extend(model.constraints().iter().cloned());
+        self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
+        let structure = Structure::of(&self.all, |body| model.is_present(body), can_move);
+        self.first_row = vec![None; self.all.len()];
+        for place in &structure.places {
+            self.first_row[place.constraint] = Some(place.row);
+        }
         self.factor = Factor::new(&structure);
+        if !self.contacts.is_empty() {
+            let mut soft = vec![None; structure.rows];
+            for place in structure.places.iter().filter(|place| place.constraint >= model.constraints().len())
+            {
+                soft[place.row] = Some(place.row);
+                for row in (place.row + 1..place.row + place.rows).step_by(2) {
+                    (soft[row], soft[row + 1]) = (Some(row + 1), Some(row));
+                }
+            }
+            self.factor.soften(soft);
+        }
         self.natures = structure.bodies.iter().map(|&body| Nature::of(body, model)).collect();
         self.members = self.natures.iter().map(Member::new).collect();
         self.measured = f64::NAN;
@@ -147,11 +179,13 @@ impl Solver {
         self.rows = vec![Row::default(); structure.rows];
         self.jacobian = structure.places.iter().flat_map(Place::directions).collect();
         let places = structure.places.iter();
+        let all = &self.all;
         let laws = |place: &Place| {
-            let constraint = model.constraints()[place.constraint].clone();
+            let constraint = all[place.constraint].clone();
             (0..place.rows).map(move |row| constraint.law(row))
         };
         self.laws = places.flat_map(laws).collect();
+        self.grips = Grip::all(&structure, &self.laws);
         self.has_modes = self.laws.iter().any(|law| *law != Law::Tie);
         self.modes = self.laws.iter().map(Mode::first).collect();
         self.held = vec![false; structure.rows];
@@ -161,26 +195,26 @@ impl Solver {
     }
 
     /// Measures all equations at a state.
-    pub(super) fn measure(&mut self, model: &Model, t: f64, state: &State) {
+    pub(super) fn measure(&mut self, t: f64, state: &State) {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
         }
-        self.measure_members(model, t);
+        self.measure_members(t);
     }
 
     /// Measures all equations at a state, or only how it moves where they have been measured at these places and this time last.
-    pub(super) fn measure_places(&mut self, model: &Model, t: f64, state: &State) {
+    pub(super) fn measure_places(&mut self, t: f64, state: &State) {
         let mut has_moved = t.to_bits() != self.measured.to_bits();
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             has_moved |= member.follow(nature, state);
         }
         if has_moved {
-            self.measure_members(model, t);
+            self.measure_members(t);
         }
     }
 
-    fn measure_members(&mut self, model: &Model, t: f64) {
-        let Solver { structure: Some(structure), members, origin, begun, rows, jacobian, .. } = self else {
+    fn measure_members(&mut self, t: f64) {
+        let Solver { structure: Some(structure), members, origin, rows, jacobian, all, .. } = self else {
             return;
         };
         for place in &structure.places {
@@ -190,8 +224,15 @@ impl Solver {
                 jacobian: &mut jacobian[place.direction..place.direction + place.rows * bodies],
                 bodies,
             };
-            let members = Members { all: members, of: &place.bodies, time: t, origin, begun: *begun };
-            model.constraints()[place.constraint].measure(&members, &mut equations);
+            let members = Members {
+                all: members,
+                of: &place.bodies,
+                time: t,
+                origin,
+                begun: self.begun,
+                is_aiming: self.is_aiming,
+            };
+            all[place.constraint].measure(&members, &mut equations);
         }
         self.measured = t;
     }

@@ -4,24 +4,28 @@
 //! does not rebound becomes a constraint that pushes and never pulls. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics
 //! with Unilateral Contacts* (1996).
 
-#[allow(dead_code, reason = "the solver of contacts comes next")]
+mod approach;
+mod change;
+mod closed;
+mod collider;
 mod feature;
-#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod gjk;
-#[allow(dead_code, reason = "the solver of contacts comes next")]
+mod impulse;
 mod nearest;
-#[allow(dead_code, reason = "the solver of contacts comes next")]
+mod pairs;
 mod patch;
-#[allow(dead_code, reason = "the solver of contacts comes next")]
+mod path;
 mod solid;
+mod strike;
 mod surface;
-#[allow(dead_code, reason = "the solver of contacts comes next")]
 mod touch;
 
 use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+pub(super) use closed::Closed;
+pub(super) use collider::Collider;
 pub use surface::{Meeting, Surface};
 
 /// Which bodies touch, and how.

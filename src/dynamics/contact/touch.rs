@@ -32,8 +32,17 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
     for (i, part_a) in a.parts().iter().enumerate() {
         for (j, part_b) in b.parts().iter().enumerate() {
             if apart(part_a, pa, part_b, pb) <= within {
-                Pair { a: part_a, pa, b: part_b, pb, parts: [i, j], within, found: Vec::new() }
-                    .add_to(&mut all);
+                Pair {
+                    a: part_a,
+                    pa,
+                    b: part_b,
+                    pb,
+                    parts: [i, j],
+                    within,
+                    depth: f64::INFINITY,
+                    found: Vec::new(),
+                }
+                .add_to(&mut all);
             }
         }
     }
@@ -75,6 +84,8 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
+    /// No place is deeper than that, m: what is has to do with other sides of the parts.
+    depth: f64,
     found: Vec<Touch>,
 }
 
@@ -118,6 +129,7 @@ impl Pair<'_> {
             return;
         }
         let depth = self.within + nearest.gap.abs();
+        self.depth = depth;
         let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, depth);
         let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, depth);
         for &i in &near_a {
@@ -190,7 +202,7 @@ impl Pair<'_> {
     /// Keeps a pair of patches, if the bodies touch there.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
-        if meeting.gap.is_nan() || meeting.gap > self.within {
+        if meeting.gap.is_nan() || meeting.gap > self.within || meeting.gap < -self.depth {
             return;
         }
         let parts = [(self.a, self.pa, meeting.normal), (self.b, self.pb, -meeting.normal)];

@@ -1,7 +1,7 @@
 //! How a world advances: steps, births and deaths on the way, and looks between two steps.
 
 use super::super::{Snapshot, State, Step, System};
-use super::piece::EVENTS;
+use super::piece::Counts;
 use super::{World, picture};
 
 /// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
@@ -29,13 +29,14 @@ impl World {
     fn step_from(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         self.settle();
         self.ledger.close(&self.model, t, &self.state);
-        let (mut now, mut left, mut length, mut last) = (t, moments, dt, 0);
-        for _ in 0..EVENTS {
+        let (mut now, mut left, mut length) = (t, moments, dt);
+        let mut counts = Counts::default();
+        loop {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
             }
             let (duration, event) = self.make_piece(now, length);
-            let Some(row) = event else {
+            let Some(event) = event else {
                 self.look_within(now, duration, left, see);
                 return;
             };
@@ -44,12 +45,13 @@ impl World {
             self.look_within(now, duration, within, see);
             now += duration;
             length = t + dt - now;
-            let mut system = System::new(&self.model, &mut self.solver);
-            system.decide(now, &mut self.state, &mut self.loads);
+            self.pass(now);
             self.integrator.discontinuity();
-            last = row;
+            if counts.are_too_many(event) || self.solver.has_failed() {
+                self.give_up(event, now);
+                return;
+            }
         }
-        self.solver.give_up(last, now);
     }
 
     /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is

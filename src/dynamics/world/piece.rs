@@ -1,30 +1,140 @@
-//! A step in pieces that end at events: where a rope becomes taut, a limit is reached, or a motor has its speed.
+//! A step in pieces that end at events: where bodies touch, a rope becomes taut, a limit is reached, or a motor has its speed.
 
 use super::World;
-use crate::dynamics::System;
+use crate::dynamics::{BodyId, Breakdown, System};
 
-/// So many events within a step mean that they do not end.
-pub(super) const EVENTS: usize = 10_000;
+/// So many changes of constraints within a step mean that they do not end.
+const CHANGES: u32 = 10_000;
+
+/// So many impacts within a step mean the same. The impacts that spell π to seven digits are fewer, nearly all in one step.
+const IMPACTS: u32 = 4_000_000;
 
 /// Trials until the time of an event is known to the last bit; each halves what is left at least every second time.
 const TRIALS: usize = 120;
 
+/// Trials until two bodies touch; each squares what is left.
+const TOUCHES: usize = 12;
+
+/// What ends a piece of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Event {
+    /// A row of the constraints changes what it does.
+    Row(usize),
+    /// Two bodies touch.
+    Touch([usize; 2]),
+}
+
+/// How many events there have been within a step.
+#[derive(Default)]
+pub(super) struct Counts {
+    changes: u32,
+    impacts: u32,
+}
+
+impl Counts {
+    /// Counts one more, and says whether that is too many.
+    pub(super) fn are_too_many(&mut self, event: Event) -> bool {
+        match event {
+            Event::Row(_) => self.changes += 1,
+            Event::Touch(_) => self.impacts += 1,
+        }
+        self.changes > CHANGES || self.impacts > IMPACTS
+    }
+}
+
 impl World {
-    /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Gives how long it has been, and the row of
-    /// the event. Where there can be events, `before` is the state at its beginning.
-    pub(super) fn make_piece(&mut self, t: f64, dt: f64) -> (f64, Option<usize>) {
-        if !System::new(&self.model, &mut self.solver).has_events() {
+    /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Gives how long it has been, and the event.
+    /// Where there can be events, `before` is the state at its beginning.
+    pub(super) fn make_piece(&mut self, t: f64, dt: f64) -> (f64, Option<Event>) {
+        let has_events = System::new(&self.model, &mut self.solver).has_events();
+        if !has_events && self.collider.is_none() {
             self.make_step(t, dt);
             return (dt, None);
         }
         self.before.clone_from(&self.state);
         self.make_step(t, dt);
-        let (margin, row) = self.margin(t + dt);
-        if margin >= 0.0 {
-            return (dt, None);
+        let touched = self.find_touch(t, dt);
+        let length = touched.map_or(dt, |(length, _)| length);
+        let touch = touched.map(|(_, bodies)| Event::Touch(bodies));
+        if !has_events {
+            return (length, touch);
         }
-        let (dt, row) = self.find_event(t, (dt, margin, row));
-        (dt, Some(row))
+        let (margin, row) = self.margin(t + length);
+        if margin >= 0.0 {
+            return (length, touch);
+        }
+        let (length, row) = self.find_event(t, (length, margin, row));
+        (length, Some(Event::Row(row)))
+    }
+
+    /// Makes a step that has just been made anew where bodies touch within it, so that it ends there.
+    fn find_touch(&mut self, t: f64, dt: f64) -> Option<(f64, [usize; 2])> {
+        let Self { model, state, before, solver, collider, .. } = self;
+        let (mut length, bodies) =
+            collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
+        for _ in 0..TOUCHES {
+            if length > 0.0 {
+                self.try_step(t, length);
+            } else {
+                self.state.clone_from(&self.before);
+            }
+            let left = self.collider.as_ref()?.time_left(&self.model, &self.state, bodies);
+            let next = left.map_or(length, |left| (length + left).clamp(0.0, dt));
+            if next == length {
+                break;
+            }
+            length = next;
+        }
+        Some((length, bodies))
+    }
+
+    /// An event: takes its impulses, and finds out which constraints push from then on.
+    pub(super) fn pass(&mut self, t: f64) {
+        if self.collider.is_some() {
+            self.meet(t);
+        } else {
+            let mut system = System::new(&self.model, &mut self.solver);
+            system.decide(t, &mut self.state, &mut self.loads);
+        }
+    }
+
+    /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch.
+    fn meet(&mut self, t: f64) {
+        let Some(collider) = &mut self.collider else { return };
+        let closed = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {
+            Ok(closed) => closed,
+            Err(breakdown) => {
+                self.solver.fail(breakdown);
+                return;
+            }
+        };
+        self.solver.take_contacts(closed);
+        let mut system = System::new(&self.model, &mut self.solver);
+        if system.is_constrained() {
+            system.decide(t, &mut self.state, &mut self.loads);
+            self.solver.drop_open_contacts(&self.model);
+        }
+    }
+
+    /// Where contacts begin: nothing may be within another, and what touches is struck or stays in touch.
+    pub(super) fn begin_contacts(&mut self) {
+        let Some(collider) = &mut self.collider else { return };
+        let closed = self.solver.contacts();
+        if let Some(breakdown) = collider.start(&self.model, self.time, &self.state, closed) {
+            self.solver.fail(breakdown);
+            return;
+        }
+        self.meet(self.time);
+    }
+
+    /// Notes that a run cannot go on, since something happens again and again.
+    pub(super) fn give_up(&mut self, event: Event, time: f64) {
+        match event {
+            Event::Row(row) => self.solver.give_up(&self.model, row, time),
+            Event::Touch(bodies) => {
+                self.solver.fail(Breakdown::Jammed { bodies: bodies.map(BodyId::new), time });
+            }
+        }
     }
 
     fn make_step(&mut self, t: f64, dt: f64) {
@@ -36,7 +146,11 @@ impl World {
     }
 
     fn margin(&mut self, t: f64) -> (f64, usize) {
-        System::new(&self.model, &mut self.solver).margin(t, &self.state, &mut self.loads)
+        let margin = System::new(&self.model, &mut self.solver).margin(t, &self.state, &mut self.loads);
+        let Some(collider) = &self.collider else { return margin };
+        // More places of bodies that touch: they have no row of their own.
+        let places = collider.margin(&self.model, &self.state, self.solver.contacts()) + 1.0;
+        if places < margin.0 { (places, margin.1) } else { margin }
     }
 
     /// Makes the step shorter until it ends just after the event: the margin at its end is a function of its length, of which the
@@ -79,9 +193,14 @@ impl World {
 
     /// The state `dt` after the beginning of the piece, made by one step; its margin.
     fn try_piece(&mut self, t: f64, dt: f64) -> (f64, usize) {
+        self.try_step(t, dt);
+        self.margin(t + dt)
+    }
+
+    /// The state `dt` after the beginning of the piece, made by one step.
+    fn try_step(&mut self, t: f64, dt: f64) {
         self.state.clone_from(&self.before);
         self.integrator.discontinuity();
         self.make_step(t, dt);
-        self.margin(t + dt)
     }
 }

@@ -1,0 +1,200 @@
+//! The contacts among the constraints: which there are, what they do, and the joints alone while bodies hit each other.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::contact::Closed;
+use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
+use super::Law;
+use super::jacobian::{move_members, products};
+use super::modes::Mode;
+use super::solver::Solver;
+
+impl Solver {
+    /// Whether nothing holds bodies.
+    pub(in crate::dynamics) fn is_idle(&self, model: &Model) -> bool {
+        model.constraints().is_empty() && self.contacts.is_empty()
+    }
+
+    /// The places where bodies stay in touch.
+    pub(in crate::dynamics) fn contacts(&self) -> &[Arc<Closed>] {
+        &self.contacts
+    }
+
+    /// Sets the places where bodies stay in touch. What the rows do is to be [decided](Self::decide) then.
+    pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) {
+        let is_same =
+            |(a, b): (&Arc<Closed>, &Arc<Closed>)| a.bodies == b.bodies && a.touch.patches == b.touch.patches;
+        let are_same =
+            contacts.len() == self.contacts.len() && contacts.iter().zip(&self.contacts).all(is_same);
+        if !are_same {
+            self.contacts = contacts;
+            self.forget();
+        }
+    }
+
+    /// Notes that the run cannot go on.
+    pub(in crate::dynamics) fn fail(&mut self, breakdown: Breakdown) {
+        self.failure = self.failure.or(Some(breakdown));
+    }
+
+    /// Whether the run cannot go on.
+    pub(in crate::dynamics) fn has_failed(&self) -> bool {
+        self.failure.is_some()
+    }
+
+    /// Lets go of the contacts that do not push; the others go on as they are.
+    pub(in crate::dynamics) fn drop_open_contacts(&mut self, model: &Model) {
+        let Some(structure) = &self.structure else { return };
+        let joints = model.constraints().len();
+        let is_held = |k: usize| self.first_row[joints + k].is_some_and(|row| self.modes[row] == Mode::Held);
+        let keep: Vec<bool> = (0..self.contacts.len()).map(is_held).collect();
+        if keep.iter().all(|keep| *keep) {
+            return;
+        }
+        // What each constraint that stays does, to be written into the new structure.
+        let mut states = Vec::new();
+        for (constraint, first) in self.first_row.iter().enumerate() {
+            let stays = constraint.checked_sub(joints).is_none_or(|k| keep[k]);
+            let rows = structure.places.iter().find(|place| place.constraint == constraint);
+            if stays {
+                let modes = first.zip(rows).map(|(row, place)| self.modes[row..row + place.rows].to_vec());
+                states.push(modes);
+            }
+        }
+        let grips: Vec<_> = self
+            .grips
+            .iter()
+            .map(|grip| {
+                let of = |first: &&Option<usize>| first.is_some_and(|row| row == grip.normal);
+                let constraint = self.first_row.iter().position(|first| of(&first)).unwrap_or_default();
+                (constraint, grip.row - grip.normal, grip.push, grip.heading)
+            })
+            .collect();
+        let kept_before =
+            |constraint: usize| constraint - (joints..constraint).filter(|k| !keep[k - joints]).count();
+        let mut index = 0;
+        self.contacts.retain(|_| {
+            index += 1;
+            keep[index - 1]
+        });
+        self.forget();
+        self.plan(model);
+        for (first, modes) in self.first_row.iter().zip(states) {
+            if let (Some(row), Some(modes)) = (first, modes) {
+                self.modes[*row..*row + modes.len()].copy_from_slice(&modes);
+            }
+        }
+        for (constraint, offset, push, heading) in grips {
+            if constraint >= joints && !keep[constraint - joints] {
+                continue;
+            }
+            let normal = self.first_row[kept_before(constraint)];
+            for grip in &mut self.grips {
+                if Some(grip.normal) == normal && grip.row == grip.normal + offset {
+                    (grip.push, grip.heading) = (push, heading);
+                }
+            }
+        }
+    }
+
+    /// Solves A x = b for the rows that hold.
+    pub(super) fn solve(&mut self) {
+        if !self.factor.is_soft() {
+            self.factor.solve(&mut self.unknown);
+            return;
+        }
+        // Soft rows give way a little; refining takes that out again.
+        let right = self.unknown.clone();
+        self.factor.solve(&mut self.unknown);
+        for _ in 0..REFINEMENTS {
+            let mut left = right.clone();
+            self.factor.subtract_product(&self.unknown, &mut left);
+            self.factor.solve(&mut left);
+            self.unknown.iter_mut().zip(&left).for_each(|(x, more)| *x += more);
+        }
+    }
+
+    /// Lets the joints alone hold from now on, at a state in which they do: what hits bodies moves them as these allow.
+    pub(in crate::dynamics) fn hold_joints(&mut self, model: &Model, t: f64, state: &State) {
+        self.is_ready = false;
+        self.plan(model);
+        self.measure(t, state);
+        for (held, law) in self.held.iter_mut().zip(&self.laws) {
+            *held = *law == Law::Tie;
+        }
+        self.factorise(true);
+    }
+
+    /// Takes out of the velocities what the joints do not allow, after [`hold_joints`](Self::hold_joints) at these places.
+    pub(in crate::dynamics) fn obey_joints(&mut self, model: &Model, state: &mut State) {
+        for (member, nature) in self.members.iter_mut().zip(&self.natures) {
+            member.follow(nature, state);
+        }
+        self.settle_velocities(model, state);
+    }
+
+    /// The velocities and angular velocities of two bodies that impulses and their moments give them, as the joints allow, after
+    /// [`hold_joints`](Self::hold_joints).
+    pub(in crate::dynamics) fn respond(
+        &mut self,
+        model: &Model,
+        state: &State,
+        bodies: [usize; 2],
+        pushes: [(DVec3, DVec3); 2],
+    ) -> [(DVec3, DVec3); 2] {
+        let mut free = [0, 1].map(|i| model.respond(bodies[i], state, pushes[i]));
+        let Solver { structure: Some(structure), members, jacobian, unknown, .. } = self else { return free };
+        let places = bodies.map(|body| structure.bodies.binary_search(&body).ok());
+        for member in members.iter_mut() {
+            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        for (place, motion) in places.iter().zip(&free) {
+            if let Some(place) = place {
+                (members[*place].velocity, members[*place].angular_velocity) = *motion;
+            }
+        }
+        products(structure, jacobian, members, unknown);
+        unknown.iter_mut().for_each(|rate| *rate = -*rate);
+        self.factor.solve(unknown);
+        move_members(structure, jacobian, unknown, members);
+        for (place, motion) in places.iter().zip(&mut free) {
+            if let Some(place) = place {
+                *motion = (members[*place].velocity, members[*place].angular_velocity);
+            }
+        }
+        free
+    }
+
+    /// The places of contact and their forces at the moment that was evaluated last.
+    pub(in crate::dynamics) fn contact_snapshots(&self, model: &Model) -> Vec<ContactSnapshot> {
+        let Some(structure) = &self.structure else { return Vec::new() };
+        let joints = model.constraints().len();
+        let mut all: Vec<ContactSnapshot> = Vec::new();
+        for (k, contact) in self.contacts.iter().enumerate() {
+            let places = &structure.places;
+            let Some(place) = places.iter().find(|place| place.constraint == joints + k) else { continue };
+            let members = [place.bodies[0], place.bodies[1]].map(|member| &self.members[member]);
+            all.push(contact.seen(members, |row, out| {
+                let direction = self.jacobian[place.direction + row * place.bodies.len() + 1];
+                *out += self.unknown[place.row + row] * direction.linear;
+            }));
+        }
+        all.sort_by_key(|contact| contact.bodies);
+        all
+    }
+
+    /// Why a run cannot go on, where constraint `index` cannot be kept.
+    pub(super) fn broken(&self, model: &Model, index: usize, time: f64, missing: f64) -> Breakdown {
+        match index.checked_sub(model.constraints().len()) {
+            None => Breakdown::Broken { constraint: index, time, missing },
+            Some(contact) => {
+                Breakdown::Jammed { bodies: self.contacts[contact].bodies.map(BodyId::new), time }
+            }
+        }
+    }
+}
+
+/// So many times solutions are refined where rows are soft: each makes what is left smaller by about the part of softness.
+const REFINEMENTS: usize = 3;

@@ -1,0 +1,245 @@
+//! Coulomb friction: pairs of rows that hold as far as the normal force lets them.
+//!
+//! A pair sticks, with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip. λₙ depends on what slides, so both
+//! are found in turn. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8.
+
+use glam::DVec2;
+
+use super::super::Loads;
+use super::modes::Mode;
+use super::solver::Solver;
+use super::structure::Structure;
+use super::{Law, jacobian};
+
+/// So many rounds find the normal forces of contacts that slide.
+const ROUNDS: usize = 200;
+
+/// A slip below this part of the largest rate has no direction of its own.
+pub(super) const SLOW: f64 = 1e-9;
+
+/// Two rows that hold by friction.
+#[derive(Clone, Debug)]
+pub(super) struct Grip {
+    /// Its first row; the second one follows.
+    pub(super) row: usize,
+    /// The row whose multiplier bounds it.
+    pub(super) normal: usize,
+    /// The largest ratio of the two.
+    pub(super) coefficient: f64,
+    /// Where it pushes while it slides: a unit vector in its two rows.
+    pub(super) push: DVec2,
+    /// The direction of the slip at the beginning of the step.
+    pub(super) heading: DVec2,
+    /// Whether it has just begun to slide, and does not yet move.
+    pub(super) is_beginning: bool,
+}
+
+impl Grip {
+    /// All of a structure, whose laws are known.
+    pub(super) fn all(structure: &Structure, laws: &[Law]) -> Vec<Grip> {
+        let mut grips = Vec::new();
+        for place in &structure.places {
+            let mut row = place.row;
+            while row < place.row + place.rows {
+                if let Law::Friction { coefficient } = laws[row] {
+                    let (push, heading) = (DVec2::ZERO, DVec2::ZERO);
+                    grips.push(Grip {
+                        row,
+                        normal: place.row,
+                        coefficient,
+                        push,
+                        heading,
+                        is_beginning: false,
+                    });
+                    row += 1;
+                }
+                row += 1;
+            }
+        }
+        grips
+    }
+
+    /// Its part of a list with one value for each row.
+    pub(super) fn of(&self, values: &[f64]) -> DVec2 {
+        DVec2::new(values[self.row], values[self.row + 1])
+    }
+}
+
+impl Solver {
+    /// Whether some contact slides.
+    pub(super) fn slides(&self) -> bool {
+        self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Slid)
+    }
+
+    /// Notes how contacts slide at the present velocities: friction pushes against it.
+    pub(super) fn see_slips(&mut self) {
+        if !self.slides() {
+            return;
+        }
+        let mut rates = std::mem::take(&mut self.slips);
+        rates.resize(self.rows.len(), 0.0);
+        if let Some(structure) = &self.structure {
+            jacobian::products(structure, &self.jacobian, &self.members, &mut rates);
+        }
+        let slow = SLOW * self.largest_rate;
+        for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            let slip = grip.of(&rates);
+            let speed = slip.length();
+            // Where a slip only begins or ends, it goes where it was found to go. Once it is over, that goes on until the step is
+            // made anew up to there, so that forces are smooth in it.
+            let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
+            if !grip.is_beginning {
+                grip.push = if goes_on { -slip / speed } else { -grip.heading };
+            }
+        }
+        self.slips = rates;
+    }
+
+    /// Notes, at the beginning of a step, where contacts slide.
+    pub(super) fn head(&mut self) {
+        self.see_slips();
+        let slow = SLOW * self.largest_rate;
+        for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            grip.is_beginning = false;
+            let slip = grip.of(&self.slips);
+            if slip.length() > slow {
+                grip.heading = slip.normalize();
+            }
+            grip.push = -grip.heading;
+        }
+    }
+
+    /// Adds the power of friction to the loads.
+    pub(super) fn book_friction(&self, loads: &mut Loads) {
+        for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            loads.power.friction += grip.of(&self.unknown).dot(grip.of(&self.slips));
+        }
+    }
+
+    /// Solves A λ = b in `unknown` for the rows that hold, with the pushes of what slides, which depend on λ themselves.
+    /// Returns whether they have been found.
+    pub(super) fn solve_sliding(&mut self) -> bool {
+        let right = self.unknown.clone();
+        let mut pushes = vec![0.0; right.len()];
+        let mut before = f64::INFINITY;
+        for round in 0..ROUNDS {
+            // What the pushes do to the rows that hold.
+            self.unknown.clone_from(&right);
+            self.factor.subtract_product(&pushes, &mut self.unknown);
+            self.solve();
+            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+                let normal = self.unknown[grip.normal].max(0.0);
+                let push = grip.coefficient * normal * grip.push;
+                change = change.max((push - grip.of(&pushes)).abs().max_element());
+                size = size.max(normal * grip.coefficient);
+                (pushes[grip.row], pushes[grip.row + 1]) = (push.x, push.y);
+            }
+            let is_done =
+                change <= 1e-15 * size || (round > 20 && change <= 1e-12 * size && change >= before);
+            before = change;
+            if is_done {
+                self.write_pushes(&pushes);
+                return true;
+            }
+        }
+        self.write_pushes(&pushes);
+        false
+    }
+
+    /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
+    /// holds.
+    pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
+        let slow = SLOW * self.largest_rate;
+        let Grip { row, normal, .. } = self.grips[grip];
+        let slip = self.grips[grip].of(rates);
+        let mode = if self.modes[normal] != Mode::Held {
+            Mode::Open
+        } else if slip.length() <= slow {
+            Mode::Held
+        } else {
+            let grip = &mut self.grips[grip];
+            grip.heading = slip.normalize();
+            (grip.push, grip.is_beginning) = (-grip.heading, false);
+            Mode::Slid
+        };
+        (self.modes[row], self.modes[row + 1]) = (mode, mode);
+    }
+
+    fn grip_at(&self, row: usize) -> Option<&Grip> {
+        let at = self.grips.binary_search_by_key(&row, |grip| grip.row).ok()?;
+        Some(&self.grips[at])
+    }
+
+    /// By how much what a pair of rows does is wrong, at its first row: it sticks and would need more friction than there is, or it
+    /// begins to slide and is pushed along.
+    pub(super) fn grip_is_wrong(&self, row: usize, accelerations: &[f64]) -> f64 {
+        let Some(grip) = self.grip_at(row) else { return 0.0 };
+        match self.modes[row] {
+            Mode::Held => {
+                let most = grip.coefficient * self.unknown[grip.normal].max(0.0);
+                (grip.of(&self.unknown).length() - most) * self.weight(row)
+            }
+            Mode::Slid if grip.is_beginning => grip.of(accelerations).dot(grip.push),
+            _ => 0.0,
+        }
+    }
+
+    /// Lets a pair of rows that sticks slide, and the other way round.
+    pub(super) fn change_grip(&mut self, row: usize) {
+        let force = match self.grip_at(row) {
+            Some(grip) => grip.of(&self.unknown),
+            None => return,
+        };
+        let mode = if self.modes[row] == Mode::Slid { Mode::Held } else { Mode::Slid };
+        if let Ok(at) = self.grips.binary_search_by_key(&row, |grip| grip.row) {
+            let grip = &mut self.grips[at];
+            grip.push = force.normalize_or_zero();
+            (grip.heading, grip.is_beginning) = (-grip.push, true);
+        }
+        (self.modes[row], self.modes[row + 1]) = (mode, mode);
+    }
+
+    /// The sum of the sizes of the entries of A between a row of friction and all others: it bounds how much they change each other.
+    fn stiffness(&self, row: usize) -> f64 {
+        self.factor.row_size(row, |other| matches!(self.laws[other], Law::Friction { .. }))
+    }
+
+    /// Changes all pairs of rows that do not slip yet, by what they push and how they accelerate: those stick for which the friction
+    /// is enough, and the others begin to slide where they are pulled. Returns whether something has changed. Source: P. Alart &
+    /// A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353, for the criterion.
+    pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
+        let mut has_changed = false;
+        for i in 0..self.grips.len() {
+            let Grip { row, normal, coefficient, push, is_beginning, .. } = self.grips[i];
+            let slips = self.modes[row] == Mode::Slid && !is_beginning;
+            if slips || self.modes[normal] != Mode::Held {
+                continue;
+            }
+            let weight = self.stiffness(row).max(self.stiffness(row + 1));
+            let most = coefficient * self.unknown[normal].max(0.0);
+            let grip = &mut self.grips[i];
+            let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;
+            // What is at the limit stays what it is.
+            let left = (most - pulled.length()) * weight;
+            let is_enough = if self.modes[row] == Mode::Slid { left > slight } else { left >= -slight };
+            let mode = if is_enough { Mode::Held } else { Mode::Slid };
+            if !is_enough {
+                grip.push = pulled.normalize();
+                (grip.heading, grip.is_beginning) = (-grip.push, true);
+                has_changed |= (grip.push - push).length() * most * weight > slight;
+            }
+            has_changed |= mode != self.modes[row];
+            (self.modes[row], self.modes[row + 1]) = (mode, mode);
+        }
+        has_changed
+    }
+
+    fn write_pushes(&mut self, pushes: &[f64]) {
+        for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            for row in [grip.row, grip.row + 1] {
+                self.unknown[row] = pushes[row];
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! How a place of contact moves over two bodies: the rates of its normal and of itself.
+
+use glam::{DQuat, DVec3};
+
+use super::super::constraint::Member;
+use super::nearest::Nearest;
+use super::patch::{Patch, meet};
+use super::solid::Pose;
+
+/// Where there is no formula, places are differentiated along the motion by steps in which bodies turn, or move by their size,
+/// about so much.
+const DIFFERENCE: f64 = 1e-4;
+
+/// The rates of a meeting, as velocities make them.
+pub(super) struct Change {
+    /// The rate of the normal, 1/s.
+    pub(super) normal: DVec3,
+    /// How fast the place moves, m/s; it is no point of a body.
+    pub(super) place: DVec3,
+}
+
+/// A point of a body, or a direction, and its rate.
+#[derive(Clone, Copy)]
+struct Rated {
+    value: DVec3,
+    rate: DVec3,
+}
+
+impl Rated {
+    fn point(member: &Member, at: DVec3) -> Rated {
+        let arm = member.orientation * at;
+        Rated { value: member.location + arm, rate: member.velocity + member.angular_velocity.cross(arm) }
+    }
+
+    fn direction(member: &Member, along: DVec3) -> Rated {
+        let value = member.orientation * along;
+        Rated { value, rate: member.angular_velocity.cross(value) }
+    }
+
+    fn minus(self, other: Rated) -> Rated {
+        Rated { value: self.value - other.value, rate: self.rate - other.rate }
+    }
+
+    /// Without its part along a unit direction.
+    fn across(self, unit: Rated) -> Rated {
+        let along = self.value.dot(unit.value);
+        let along_rate = self.rate.dot(unit.value) + self.value.dot(unit.rate);
+        Rated {
+            value: self.value - along * unit.value,
+            rate: self.rate - along_rate * unit.value - along * unit.rate,
+        }
+    }
+
+    fn normalized(self) -> Option<Rated> {
+        let length = self.value.length();
+        if length == 0.0 {
+            return None;
+        }
+        let unit = self.value / length;
+        Some(Rated { value: unit, rate: (self.rate - self.rate.dot(unit) * unit) / length })
+    }
+}
+
+impl Change {
+    /// That of the meeting of two patches. `size` is a typical length of the smaller body, m.
+    pub(super) fn of(patches: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
+        Change::exact(patches, members)
+            .or_else(|| {
+                let [a, b] = patches;
+                let swapped = Change::exact([b, a], [members[1], members[0]])?;
+                Some(Change { normal: -swapped.normal, ..swapped })
+            })
+            .unwrap_or_else(|| Change::numeric(patches, members, size))
+    }
+
+    /// By formulas, where there are some.
+    fn exact([a, b]: [&Patch; 2], [first, second]: [&Member; 2]) -> Option<Change> {
+        match (a, b) {
+            (Patch::Plane { normal, .. }, Patch::Point { at, radius }) => {
+                let normal = Rated::direction(first, *normal);
+                let centre = Rated::point(second, *at);
+                Some(Change { normal: normal.rate, place: centre.rate - *radius * normal.rate })
+            }
+            (Patch::Plane { normal, .. }, Patch::Circle { centre, axis, radius }) => {
+                let normal = Rated::direction(first, *normal);
+                let axis = Rated::direction(second, *axis);
+                // The lowest place of the rim lies against the normal, across the axis.
+                let up = normal.across(axis).normalized()?;
+                let centre = Rated::point(second, *centre);
+                Some(Change { normal: normal.rate, place: centre.rate - *radius * up.rate })
+            }
+            (Patch::Point { at: x, radius }, Patch::Point { at: y, .. }) => {
+                let centre = Rated::point(first, *x);
+                let normal = Rated::point(second, *y).minus(centre).normalized()?;
+                Some(Change { normal: normal.rate, place: centre.rate + *radius * normal.rate })
+            }
+            (Patch::Line { at: x, along, .. }, Patch::Point { at: y, radius }) => {
+                let along = Rated::direction(first, *along);
+                let centre = Rated::point(second, *y);
+                let normal = centre.minus(Rated::point(first, *x)).across(along).normalized()?;
+                Some(Change { normal: normal.rate, place: centre.rate - *radius * normal.rate })
+            }
+            _ => None,
+        }
+    }
+
+    /// By central differences along the present motion.
+    fn numeric([a, b]: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
+        let fastest = members.iter().fold(0.0_f64, |most, member| {
+            most.max(member.velocity.length() / size).max(member.angular_velocity.length())
+        });
+        if fastest == 0.0 {
+            return Change { normal: DVec3::ZERO, place: DVec3::ZERO };
+        }
+        let step = DIFFERENCE / fastest;
+        let moved = |time: f64| {
+            let [p, q] = members.map(|member| advanced(member, time));
+            meet(a, &p, b, &q)
+        };
+        let (before, after) = (moved(-step), moved(step));
+        let middle = |meeting: &Nearest| 0.5 * (meeting.on[0] + meeting.on[1]);
+        Change {
+            normal: (after.normal - before.normal) / (2.0 * step),
+            place: (middle(&after) - middle(&before)) / (2.0 * step),
+        }
+    }
+}
+
+/// Where a body would be after a time at its present velocities.
+fn advanced(member: &Member, time: f64) -> Pose {
+    let turn = DQuat::from_scaled_axis(time * member.angular_velocity);
+    Pose {
+        location: member.location + time * member.velocity,
+        orientation: (turn * member.orientation).normalize(),
+    }
+}

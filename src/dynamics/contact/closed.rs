@@ -1,0 +1,133 @@
+//! Two bodies that stay in touch at one place: a constraint that pushes, and never pulls, with friction.
+
+use glam::DVec3;
+
+use super::super::constraint::{Constraint, Equations, Law, Member, Members};
+use super::super::{Anchor, BodyId};
+use super::change::Change;
+use super::patch::meet;
+use super::solid::Pose;
+use super::touch::Touch;
+use super::{ContactSnapshot, Meeting, nearest::Nearest};
+
+/// A place where two bodies stay in touch.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct Closed {
+    /// The bodies, the one with the smaller number first.
+    pub(in crate::dynamics) bodies: [usize; 2],
+    /// Where they touch.
+    pub(in crate::dynamics) touch: Touch,
+    /// How their surfaces behave.
+    pub(in crate::dynamics) law: Meeting,
+    /// A typical length of the smaller body, m.
+    pub(in crate::dynamics) size: f64,
+}
+
+impl Closed {
+    /// The pairs of rows of friction and of rolling friction, as far as there are any.
+    fn pairs(&self) -> [bool; 2] {
+        [self.law.friction > 0.0, self.law.rolling_friction > 0.0]
+    }
+
+    fn meet(&self, poses: [Pose; 2]) -> Nearest {
+        meet(&self.touch.patches[0], &poses[0], &self.touch.patches[1], &poses[1])
+    }
+}
+
+/// Where a body is now.
+fn pose(member: &Member) -> Pose {
+    Pose { location: member.location, orientation: member.orientation }
+}
+
+/// The velocity of the second body against the first where they meet.
+fn slip(meeting: &Nearest, members: [&Member; 2]) -> DVec3 {
+    let at = |member: &Member, place: DVec3| {
+        member.velocity + member.angular_velocity.cross(place - member.location)
+    };
+    at(members[1], meeting.on[1]) - at(members[0], meeting.on[0])
+}
+
+impl Constraint for Closed {
+    fn bodies(&self) -> Vec<BodyId> {
+        self.bodies.map(BodyId::new).to_vec()
+    }
+
+    fn second_end(&self) -> Anchor {
+        Anchor::Body { id: BodyId::new(self.bodies[1]), at: DVec3::ZERO }
+    }
+
+    fn rows(&self) -> usize {
+        1 + self.pairs().into_iter().map(|is_there| 2 * usize::from(is_there)).sum::<usize>()
+    }
+
+    fn law(&self, row: usize) -> Law {
+        match row {
+            0 => Law::Stop,
+            1 | 2 if self.law.friction > 0.0 => Law::Friction { coefficient: self.law.friction },
+            _ => Law::Friction { coefficient: self.law.rolling_friction },
+        }
+    }
+
+    /// c = the gap ≥ 0; then the slip along two tangents; then the rolling about them.
+    fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
+        let both = [&members[0], &members[1]];
+        let meeting = self.meet(both.map(pose));
+        let Nearest { gap, normal, on } = meeting;
+        let arms = [on[0] - both[0].location, on[1] - both[1].location];
+        let [a, b] = &self.touch.patches;
+        let change = Change::of([a, b], both, self.size);
+        let slipping = slip(&meeting, both);
+        // The rate of the slip that does not come from accelerations: arms change, as the place moves over both bodies.
+        let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);
+        let drift = turning(1) - turning(0);
+        let size = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
+        let mut write = |row: usize, violation: f64, bias: f64, linear: DVec3| {
+            equations.row(row, violation, bias, size);
+            equations.direction(row, Some(0), -linear, -arms[0].cross(linear));
+            equations.direction(row, Some(1), linear, arms[1].cross(linear));
+        };
+        write(0, gap, normal.dot(drift) + change.normal.dot(slipping), normal);
+        let (u, w) = normal.any_orthonormal_pair();
+        let [slides, rolls] = self.pairs();
+        // For methods that aim at the end of the step: the way that has been slipped, as the trapezoidal rule has it.
+        let slipped = members.aimed().map_or(DVec3::ZERO, |origin| {
+            let before = self.meet([&origin[0], &origin[1]].map(pose));
+            0.5 * members.elapsed() * (slip(&before, [&origin[0], &origin[1]]) + slipping)
+        });
+        if slides {
+            write(1, slipped.dot(u), u.dot(drift), u);
+            write(2, slipped.dot(w), w.dot(drift), w);
+        }
+        if rolls {
+            let first = if slides { 3 } else { 1 };
+            let rolled = members.aimed().map_or(DVec3::ZERO, |origin| {
+                let relative = |a: &Member, b: &Member| b.angular_velocity - a.angular_velocity;
+                0.5 * members.elapsed() * (relative(&origin[0], &origin[1]) + relative(both[0], both[1]))
+            });
+            for (row, axis) in [(first, u), (first + 1, w)] {
+                equations.row(row, rolled.dot(axis), 0.0, 1.0);
+                equations.direction(row, Some(0), DVec3::ZERO, -axis);
+                equations.direction(row, Some(1), DVec3::ZERO, axis);
+            }
+        }
+    }
+}
+
+impl Closed {
+    /// What can be seen of it. The closure adds the force of one of its rows on the second body.
+    pub(in crate::dynamics) fn seen(
+        &self,
+        members: [&Member; 2],
+        add: impl Fn(usize, &mut DVec3),
+    ) -> ContactSnapshot {
+        let meeting = self.meet(members.map(pose));
+        let (mut force, mut friction) = (DVec3::ZERO, DVec3::ZERO);
+        add(0, &mut force);
+        if self.law.friction > 0.0 {
+            add(1, &mut friction);
+            add(2, &mut friction);
+        }
+        let place = 0.5 * (meeting.on[0] + meeting.on[1]);
+        ContactSnapshot { bodies: self.bodies, place, normal: meeting.normal, force, friction }
+    }
+}

@@ -1,0 +1,237 @@
+//! The bodies that touch each other: where they do, and what happens then.
+
+use std::sync::Arc;
+
+use super::super::{BodyId, Breakdown, Constraint, Model, State};
+use super::approach::{Approach, TOUCH};
+use super::closed::Closed;
+use super::nearest::nearest;
+use super::pairs::Pairs;
+use super::path::{Path, pose};
+use super::solid::{Pose, Solid};
+use super::touch::{Touch, inside, touches};
+use super::{Contacts, Impact, Meeting};
+
+/// At an event, bodies touch where their gap is below this part of the coordinates.
+const NEAR: f64 = 1e-10;
+
+/// Further places of bodies that touch may be passed by this part of the coordinates.
+const PASSED: f64 = 1e-12;
+
+/// Bodies may be within each other by this part of the coordinates where contacts begin.
+const OVERLAP: f64 = 1e-9;
+
+/// Approaches below this part of the fastest one have come from rounding.
+pub(super) const SLIGHT: f64 = 1e-10;
+
+/// The bodies that touch each other.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct Collider {
+    pub(super) contacts: Contacts,
+    pub(super) solids: Vec<Option<Solid>>,
+    pairs: Pairs,
+    paths: Vec<Path>,
+    /// The fastest approach so far, m/s: what is slight against it has come from rounding.
+    pub(super) fastest: f64,
+    /// The impacts since somebody asked last.
+    pub(super) impacts: Vec<Impact>,
+}
+
+/// All places at which two bodies touch.
+#[derive(Clone, Debug)]
+pub(super) struct Touching {
+    pub(super) bodies: [usize; 2],
+    pub(super) law: Meeting,
+    pub(super) touches: Vec<Touch>,
+}
+
+impl Collider {
+    /// Bodies that touch as `contacts` says.
+    pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
+        let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
+        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts: Vec::new() }
+    }
+
+    /// Told when bodies have changed.
+    pub(in crate::dynamics) fn forget(&mut self) {
+        self.pairs.forget();
+    }
+
+    /// The impacts since somebody asked last.
+    pub(in crate::dynamics) fn take_impacts(&mut self) -> Vec<Impact> {
+        std::mem::take(&mut self.impacts)
+    }
+
+    /// The forms of bodies that have been added since.
+    fn meet_bodies(&mut self, model: &Model) {
+        for i in self.solids.len()..model.len() {
+            let collides = self.contacts.surfaces.get(i).is_some_and(Option::is_some);
+            let solid = model.shape(i).filter(|_| collides).and_then(Solid::of);
+            self.solids.push(solid);
+        }
+    }
+
+    /// The first time within a step at which bodies touch and come nearer, s after its beginning.
+    pub(in crate::dynamics) fn first_touch(
+        &mut self,
+        model: &Model,
+        (before, after): (&State, &State),
+        duration: f64,
+        closed: &[Arc<Closed>],
+    ) -> Option<(f64, [usize; 2])> {
+        self.meet_bodies(model);
+        self.paths.clear();
+        self.paths.extend((0..model.len()).map(|i| Path::of(i, model, before, after, duration)));
+        let Collider { contacts, solids, pairs, paths, fastest, .. } = self;
+        pairs.follow(contacts, solids, paths, (model, before));
+        let mut end = duration;
+        let mut first = None;
+        for pair in &mut pairs.list {
+            let [a, b] = pair.bodies;
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            let scale = scale(pair.bodies, [x, y], before);
+            let near_enough = NEAR * scale;
+            if pair.free > near_enough {
+                continue;
+            }
+            if closed.iter().any(|contact| contact.bodies == pair.bodies) {
+                continue;
+            }
+            let ways = super::pairs::way(Some(x), &paths[a]) + super::pairs::way(Some(y), &paths[b]);
+            let poses = [a, b].map(|i| pose(i, model, before));
+            let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
+            pair.free = near.gap - ways;
+            if pair.free > near_enough {
+                continue;
+            }
+            let speed = (before.velocity[b] - before.velocity[a]).length();
+            let slight = 2.0 * SLIGHT * fastest.max(speed);
+            let approach =
+                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: TOUCH * scale };
+            if let Some(time) = approach.first(end) {
+                (end, first) = (time, Some((time, pair.bodies)));
+            }
+        }
+        first
+    }
+
+    /// How long it takes two bodies to touch at their present velocities, s: negative where they are within each other; none where
+    /// they touch as nearly as matters, or do not approach.
+    pub(in crate::dynamics) fn time_left(
+        &self,
+        model: &Model,
+        state: &State,
+        bodies: [usize; 2],
+    ) -> Option<f64> {
+        let [a, b] = bodies;
+        let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { return None };
+        let poses = bodies.map(|i| pose(i, model, state));
+        let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
+        let scale = scale(bodies, [x, y], state);
+        let at = |i: usize| {
+            let arm = near.on[i] - state.location[bodies[i]];
+            state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)
+        };
+        let rate = near.normal.dot(at(1) - at(0));
+        (near.gap.abs() > TOUCH * scale && rate < 0.0).then(|| near.gap / -rate)
+    }
+
+    /// How far bodies that touch are from touching at further places, or from leaving the edge or the face on which they do, in units of
+    /// what is tolerated: negative where that has happened.
+    pub(in crate::dynamics) fn margin(&self, model: &Model, state: &State, closed: &[Arc<Closed>]) -> f64 {
+        let mut margin = f64::INFINITY;
+        let mut last = None;
+        for contact in closed {
+            let [a, b] = contact.bodies;
+            let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { continue };
+            let [p, q] = [a, b].map(|i| pose(i, model, state));
+            let tolerated = PASSED * scale(contact.bodies, [x, y], state);
+            margin = margin.min(inside(&contact.touch, x, &p, y, &q) / tolerated);
+            if last == Some(contact.bodies) {
+                continue;
+            }
+            last = Some(contact.bodies);
+            let is_closed = |touch: &Touch| {
+                let same = |other: &&Arc<Closed>| {
+                    other.bodies == contact.bodies && other.touch.patches == touch.patches
+                };
+                closed.iter().any(|other| same(&other))
+            };
+            for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)) {
+                margin = margin.min(touch.meeting.gap / tolerated);
+            }
+        }
+        margin
+    }
+
+    /// All places at which bodies touch, in the order of the bodies.
+    pub(super) fn touching(&mut self, model: &Model, state: &State) -> Vec<Touching> {
+        self.meet_bodies(model);
+        let solids = &self.solids;
+        let mut all = Vec::new();
+        for pair in &mut self.pairs.list {
+            let [a, b] = pair.bodies;
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            let within = NEAR * scale(pair.bodies, [x, y], state);
+            if pair.free > within {
+                continue;
+            }
+            let poses: [Pose; 2] = [a, b].map(|i| pose(i, model, state));
+            let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
+            pair.free = near.gap;
+            if pair.free > within {
+                continue;
+            }
+            let touches = touches(x, &poses[0], y, &poses[1], within);
+            all.push(Touching { bodies: pair.bodies, law: pair.law, touches });
+        }
+        all
+    }
+
+    /// Finds the pairs where contacts begin, and the first two bodies that are within each other.
+    pub(in crate::dynamics) fn start(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: &State,
+        closed: &[Arc<Closed>],
+    ) -> Option<Breakdown> {
+        self.meet_bodies(model);
+        self.paths.clear();
+        self.paths.extend((0..model.len()).map(|i| Path::of(i, model, state, state, 1.0)));
+        self.pairs.forget();
+        let Collider { contacts, solids, pairs, paths, .. } = self;
+        paths.iter_mut().for_each(Path::stop);
+        pairs.follow(contacts, solids, paths, (model, state));
+        for pair in &pairs.list {
+            let [a, b] = pair.bodies;
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            if closed.iter().any(|contact| contact.bodies == pair.bodies) {
+                continue;
+            }
+            let poses = [a, b].map(|i| pose(i, model, state));
+            let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
+            if near.gap < -OVERLAP * scale(pair.bodies, [x, y], state) {
+                let bodies = pair.bodies.map(BodyId::new);
+                return Some(Breakdown::Overlapping { bodies, time, depth: -near.gap });
+            }
+        }
+        None
+    }
+
+    /// How bodies are held by joints: not at all, or somehow.
+    pub(super) fn is_jointed(model: &Model, body: usize) -> bool {
+        let concerns =
+            |constraint: &Arc<dyn Constraint>| constraint.bodies().iter().any(|other| other.index() == body);
+        model.constraints().iter().any(concerns)
+    }
+}
+
+/// The size of the coordinates of two bodies, m.
+fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f64 {
+    let size = |i: usize| {
+        let reach = solids[i].reach() + solids[i].size();
+        if reach.is_finite() { state.location[bodies[i]].abs().max_element() + reach } else { 0.0 }
+    };
+    size(0).max(size(1))
+}

@@ -1,0 +1,129 @@
+//! Which pairs of bodies can touch soon.
+//!
+//! Pairs of boxes that are near each other are kept in a list until a body has moved farther than its box was made larger. For each
+//! pair, a lower bound of the gap is known, from which the ways of both are taken off: only where it is used up, somebody has to
+//! look. Source: L. Verlet, Phys. Rev. 159 (1967) 98, for the list.
+
+use glam::DVec3;
+
+use super::super::{Model, State};
+use super::path::{Path, pose};
+use super::solid::Solid;
+use super::{Contacts, Meeting};
+
+/// Boxes are made larger by so many times the way of a step.
+const WAYS: f64 = 8.0;
+
+/// Two bodies that may touch.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    /// Their numbers, the smaller one first.
+    pub(super) bodies: [usize; 2],
+    /// How their surfaces behave.
+    pub(super) law: Meeting,
+    /// A lower bound of their gap, m.
+    pub(super) free: f64,
+}
+
+/// The pairs that are near each other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pairs {
+    /// In the order of the numbers of their bodies.
+    pub(super) list: Vec<Pair>,
+    /// How far each body may still move before the list is made anew, m.
+    left: Vec<f64>,
+    is_known: bool,
+}
+
+impl Pairs {
+    /// Bodies have changed: the list is to be made anew.
+    pub(super) fn forget(&mut self) {
+        self.is_known = false;
+    }
+
+    /// Takes the ways of a step off, and makes the list anew where it is not long enough for it.
+    pub(super) fn follow(
+        &mut self,
+        contacts: &Contacts,
+        solids: &[Option<Solid>],
+        paths: &[Path],
+        (model, before): (&Model, &State),
+    ) {
+        let way = |i: usize| way(solids[i].as_ref(), &paths[i]);
+        let is_enough = self.is_known && (0..paths.len()).all(|i| way(i) <= self.left[i]);
+        if !is_enough {
+            let margins: Vec<f64> = (0..paths.len())
+                .map(|i| {
+                    let size = solids[i].as_ref().map_or(0.0, Solid::size);
+                    (WAYS * way(i)).max(if size.is_finite() { 0.25 * size } else { 0.0 })
+                })
+                .collect();
+            self.list = near(contacts, solids, &margins, (model, before));
+            self.left = margins;
+            self.is_known = true;
+        }
+        for (left, i) in self.left.iter_mut().zip(0..) {
+            *left -= way(i);
+        }
+        for pair in &mut self.list {
+            let [a, b] = pair.bodies;
+            pair.free -= way(a) + way(b);
+        }
+    }
+}
+
+/// The longest way of a point of a body's core within a step, m.
+pub(super) fn way(solid: Option<&Solid>, path: &Path) -> f64 {
+    let reach = solid.map_or(0.0, Solid::reach);
+    path.reach + if path.turn > 0.0 { path.turn * reach } else { 0.0 }
+}
+
+/// All pairs whose boxes, made larger by a margin each, overlap.
+fn near(
+    contacts: &Contacts,
+    solids: &[Option<Solid>],
+    margins: &[f64],
+    (model, state): (&Model, &State),
+) -> Vec<Pair> {
+    let mut boxes: Vec<(usize, [DVec3; 2])> = Vec::new();
+    for (i, solid) in solids.iter().enumerate() {
+        let (Some(solid), true) = (solid, model.is_present(i)) else { continue };
+        let [low, high] = solid.bounds(&pose(i, model, state));
+        boxes.push((i, [low - margins[i], high + margins[i]]));
+    }
+    // Swept along the axis on which they are spread the most.
+    let spread = |axis: usize| {
+        let ends = boxes.iter().map(|(_, [low, _])| low[axis]).filter(|low| low.is_finite());
+        let (least, most) = ends.fold((f64::MAX, f64::MIN), |(least, most), x| (least.min(x), most.max(x)));
+        most - least
+    };
+    let axis = (0..3).max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or(0);
+    boxes.sort_by(|(i, a), (j, b)| a[0][axis].total_cmp(&b[0][axis]).then(i.cmp(j)));
+    let mut pairs = Vec::new();
+    for (place, (i, [low, high])) in boxes.iter().enumerate() {
+        for (j, [other_low, other_high]) in &boxes[place + 1..] {
+            if other_low[axis] > high[axis] {
+                break;
+            }
+            if low.cmple(*other_high).all() && other_low.cmple(*high).all() {
+                let bodies = [*i.min(j), *i.max(j)];
+                if let Some(law) = law(contacts, bodies, model) {
+                    pairs.push(Pair { bodies, law, free: 0.0 });
+                }
+            }
+        }
+    }
+    pairs.sort_by_key(|pair| pair.bodies);
+    pairs
+}
+
+/// How two bodies behave where they touch; none where they pass through each other, or where forces move neither.
+fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<Meeting> {
+    let [a, b] = bodies;
+    let is_moved = |i: usize| model.inverse_mass()[i] != 0.0;
+    if !(is_moved(a) || is_moved(b)) || contacts.apart.contains(&(a, b)) {
+        return None;
+    }
+    let surface = |i: usize| contacts.surfaces.get(i).copied().flatten();
+    Some(surface(a)?.meet(&surface(b)?))
+}

@@ -1,0 +1,218 @@
+//! Bodies that hit each other: one pair after another, the fastest approach first.
+//!
+//! Places that touch at the same instant take part as gaps of zero: the impulse of one pair can make another approach, which is
+//! struck then. Where approaches are equally fast, the order of the bodies counts. What two bodies do at several places happens at
+//! once, and joints act at the same time as each impact.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::constraint::Solver;
+use super::super::{BodyId, Breakdown, Model, State};
+use super::Impact;
+use super::closed::Closed;
+use super::collider::{Collider, SLIGHT, Touching};
+use super::impulse::{Bounce, impulses};
+use super::nearest::Nearest;
+
+/// What rebounds with less than this part of the fastest approach rebounds no more: no picture and no table would show it.
+const REST: f64 = 1e-8;
+
+/// Places that part with less than this part of the fastest approach may stay closed.
+const STILL: f64 = 1e-9;
+
+/// So many impacts may follow each other in an instant, for each pair that touches.
+const ROUNDS: usize = 2_000;
+
+/// The place of an impact: the directions of its normal and its tangents, and where it is.
+#[derive(Clone, Copy)]
+struct Place {
+    axes: [DVec3; 3],
+    /// The ways to it from both centres of mass, m.
+    arms: [DVec3; 2],
+}
+
+/// The velocity and the angular velocity of a body.
+type Motion = (DVec3, DVec3);
+
+impl Place {
+    fn of(meeting: &Nearest, bodies: [usize; 2], state: &State) -> Place {
+        let (u, w) = meeting.normal.any_orthonormal_pair();
+        let arm = |i: usize| meeting.on[i] - state.location[bodies[i]];
+        Place { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
+    }
+
+    /// The velocity of the second body against the first, along the axes.
+    fn rate(&self, [a, b]: [Motion; 2]) -> DVec3 {
+        let apart = b.0 + b.1.cross(self.arms[1]) - a.0 - a.1.cross(self.arms[0]);
+        DVec3::from_array(self.axes.map(|axis| axis.dot(apart)))
+    }
+}
+
+impl Collider {
+    /// Strikes the bodies that touch and come nearer, until none do. Gives the places at which bodies may stay in touch.
+    pub(in crate::dynamics) fn strike(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: &mut State,
+        solver: &mut Solver,
+    ) -> Result<Vec<Arc<Closed>>, Breakdown> {
+        let touching = self.touching(model, state);
+        let places: Vec<Vec<Place>> = touching
+            .iter()
+            .map(|pair| {
+                pair.touches.iter().map(|touch| Place::of(&touch.meeting, pair.bodies, state)).collect()
+            })
+            .collect();
+        let jointed: Vec<bool> = touching
+            .iter()
+            .map(|pair| pair.bodies.iter().any(|&body| Collider::is_jointed(model, body)))
+            .collect();
+        if jointed.contains(&true) {
+            solver.hold_joints(model, time, state);
+        }
+        let approach = |i: usize, state: &State| {
+            let motions = touching[i].bodies.map(|body| motion(body, model, state));
+            places[i].iter().map(|place| -place.rate(motions).x).fold(0.0, f64::max)
+        };
+        for (pair, places) in touching.iter().zip(&places) {
+            let motions = pair.bodies.map(|body| motion(body, model, state));
+            let speeds = places.iter().map(|place| place.rate(motions).length());
+            self.fastest = speeds.fold(self.fastest, f64::max);
+        }
+        let mut speeds: Vec<f64> = (0..touching.len()).map(|i| approach(i, state)).collect();
+        for round in 0.. {
+            let fastest =
+                (0..touching.len()).max_by(|&i, &j| speeds[i].total_cmp(&speeds[j]).then(j.cmp(&i)));
+            let Some(i) = fastest.filter(|&i| speeds[i] > 0.0) else { break };
+            self.fastest = self.fastest.max(speeds[i]);
+            if speeds[i] <= SLIGHT * self.fastest {
+                break;
+            }
+            if round > ROUNDS * touching.len() {
+                if speeds[i] > STILL * self.fastest {
+                    return Err(Breakdown::Jammed { bodies: touching[i].bodies.map(BodyId::new), time });
+                }
+                // What is left is taken from all at once.
+                break;
+            }
+            let joints = if jointed[i] { Some(&mut *solver) } else { None };
+            self.strike_pair(&touching[i], &places[i], speeds[i], (model, time, state), joints);
+            for (j, speed) in speeds.iter_mut().enumerate() {
+                let shares = |body: &usize| touching[j].bodies.contains(body);
+                if jointed[j] || touching[i].bodies.iter().any(shares) {
+                    *speed = approach(j, state);
+                }
+            }
+        }
+        let mut closed = Vec::new();
+        for (pair, places) in touching.iter().zip(&places) {
+            let motions = pair.bodies.map(|body| motion(body, model, state));
+            let size = self.size(pair.bodies);
+            for (touch, place) in pair.touches.iter().zip(places) {
+                if place.rate(motions).x <= STILL * self.fastest {
+                    let touch = touch.clone();
+                    closed.push(Arc::new(Closed { bodies: pair.bodies, touch, law: pair.law, size }));
+                }
+            }
+        }
+        Ok(closed)
+    }
+
+    /// A typical length of the smaller of two bodies, m.
+    fn size(&self, bodies: [usize; 2]) -> f64 {
+        let size = |body: usize| self.solids[body].as_ref().map_or(f64::INFINITY, super::solid::Solid::size);
+        size(bodies[0]).min(size(bodies[1])).min(f64::MAX)
+    }
+
+    /// The impact of two bodies that approach each other at `speed`, m/s.
+    fn strike_pair(
+        &mut self,
+        pair: &Touching,
+        places: &[Place],
+        speed: f64,
+        (model, time, state): (&Model, f64, &mut State),
+        mut joints: Option<&mut Solver>,
+    ) {
+        let motions = |state: &State| pair.bodies.map(|body| motion(body, model, state));
+        let before: Vec<DVec3> = places.iter().map(|place| place.rate(motions(state))).collect();
+        let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= REST * self.fastest;
+        let bounce = Bounce {
+            restitution: if rests { 0.0 } else { pair.law.restitution },
+            friction: pair.law.friction,
+        };
+        let response = response(pair.bodies, places, model, state, joints.as_deref_mut());
+        let all = impulses(&vec![bounce; places.len()], &before, &response);
+        let (mut impulse, mut place, mut normal, mut weight) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, 0.0);
+        for (at, pushed) in places.iter().zip(&all) {
+            let push = at.axes[0] * pushed.x + at.axes[1] * pushed.y + at.axes[2] * pushed.z;
+            for (i, &body) in pair.bodies.iter().enumerate() {
+                let push = if i == 0 { -push } else { push };
+                let turn = at.arms[i].cross(push);
+                let inverse_mass = model.inverse_mass()[body];
+                if inverse_mass != 0.0 {
+                    state.velocity[body] += inverse_mass * push;
+                    state.angular_momentum[body] += turn;
+                } else {
+                    // What guides the body bears the impulse on it, and its work.
+                    let turning = turn.dot(model.angular_velocity(body, state));
+                    state.accounts.work -= push.dot(state.velocity[body]) + turning;
+                }
+            }
+            impulse += push;
+            place += pushed.x * (at.arms[1] + state.location[pair.bodies[1]]);
+            normal += pushed.x * at.axes[0];
+            weight += pushed.x;
+        }
+        if let Some(joints) = joints {
+            joints.obey_joints(model, state);
+        }
+        let after = places.iter().map(|place| place.rate(motions(state)));
+        let work = before
+            .iter()
+            .zip(after)
+            .zip(&all)
+            .map(|((before, after), pushed)| 0.5 * pushed.dot(*before + after));
+        let work: f64 = work.sum();
+        state.accounts.impacts += work;
+        if speed > REST * self.fastest && weight > 0.0 {
+            let (place, normal) = (place / weight, normal.normalize_or_zero());
+            let energy = (-work).max(0.0);
+            self.impacts.push(Impact { time, bodies: pair.bodies, place, normal, impulse, energy });
+        }
+    }
+}
+
+fn motion(body: usize, model: &Model, state: &State) -> Motion {
+    (state.velocity[body], model.angular_velocity(body, state))
+}
+
+/// J M⁻¹ Jᵀ of some places, row by row; joints let bodies move only as they allow.
+fn response(
+    bodies: [usize; 2],
+    places: &[Place],
+    model: &Model,
+    state: &State,
+    mut joints: Option<&mut Solver>,
+) -> Vec<f64> {
+    let n = 3 * places.len();
+    let mut response = vec![0.0; n * n];
+    for column in 0..n {
+        let place = &places[column / 3];
+        let push = place.axes[column % 3];
+        let pushes = [(-push, -place.arms[0].cross(push)), (push, place.arms[1].cross(push))];
+        let motions = match joints.as_deref_mut() {
+            Some(joints) => joints.respond(model, state, bodies, pushes),
+            None => std::array::from_fn(|i| model.respond(bodies[i], state, pushes[i])),
+        };
+        for (row, place) in places.iter().enumerate() {
+            let rate = place.rate(motions);
+            for axis in 0..3 {
+                response[(3 * row + axis) * n + column] = rate[axis];
+            }
+        }
+    }
+    response
+}

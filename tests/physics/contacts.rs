@@ -1,0 +1,330 @@
+//! Impacts, friction, rest and rolling, against closed forms.
+
+use std::collections::BTreeSet;
+
+use glam::{DQuat, DVec3};
+use jabuka::dynamics::{
+    Anchor, BodyId, Contacts, Dynamics, Method, RigidBody, Rod, Shape, Surface, UniformGravity, World,
+};
+
+use crate::common::method;
+
+const G: f64 = 9.81;
+const STEP: f64 = 1.0 / 240.0;
+
+/// A world under construction, in which all bodies touch.
+struct Table {
+    world: World,
+    shapes: Vec<Shape>,
+    surfaces: Vec<Option<Surface>>,
+    gravity: bool,
+}
+
+impl Table {
+    fn new(method: &'static Method, gravity: bool) -> Table {
+        let mut world = World::new();
+        world.set_integrator(method);
+        world.set_step(STEP);
+        Table { world, shapes: Vec::new(), surfaces: Vec::new(), gravity }
+    }
+
+    fn add(
+        &mut self,
+        shape: Shape,
+        mass: f64,
+        surface: Surface,
+        place: impl FnOnce(RigidBody) -> RigidBody,
+    ) -> BodyId {
+        let body = RigidBody::new(&shape, mass);
+        self.shapes.push(shape);
+        self.surfaces.push(Some(surface));
+        self.world.add(place(body))
+    }
+
+    fn floor(&mut self, surface: Surface) -> BodyId {
+        self.add(Shape::Plane { normal: DVec3::Y }, 1.0, surface, |body| body.with_fixed(true))
+    }
+
+    fn build(mut self) -> World {
+        self.world.add_shapes(self.shapes);
+        if self.gravity {
+            self.world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
+        }
+        self.world.collide(Contacts { surfaces: self.surfaces, apart: BTreeSet::new() });
+        self.world
+    }
+}
+
+/// Advances; nothing may break down.
+#[allow(clippy::unwrap_used, reason = "only tests call it")]
+fn advance(world: &mut World, t: f64) {
+    world.advance(t, &[], &mut |_| {}).unwrap();
+}
+
+fn surface(restitution: f64, friction: f64) -> Surface {
+    Surface { restitution: Some(restitution), friction: Some(friction), rolling_friction: None }
+}
+
+/// The methods whose places are exact where forces are constant.
+fn exact() -> [&'static Method; 2] {
+    [method("velocity-verlet"), method("rk4")]
+}
+
+/// Dropped from 1 m above its lowest place, a ball with restitution 1 comes back to the same height: the energy at the 100th apex
+/// is that of the first.
+#[test]
+fn the_hundredth_apex_is_as_high_as_the_first() {
+    for method in exact() {
+        let mut table = Table::new(method, true);
+        table.floor(Surface::default());
+        let ball = table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(1.0, 0.0), |body| {
+            body.with_location(DVec3::new(0.0, 1.1, 0.0))
+        });
+        let mut world = table.build();
+        let flight = (2.0 / G).sqrt();
+        let apex = flight * 200.0;
+        advance(&mut world, apex - 0.5 * flight);
+        assert!(world.balance().drift.abs() < 1e-12, "{}", world.balance().drift);
+        advance(&mut world, apex);
+        let height = world.location(ball).y - 0.1;
+        assert!((height - 1.0).abs() < 1e-9, "{}: {height}", method.name);
+        assert_eq!(world.impacts().len(), 100);
+    }
+}
+
+/// The sum of infinitely many bounces: t = √(2h/g) (1 + e) / (1 − e).
+#[test]
+fn a_ball_that_bounces_comes_to_rest_when_it_has_to() {
+    for method in exact() {
+        let mut table = Table::new(method, true);
+        table.floor(Surface::default());
+        let ball = table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.8, 0.0), |body| {
+            body.with_location(DVec3::new(0.0, 1.1, 0.0))
+        });
+        let mut world = table.build();
+        let rest = (2.0 / G).sqrt() * 1.8 / 0.2;
+        advance(&mut world, rest - 1e-6);
+        assert!(world.velocity(ball).length() > 0.0, "{}", method.name);
+        advance(&mut world, rest + 1e-6);
+        assert_eq!(world.velocity(ball), DVec3::ZERO, "{}", method.name);
+        for t in [4.1, 5.0, 20.0] {
+            advance(&mut world, t);
+            assert!((world.location(ball).y - 0.1).abs() < 1e-12, "{}", method.name);
+        }
+        let balance = world.balance();
+        assert!((balance.accounts.impacts + G).abs() < 1e-12 * G, "{balance:?}");
+        assert!(balance.drift.abs() < 1e-12, "{balance:?}");
+        let snapshot = world.snapshot().unwrap();
+        assert!((snapshot.contacts[0].force.y - G).abs() < 1e-12, "{:?}", snapshot.contacts);
+    }
+}
+
+/// A solid sphere that slides at 5 m/s rolls at 5/7 of that, after t = 2 v / (7 μ g).
+#[test]
+fn a_sphere_that_slides_begins_to_roll() {
+    for method in exact() {
+        let mut table = Table::new(method, true);
+        table.floor(Surface::default());
+        let ball = table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.0, 0.3), |body| {
+            body.with_location(DVec3::new(0.0, 0.1, 0.0)).with_velocity(DVec3::new(5.0, 0.0, 0.0))
+        });
+        let mut world = table.build();
+        let rolls = 2.0 * 5.0 / (7.0 * 0.3 * G);
+        advance(&mut world, rolls - 1e-6);
+        let slip = world.velocity(ball).x + 0.1 * world.angular_velocity(ball).z;
+        assert!((slip - 1e-6 * 3.5 * 0.3 * G).abs() < 1e-9, "{}: {slip}", method.name);
+        advance(&mut world, 1.0);
+        let slip = world.velocity(ball).x + 0.1 * world.angular_velocity(ball).z;
+        assert!(slip.abs() < 1e-14, "{}: {slip}", method.name);
+        assert!((world.velocity(ball).x - 25.0 / 7.0).abs() < 1e-9, "{}", method.name);
+        let way = 0.5 * (5.0 + 25.0 / 7.0) * rolls + 25.0 / 7.0 * (1.0 - rolls);
+        assert!(
+            (world.location(ball).x - way).abs() < 1e-9,
+            "{} {way} {}",
+            method.name,
+            world.location(ball)
+        );
+        let balance = world.balance();
+        assert!(balance.drift.abs() < 1e-9, "{balance:?}");
+    }
+}
+
+/// Two balls and a wall: the ratio of the masses is 100ᵏ, and the impacts spell π.
+#[test]
+fn impacts_spell_pi() {
+    for method in exact() {
+        for (ratio, count) in [(1.0, 3), (100.0, 31), (1e4, 314), (1e6, 3141), (1e8, 31415)] {
+            let mut table = Table::new(method, false);
+            let smooth = surface(1.0, 0.0);
+            table.add(Shape::Plane { normal: DVec3::X }, 1.0, smooth, |body| body.with_fixed(true));
+            let ball = Shape::Sphere { radius: 0.1 };
+            table.add(ball.clone(), 1.0, smooth, |body| body.with_location(DVec3::X));
+            table.add(ball, ratio, smooth, |body| {
+                body.with_location(DVec3::new(2.0, 0.0, 0.0)).with_velocity(DVec3::new(-1.0, 0.0, 0.0))
+            });
+            let mut world = table.build();
+            advance(&mut world, 10.0);
+            assert_eq!(world.impacts().len(), count, "{}", method.name);
+            assert!(world.balance().drift.abs() < 1e-9, "{} {:?}", method.name, world.balance());
+        }
+    }
+}
+
+/// Five balls that touch, on two rods each: as many as were lifted go up on the other side.
+#[test]
+fn a_cradle_whose_balls_touch_gives_on_what_it_gets() {
+    for lifted in 1..4 {
+        let mut table = Table::new(method("velocity-verlet"), true);
+        let mut balls = Vec::new();
+        for i in 0..5 {
+            let top = DVec3::new(0.2 * f64::from(i), 1.0, 0.0);
+            let angle: f64 = if i < lifted { 0.5 } else { 0.0 };
+            let at = top + DVec3::new(-libm::sin(angle), -libm::cos(angle), 0.0);
+            let ball = table
+                .add(Shape::Sphere { radius: 0.1 }, 1.0, surface(1.0, 0.0), |body| body.with_location(at));
+            balls.push((ball, top));
+        }
+        let mut world = table.build();
+        world.set_step(1.0 / 2000.0);
+        for (ball, top) in &balls {
+            for side in [-0.5, 0.5] {
+                let anchor = Anchor::Point(*top + side * DVec3::Z);
+                let length = (world.location(*ball) - (*top + side * DVec3::Z)).length();
+                world.add_constraint(Rod { between: [anchor, Anchor::centre(*ball)], length });
+            }
+        }
+        let angle = |world: &World, i: usize| {
+            let (ball, top) = balls[i];
+            let way = world.location(ball) - top;
+            libm::atan2(way.x, -way.y).to_degrees()
+        };
+        let mut most = vec![(0.0_f64, 0.0_f64); 5];
+        for k in 1..=2000 {
+            advance(&mut world, 0.01 * f64::from(k));
+            for (i, most) in most.iter_mut().enumerate() {
+                let a = angle(&world, i);
+                *most = (most.0.min(a), most.1.max(a));
+            }
+        }
+        eprintln!("{lifted}: {most:?} {:?} {}", world.balance(), world.impacts().len());
+        assert!(world.balance().drift.abs() < 1e-6, "{:?}", world.balance());
+    }
+}
+
+/// A tilted box as a ramp, at an angle α about z, and where a body with a half height stands on it.
+fn ramp(table: &mut Table, alpha: f64, surface: Surface) -> impl Fn(f64) -> (DVec3, DQuat) + use<> {
+    let turn = DQuat::from_rotation_z(alpha);
+    let up = turn * DVec3::Y;
+    table.add(Shape::Box { size: DVec3::new(40.0, 1.0, 4.0) }, 1.0, surface, |body| {
+        body.with_location(-0.5 * up).with_orientation(turn).with_fixed(true)
+    });
+    move |half| (half * up, turn)
+}
+
+/// x = ½ g (sin α − μ cos α) t² along the ramp where μ < tan α; otherwise it stays where it is.
+#[test]
+fn a_block_on_a_ramp_slides_or_sticks() {
+    let alpha = 30.0_f64.to_radians();
+    let (sin, cos) = libm::sincos(alpha);
+    for method in exact() {
+        for friction in [0.0, 0.1, 0.3, 0.4, 0.578, 0.7, 1.0] {
+            let mut table = Table::new(method, true);
+            let place = ramp(&mut table, alpha, Surface::default());
+            let (at, turn) = place(0.25);
+            let block = table.add(
+                Shape::Box { size: DVec3::new(1.0, 0.5, 0.8) },
+                2.0,
+                surface(0.0, friction),
+                |body| body.with_location(at).with_orientation(turn),
+            );
+            let mut world = table.build();
+            advance(&mut world, 1.0);
+            let way = (world.location(block) - at).dot(turn * DVec3::NEG_X);
+            let expected = (0.5 * G * (sin - friction * cos)).max(0.0);
+            assert!((way - expected).abs() < 1e-9, "{} {friction}: {way} {expected}", method.name);
+            assert!((world.orientation(block).dot(turn)).abs() > 1.0 - 1e-14);
+            assert!((world.location(block) - at).reject_from(turn * DVec3::X).length() < 1e-9);
+            let balance = world.balance();
+            assert!(expected == 0.0 || balance.drift.abs() < 1e-9, "{balance:?}");
+        }
+    }
+}
+
+/// Sphere, cylinder and hoop roll down a ramp with 5/7, 2/3 and 1/2 of g sin α.
+#[test]
+fn bodies_race_down_a_ramp() {
+    let alpha = 20.0_f64.to_radians();
+    for method in exact() {
+        let shapes = [
+            (Shape::Sphere { radius: 0.3 }, 0.4),
+            (Shape::Cylinder { radius: 0.3, height: 0.5 }, 0.5),
+            (Shape::Cylinder { radius: 0.3, height: 0.2 }, 1.0),
+        ];
+        for (shape, moment) in shapes {
+            let mut table = Table::new(method, true);
+            let place = ramp(&mut table, alpha, surface(0.0, 0.6));
+            let (at, turn) = place(0.3);
+            let lying = turn * DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+            let inertia = DVec3::new(0.06, moment * 0.09, 0.06);
+            let body = table.add(shape.clone(), 1.0, Surface::default(), |body| RigidBody {
+                inertia,
+                ..body.with_location(at).with_orientation(lying)
+            });
+            let mut world = table.build();
+            advance(&mut world, 1.0);
+            let way = (world.location(body) - at).dot(turn * DVec3::NEG_X);
+            let expected = 0.5 * G * libm::sin(alpha) / (1.0 + moment);
+            assert!((way - expected).abs() < 1e-9, "{} {shape:?}: {way} {expected}", method.name);
+            let balance = world.balance();
+            assert!(balance.drift.abs() < 1e-9, "{balance:?}");
+        }
+    }
+}
+
+/// Sixteen balls, the first of which runs into the others: momentum and energy stay, and back in time all come back.
+#[test]
+fn a_billiard_break_can_be_reversed() {
+    let build = |places: &[(DVec3, DVec3)]| {
+        let mut table = Table::new(method("velocity-verlet"), false);
+        let balls: Vec<BodyId> = places
+            .iter()
+            .map(|(place, velocity)| {
+                table.add(Shape::Sphere { radius: 0.028 }, 0.17, surface(1.0, 0.0), |body| {
+                    body.with_location(*place).with_velocity(*velocity)
+                })
+            })
+            .collect();
+        (table.build(), balls)
+    };
+    let mut places = vec![(DVec3::new(-0.6, 0.0, 0.002), DVec3::new(7.0, 0.0, 0.0))];
+    for row in 0..5_u32 {
+        for i in 0..=row {
+            let side = f64::from(2 * i) - f64::from(row);
+            places.push((DVec3::new(0.0505 * f64::from(row), 0.0, 0.0285 * side), DVec3::ZERO));
+        }
+    }
+    let (mut world, balls) = build(&places);
+    let before = world.balance();
+    let mut count = 0;
+    while count < 20 {
+        let t = world.time() + 1e-3;
+        advance(&mut world, t);
+        count += world.impacts().len();
+        assert!(t < 1.0, "{count}");
+    }
+    let turned: Vec<(DVec3, DVec3)> =
+        balls.iter().map(|&ball| (world.location(ball), -world.velocity(ball))).collect();
+    let time = world.time();
+    let (mut back, again) = build(&turned);
+    advance(&mut back, time);
+    for (ball, (place, velocity)) in again.iter().zip(&places) {
+        assert!((back.location(*ball) - place).length() < 1e-6);
+        assert!((back.velocity(*ball) + velocity).length() < 1e-6);
+    }
+    advance(&mut world, 3.0);
+    let after = world.balance();
+    assert!(
+        (after.linear_momentum - before.linear_momentum).length() < 1e-12 * before.linear_momentum.length()
+    );
+    assert!((after.total - before.total).abs() < 1e-10 * before.total);
+}
