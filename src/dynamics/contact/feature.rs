@@ -186,7 +186,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
 
 pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Vec<Feature> {
     let height = ends[0].distance(ends[1]);
-    let slant = height.hypot(radii[1] - radii[0]);
+    let slant = libm::hypot(height, radii[1] - radii[0]);
     // The direction of the side from the first end to the second: out from the axis, and along it.
     let side = [(radii[1] - radii[0]) / slant, height / slant];
     let at = 0.5 * (ends[0] + ends[1]);

@@ -18,6 +18,8 @@ mod path;
 mod solid;
 mod strike;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod touch;
 
 use std::collections::BTreeSet;

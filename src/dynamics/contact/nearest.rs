@@ -7,8 +7,8 @@ use super::gjk;
 use super::patch::meet;
 use super::solid::{Core, Part, Pose, Solid};
 
-/// Features count as near a place within so many sizes of a part: parry's places are less wrong.
-const NEAR: f64 = 1e-4;
+/// Features count as near a place within so many sizes of a part: parry's places are less wrong, but for round parts that overlap.
+const NEAR: f64 = 1e-3;
 /// A place counts as on a feature up to so many sizes beyond its end. What that changes of a gap is the square of it.
 pub(super) const EDGE: f64 = 1e-9;
 /// Parts with no more features than that are compared feature by feature.
@@ -135,49 +135,100 @@ pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3
 
 /// Where two convex parts are nearest to each other.
 ///
-/// For any unit vector n, the distance along n is no more than that of the parts, and it is the same for the right n (W. H. Nelson's
-/// separating planes; Ericson, *Real-Time Collision Detection*, 5.2). So the largest one over the normals of all pairs of features that may be the
+/// For any unit vector n, the distance along n is no more than that of the parts, and it is the same for the right n (C. Ericson,
+/// *Real-Time Collision Detection* (2005), 5.2). So the largest one over the normals of all pairs of features that may be the
 /// nearest ones is the gap, exact to rounding, and with its sign.
 fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
-    let few = a.features.len() * b.features.len() <= FEW;
-    let guess = if few { None } else { gjk::cores(a, pa, b, pb) };
-    let tolerance = NEAR * a.bound.max(b.bound);
-    let near = |part: &Part, pose: &Pose, place: Option<DVec3>| -> Vec<usize> {
-        let near = |feature: &Feature| {
-            place.is_none_or(|place| feature.is_near(pose.local(place), part.radius, tolerance))
+    let mut search = Search { a, pa, b, pb, best: None };
+    let all = |part: &Part| (0..part.features.len()).collect::<Vec<usize>>();
+    if a.features.len() * b.features.len() > FEW
+        && let Some(guess) = gjk::cores(a, pa, b, pb)
+    {
+        let tolerance = NEAR * a.bound.max(b.bound);
+        let near = |part: &Part, pose: &Pose, place: DVec3| {
+            let place = pose.local(place);
+            let near = |&i: &usize| part.features[i].is_near(place, part.radius, tolerance);
+            all(part).into_iter().filter(near).collect::<Vec<usize>>()
         };
-        (0..part.features.len()).filter(|&i| near(&part.features[i])).collect()
-    };
-    let places = guess.map(|guess| guess.on);
-    let near_a = near(a, pa, places.map(|on| on[0]));
-    let near_b = near(b, pb, places.map(|on| on[1]));
-    let mut best: Option<(f64, Nearest)> = None;
-    let mut consider = |found: Nearest| {
-        let along = separation(a, pa, b, pb, found.normal);
-        let better = best.is_none_or(|(other, nearest)| {
-            let digits = 1e-14 * (a.bound + b.bound + along.abs());
+        search.pairs(&near(a, pa, guess.on[0]), &near(b, pb, guess.on[1]));
+        if let Some(found) = search.answer() {
+            return found;
+        }
+        let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
+        search.consider(Nearest { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
+    }
+    search.pairs(&all(a), &all(b));
+    match search.best {
+        Some((along, found)) => Nearest { gap: along, ..found },
+        // Something is not a number.
+        None => Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
+    }
+}
+
+/// The search for the direction along which two parts are farthest apart.
+struct Search<'a> {
+    a: &'a Part,
+    pa: &'a Pose,
+    b: &'a Part,
+    pb: &'a Pose,
+    /// The distance along the best normal so far, and the meeting that has it.
+    best: Option<(f64, Nearest)>,
+}
+
+impl Search<'_> {
+    fn pairs(&mut self, of_a: &[usize], of_b: &[usize]) {
+        for &i in of_a {
+            for &j in of_b {
+                let (of_a, of_b) = (&self.a.features[i], &self.b.features[j]);
+                let found = meet(&of_a.patch, self.pa, &of_b.patch, self.pb);
+                if of_a.patch.has_no_normal_with(&of_b.patch) && self.is_nearest(of_a, of_b, &found) {
+                    self.best_of(found.gap, found);
+                } else {
+                    self.consider(found);
+                }
+            }
+        }
+    }
+
+    /// Whether a corner is nearest to a corner, an edge or a rim. The smaller the gap is, the more its normal is lost in rounding, and
+    /// with it the distance along it, but the gap is not.
+    fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
+        let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
+        [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
+            |(feature, pose, part, side, sign)| {
+                let place = pose.local(found.on[side]);
+                let normal = pose.orientation.conjugate() * (sign * found.normal);
+                feature.margin(place) > -EDGE * part.bound && feature.slack(place, normal) > -lost
+            },
+        )
+    }
+
+    fn consider(&mut self, found: Nearest) {
+        self.best_of(separation(self.a, self.pa, self.b, self.pb, found.normal), found);
+    }
+
+    fn best_of(&mut self, along: f64, found: Nearest) {
+        let digits = self.digits();
+        // Of meetings with one normal, that of the places that are nearest.
+        let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
                 || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits
         });
-        if better {
-            best = Some((along, found));
-        }
-    };
-    for &i in &near_a {
-        for &j in &near_b {
-            consider(meet(&a.features[i].patch, pa, &b.features[j].patch, pb));
+        if better && !along.is_nan() {
+            self.best = Some((along, found));
         }
     }
-    if let Some(guess) = guess {
-        let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
-        consider(Nearest { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
+
+    /// The best meeting, if it is certain: if the distance of its places is the distance along its normal.
+    fn answer(&self) -> Option<Nearest> {
+        let (along, found) = self.best?;
+        ((found.gap - along).abs() <= 4.0 * self.digits()).then_some(Nearest { gap: along, ..found })
     }
-    let Some((along, found)) = best else {
-        // Not a number went in.
-        return Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] };
-    };
-    // The mean of the two values of the gap would be no better: what is between supporting planes bounds it from below.
-    Nearest { gap: along, ..found }
+
+    /// What rounding may do to a distance, m.
+    fn digits(&self) -> f64 {
+        1e-14 * (self.a.bound + self.b.bound + (self.pb.location - self.pa.location).length())
+    }
 }
 
 /// How far apart two parts are along a unit vector from the first to the second, m.

@@ -106,6 +106,12 @@ impl Patch {
         }
     }
 
+    /// Whether two patches can only meet where neither of them has a normal, and no two edges cross.
+    pub(super) fn has_no_normal_with(&self, other: &Patch) -> bool {
+        let corner = |patch: &Patch| matches!(patch, Patch::Point { .. });
+        self.is_sharp() && other.is_sharp() && (corner(self) || corner(other))
+    }
+
     /// The balls whose envelope the patch is; `None` for planes and rims.
     fn spine(&self) -> Option<Spine> {
         let zero = DVec3::ZERO;
@@ -218,7 +224,11 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
         let across = from - s0 * u;
         let h = across.length();
         let taper = a.taper + b.taper * u.dot(v);
-        let s = s0 + taper * h / (1.0 - taper * taper).max(0.0).sqrt();
+        let below = (1.0 - taper * taper).max(0.0).sqrt();
+        if below < PARALLEL {
+            return nowhere(a.at + s0 * u, b.at + t * v, across.try_normalize().unwrap_or(DVec3::X));
+        }
+        let s = s0 + taper * h / below;
         let away = if a.outward == DVec3::ZERO { u.any_orthonormal_vector() } else { a.outward };
         return balls(a.at + s * u, a.radius + a.taper * s, b.at + t * v, b.radius + b.taper * t, away);
     }
@@ -228,20 +238,30 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let inverse = |x: f64, y: f64| [(x + cosine * y) / (sine * sine), (cosine * x + y) / (sine * sine)];
     let [s0, t0] = inverse(w.dot(u), -w.dot(v));
     let k = [a.taper, b.taper];
-    // Of sharp edges, the sides of the bodies tell which way is out, also where they overlap.
-    let out = unit.dot(a.outward - b.outward);
-    let edges = a.outward != DVec3::ZERO && b.outward != DVec3::ZERO;
-    let sign = if edges { out.signum() } else { 1.0_f64.copysign(h) };
-    if k == [0.0; 2] {
-        let normal = sign * unit;
-        let (on_a, on_b) = (a.at + s0 * u + a.radius * normal, b.at + t0 * v - b.radius * normal);
-        return Nearest { gap: sign * h - a.radius - b.radius, normal, on: [on_a, on_b] };
-    }
     let steepest = inverse(k[0], k[1]);
+    // The sides of the bodies tell which way is out of an edge, also where they overlap.
+    let out = unit.dot(a.outward - b.outward);
+    let sign = if out == 0.0 { 1.0_f64.copysign(h) } else { out.signum() };
+    // With signs, so that all is smooth also where the lines cross.
     let below = (1.0 - k[0] * steepest[0] - k[1] * steepest[1]).max(0.0).sqrt();
-    let scale = h.abs() / below;
+    if below < PARALLEL {
+        return nowhere(a.at + s0 * u, b.at + t0 * v, sign * unit);
+    }
+    let scale = sign * h / below;
     let (s, t) = (s0 + steepest[0] * scale, t0 + steepest[1] * scale);
-    balls(a.at + s * u, a.radius + k[0] * s, b.at + t * v, b.radius + k[1] * t, sign * unit)
+    let normal = sign * below * unit + steepest[1] * v - steepest[0] * u;
+    let radii = [a.radius + k[0] * s, b.radius + k[1] * t];
+    Nearest {
+        gap: scale - radii[0] - radii[1],
+        normal,
+        on: [a.at + s * u + radii[0] * normal, b.at + t * v - radii[1] * normal],
+    }
+}
+
+/// The lines of cones so steep that the gap becomes ever smaller along them: they are nearest at their ends, which are patches
+/// of their own.
+fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> Nearest {
+    Nearest { gap: f64::INFINITY, normal, on: [a, b] }
 }
 
 /// The middle of the length that two parallel lines have in common, from the middle of the second, m.

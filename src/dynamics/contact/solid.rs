@@ -113,7 +113,7 @@ impl Part {
             }
             Core::Frustum { ends, radii, .. } => {
                 let half = 0.5 * ends[0].distance(ends[1]);
-                (0.5 * (ends[0] + ends[1]), half.hypot(radii[0].max(radii[1])))
+                (0.5 * (ends[0] + ends[1]), libm::hypot(half, radii[0].max(radii[1])))
             }
             Core::Ground { at, .. } => (*at, f64::INFINITY),
         };
@@ -144,7 +144,7 @@ impl Part {
             Core::Frustum { ends, axis, radii } => {
                 let rim = |i: usize| {
                     let along = ends[i].dot(*axis);
-                    ((ends[i] - along * *axis).length() + radii[i]).hypot(along)
+                    libm::hypot((ends[i] - along * *axis).length() + radii[i], along)
                 };
                 rim(0).max(rim(1))
             }

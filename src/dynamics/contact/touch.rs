@@ -84,7 +84,7 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
-    /// No place is deeper than that, m: what is has to do with other sides of the parts.
+    /// Places that overlap by more are not nearest ones, m.
     depth: f64,
     found: Vec<Touch>,
 }
@@ -128,10 +128,9 @@ impl Pair<'_> {
         if nearest.gap > self.within {
             return;
         }
-        let depth = self.within + nearest.gap.abs();
-        self.depth = depth;
-        let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, depth);
-        let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, depth);
+        self.depth = self.within + nearest.gap.abs() + SAME * self.a.bound.min(self.b.bound);
+        let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, self.depth);
+        let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, self.depth);
         for &i in &near_a {
             for &j in &near_b {
                 if is_needed(&self.a.features[i].patch, &self.b.features[j].patch) {
@@ -202,7 +201,8 @@ impl Pair<'_> {
     /// Keeps a pair of patches, if the bodies touch there.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
-        if meeting.gap.is_nan() || meeting.gap > self.within || meeting.gap < -self.depth {
+        let expected = -2.0 * self.depth..=self.within;
+        if !expected.contains(&meeting.gap) {
             return;
         }
         let parts = [(self.a, self.pa, meeting.normal), (self.b, self.pb, -meeting.normal)];
@@ -280,16 +280,13 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
             matches!(other, Patch::Point { .. } | Patch::Circle { .. })
         }
-        // Two edges cross; of other sharp things, the normal is not smooth.
-        (Patch::Line { .. } | Patch::Circle { .. }, Patch::Line { .. } | Patch::Circle { .. }) => true,
-        _ => !(a.is_sharp() && b.is_sharp()),
+        _ => !a.has_no_normal_with(b),
     }
 }
 
 /// The features of a part that reach as far along a normal as its nearest place does, but for `depth`.
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
-    // What is tilted by rounding reaches less far at its other end.
-    let lowest = at.dot(normal) - depth - SAME * part.bound;
+    let lowest = at.dot(normal) - depth;
     (0..part.features.len()).filter(|&i| part.features[i].highest(normal, part) >= lowest).collect()
 }

@@ -10,8 +10,8 @@ use super::{PARALLEL, Spine, balls};
 
 /// Newton's method starts at the best of so many angles.
 const STARTS: u32 = 24;
-/// More steps than Newton's method ever needs from there.
-const STEPS: u32 = 30;
+/// More steps than it takes to halve an interval down to rounding.
+const STEPS: u32 = 60;
 
 /// The rim of a flat end.
 #[derive(Clone, Copy, Debug)]
@@ -52,30 +52,32 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
         let from = rim.centre + rim.radius * radial - spine.at;
         slope * across(from).length() - spine.taper * from.dot(v)
     };
-    let mut angle = start(|angle| value(rim.radial(angle)));
-    for _ in 0..STEPS {
+    // The line goes on beyond the ends of the edge, so the search starts where the edge itself is nearest.
+    let beyond = |radial: DVec3| {
+        let from = rim.centre + rim.radius * radial - spine.at;
+        (from.dot(v).abs() - spine.half).max(0.0)
+    };
+    let gap = |angle: f64| {
+        let radial = rim.radial(angle);
+        let (gap, beyond) = (value(radial) - spine.radius, beyond(radial));
+        if beyond > 0.0 { libm::hypot(gap.max(0.0), beyond) } else { gap }
+    };
+    let angle = lowest(gap, |angle| {
         let radial = rim.radial(angle);
         let tangent = rim.radius * rim.axis.cross(radial);
         let (from, bend) = (rim.centre + rim.radius * radial - spine.at, -rim.radius * radial);
         let (d, dt, db) = (across(from), across(tangent), across(bend));
         // Of half the square of the distance, which is smooth also where it is 0.
         let (first, second) = (d.dot(dt), dt.length_squared() + d.dot(db));
-        let (first, second) = if spine.taper == 0.0 {
-            (first, second)
-        } else {
-            let h = d.length().max(f64::MIN_POSITIVE);
-            (
-                slope * first / h - spine.taper * tangent.dot(v),
-                slope * (second / h - first * first / (h * h * h)) - spine.taper * bend.dot(v),
-            )
-        };
-        let step = if second > 0.0 { first / second } else { first.signum() * 0.1 };
-        let step = step.clamp(-0.3, 0.3);
-        angle -= step;
-        if step.abs() < 1e-16 {
-            break;
+        if spine.taper == 0.0 {
+            return [first, second];
         }
-    }
+        let h = d.length().max(f64::MIN_POSITIVE);
+        [
+            slope * first / h - spine.taper * tangent.dot(v),
+            slope * (second / h - first * first / (h * h * h)) - spine.taper * bend.dot(v),
+        ]
+    });
     let radial = rim.radial(angle);
     let place = rim.centre + rim.radius * radial;
     let from = place - spine.at;
@@ -91,43 +93,23 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
 
 /// Where two rims are nearest.
 pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
-    let on_b = |place: DVec3| b.centre + b.radius * b.towards(place);
-    let mut angle = start(|angle| {
-        let place = a.centre + a.radius * a.radial(angle);
-        (on_b(place) - place).length()
-    });
-    let first = b.towards(a.centre + a.radius * a.radial(angle));
-    let (x, y) = (first, b.axis.cross(first));
-    let radial_b = |other: f64| libm::cos(other) * x + libm::sin(other) * y;
-    let mut other = 0.0;
-    for _ in 0..STEPS {
-        let (ra, rb) = (a.radial(angle), radial_b(other));
-        let d = b.centre + b.radius * rb - a.centre - a.radius * ra;
+    let place_a = |angle: f64| a.centre + a.radius * a.radial(angle);
+    let gap = |angle: f64| {
+        let place = place_a(angle);
+        (b.centre + b.radius * b.towards(place) - place).length()
+    };
+    // Of half the square of the distance from the nearest place of the other rim.
+    let angle = lowest(gap, |angle| {
+        let place = place_a(angle);
+        let (ra, rb) = (a.radial(angle), b.towards(place));
+        let d = b.centre + b.radius * rb - place;
         let (ta, tb) = (a.radius * a.axis.cross(ra), b.radius * b.axis.cross(rb));
-        let gradient = [-d.dot(ta), d.dot(tb)];
-        let [p, q, r] = [
-            ta.length_squared() + a.radius * d.dot(ra),
-            -ta.dot(tb),
-            tb.length_squared() - b.radius * d.dot(rb),
-        ];
-        let determinant = p * r - q * q;
-        let (da, db) = if p > 0.0 && determinant > 1e-12 * p * r.abs() {
-            (
-                (r * gradient[0] - q * gradient[1]) / determinant,
-                (p * gradient[1] - q * gradient[0]) / determinant,
-            )
-        } else {
-            // Downhill, where Newton's method would go up.
-            (0.5 * gradient[0] / ta.length_squared(), 0.5 * gradient[1] / tb.length_squared())
-        };
-        let (da, db) = (da.clamp(-0.3, 0.3), db.clamp(-0.3, 0.3));
-        angle -= da;
-        other -= db;
-        if da.abs() + db.abs() < 1e-16 {
-            break;
-        }
-    }
-    let (ra, rb) = (a.radial(angle), radial_b(other));
+        let own = ta.length_squared() + a.radius * d.dot(ra);
+        let other = tb.length_squared() - b.radius * d.dot(rb);
+        let both = ta.dot(tb);
+        [-d.dot(ta), own - both * both / other]
+    });
+    let (ra, rb) = (a.radial(angle), b.towards(place_a(angle)));
     let places = [a.centre + a.radius * ra, b.centre + b.radius * rb];
     crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
 }
@@ -145,15 +127,45 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     Nearest { gap, normal, on: [p, q - radius * normal] }
 }
 
-/// The angle at which a function is smallest among those at which Newton's method may start.
-fn start(value: impl Fn(f64) -> f64) -> f64 {
+/// The angle at which a function has its smallest minimum: where the first of two derivatives is 0, to rounding.
+///
+/// Newton's method, within an interval that is halved where it would leave it.
+fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let apart = TAU / f64::from(STARTS);
     let mut best = (f64::INFINITY, 0.0);
     for step in 0..STARTS {
-        let angle = TAU * f64::from(step) / f64::from(STARTS);
+        let angle = apart * f64::from(step);
         let here = value(angle);
         if here < best.0 {
             best = (here, angle);
         }
     }
-    best.1
+    let mut angle = best.1;
+    let (mut low, mut high) = (angle - apart, angle + apart);
+    // The value counts the ends of an edge, and the derivatives do not.
+    for _ in 0..STARTS {
+        if derivatives(low)[0] > 0.0 {
+            low -= apart;
+        } else if derivatives(high)[0] < 0.0 {
+            high += apart;
+        } else {
+            break;
+        }
+    }
+    for _ in 0..STEPS {
+        let [first, second] = derivatives(angle);
+        if first > 0.0 {
+            high = angle;
+        } else {
+            low = angle;
+        }
+        let next = angle - first / second;
+        let next = if second > 0.0 && next >= low && next <= high { next } else { 0.5 * (low + high) };
+        let step = next - angle;
+        angle = next;
+        if step.abs() < 1e-16 || first == 0.0 {
+            break;
+        }
+    }
+    angle
 }
