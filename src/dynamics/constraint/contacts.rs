@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::super::contact::Closed;
 use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
+use super::friction::Grip;
 use super::jacobian::{move_members, products};
 use super::modes::Mode;
 use super::solver::Solver;
@@ -32,6 +33,11 @@ impl Solver {
             self.contacts = contacts;
             self.forget();
         }
+    }
+
+    /// The next step is so long, s.
+    pub(in crate::dynamics) fn set_span(&mut self, span: f64) {
+        self.span = span;
     }
 
     /// Notes that the run cannot go on.
@@ -69,7 +75,7 @@ impl Solver {
             .map(|grip| {
                 let of = |first: &&Option<usize>| first.is_some_and(|row| row == grip.normal);
                 let constraint = self.first_row.iter().position(|first| of(&first)).unwrap_or_default();
-                (constraint, grip.row - grip.normal, grip.push, grip.heading)
+                (constraint, grip.row - grip.normal, grip.clone())
             })
             .collect();
         let kept_before =
@@ -86,14 +92,15 @@ impl Solver {
                 self.modes[*row..*row + modes.len()].copy_from_slice(&modes);
             }
         }
-        for (constraint, offset, push, heading) in grips {
+        for (constraint, offset, known) in grips {
             if constraint >= joints && !keep[constraint - joints] {
                 continue;
             }
             let normal = self.first_row[kept_before(constraint)];
             for grip in &mut self.grips {
                 if Some(grip.normal) == normal && grip.row == grip.normal + offset {
-                    (grip.push, grip.heading) = (push, heading);
+                    let Grip { push, heading, is_beginning, strength, .. } = known;
+                    *grip = Grip { push, heading, is_beginning, strength, ..grip.clone() };
                 }
             }
         }

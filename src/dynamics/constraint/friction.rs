@@ -14,6 +14,12 @@ use super::{Law, jacobian};
 /// So many rounds find the normal forces of contacts that slide.
 const ROUNDS: usize = 200;
 
+/// What slides slower than so many times what friction changes in a step slides slowly.
+const SLOWLY: f64 = 2.0;
+
+/// Directions are about the same where the cosine of their angle is larger.
+const ABOUT: f64 = 0.99;
+
 /// A slip below this part of the largest rate has no direction of its own.
 pub(super) const SLOW: f64 = 1e-9;
 
@@ -32,6 +38,10 @@ pub(super) struct Grip {
     pub(super) heading: DVec2,
     /// Whether it has just begun to slide, and does not yet move.
     pub(super) is_beginning: bool,
+    /// Whether the two bodies touch at other places as well.
+    pub(super) is_shared: bool,
+    /// By how much friction could change slips, m/s² or rad/s², when it was decided last.
+    pub(super) strength: f64,
 }
 
 impl Grip {
@@ -50,6 +60,13 @@ impl Grip {
                         push,
                         heading,
                         is_beginning: false,
+                        is_shared: structure
+                            .places
+                            .iter()
+                            .filter(|other| other.bodies == place.bodies)
+                            .count()
+                            > 1,
+                        strength: 0.0,
                     });
                     row += 1;
                 }
@@ -57,6 +74,14 @@ impl Grip {
             }
         }
         grips
+    }
+
+    /// Whether it slides so slowly, in about the same direction as before, that friction would turn the slip around within a step of
+    /// `span` seconds. Where several places share a body, what rounding makes of the directions would then grow from step to step.
+    fn keeps_heading(&self, slip: DVec2, span: f64) -> bool {
+        self.is_shared
+            && slip.length() < SLOWLY * self.strength * span
+            && slip.dot(self.heading) > ABOUT * slip.length()
     }
 
     /// Its part of a list with one value for each row.
@@ -88,7 +113,7 @@ impl Solver {
             // Where a slip only begins or ends, it goes where it was found to go. Once it is over, that goes on until the step is
             // made anew up to there, so that forces are smooth in it.
             let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
-            if !grip.is_beginning {
+            if !grip.is_beginning && !grip.keeps_heading(slip, self.span) {
                 grip.push = if goes_on { -slip / speed } else { -grip.heading };
             }
         }
@@ -102,7 +127,7 @@ impl Solver {
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             grip.is_beginning = false;
             let slip = grip.of(&self.slips);
-            if slip.length() > slow {
+            if slip.length() > slow && !grip.keeps_heading(slip, self.span) {
                 grip.heading = slip.normalize();
             }
             grip.push = -grip.heading;
@@ -203,6 +228,17 @@ impl Solver {
     /// The sum of the sizes of the entries of A between a row of friction and all others: it bounds how much they change each other.
     fn stiffness(&self, row: usize) -> f64 {
         self.factor.row_size(row, |other| matches!(self.laws[other], Law::Friction { .. }))
+    }
+
+    /// Notes how strong friction is.
+    pub(super) fn see_strength(&mut self) {
+        for i in 0..self.grips.len() {
+            let Grip { row, normal, coefficient, .. } = self.grips[i];
+            if self.modes[row] == Mode::Slid {
+                let stiffness = self.stiffness(row).max(self.stiffness(row + 1));
+                self.grips[i].strength = coefficient * self.unknown[normal].max(0.0) * stiffness;
+            }
+        }
     }
 
     /// Changes all pairs of rows that do not slip yet, by what they push and how they accelerate: those stick for which the friction

@@ -121,6 +121,7 @@ impl Solver {
             self.take_grip(grip, &rates);
         }
         self.go_on(model, t, state, loads, (&members, &can_hold, &rates));
+        self.see_strength();
     }
 
     /// c'' of each row, as the present modes make it. `members` are the bodies, which this uses up.

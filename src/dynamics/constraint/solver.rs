@@ -35,6 +35,8 @@ pub(in crate::dynamics) struct Solver {
     /// The members at the beginning of the step, and when that is, s.
     origin: Vec<Member>,
     begun: f64,
+    /// How long the present step is, s.
+    pub(super) span: f64,
     /// Whether a step is aimed at its end.
     pub(super) is_aiming: bool,
     /// The motions of members that are given.

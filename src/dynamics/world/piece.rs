@@ -138,6 +138,7 @@ impl World {
     }
 
     fn make_step(&mut self, t: f64, dt: f64) {
+        self.solver.set_span(dt);
         let mut system = System::new(&self.model, &mut self.solver);
         system.begin(t, &self.state);
         self.integrator.advance(&mut system, t, dt, &mut self.state);
