@@ -7,7 +7,6 @@ use glam::DVec3;
 use super::super::contact::Closed;
 use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
-use super::friction::Grip;
 use super::jacobian::{move_members, products};
 use super::modes::Mode;
 use super::solver::Solver;
@@ -50,60 +49,21 @@ impl Solver {
         self.failure.is_some()
     }
 
-    /// Lets go of the contacts that do not push; the others go on as they are.
-    pub(in crate::dynamics) fn drop_open_contacts(&mut self, model: &Model) {
-        let Some(structure) = &self.structure else { return };
+    /// Lets go of the contacts that do not push. Returns whether there were some; what the others do is to be decided anew then.
+    pub(in crate::dynamics) fn drop_open_contacts(&mut self, model: &Model) -> bool {
         let joints = model.constraints().len();
-        let is_held = |k: usize| self.first_row[joints + k].is_some_and(|row| self.modes[row] == Mode::Held);
+        let is_held = |k: usize| {
+            let row = self.first_row.get(joints + k).copied().flatten();
+            row.is_some_and(|row| self.modes[row] == Mode::Held)
+        };
         let keep: Vec<bool> = (0..self.contacts.len()).map(is_held).collect();
         if keep.iter().all(|keep| *keep) {
-            return;
+            return false;
         }
-        // What each constraint that stays does, to be written into the new structure.
-        let mut states = Vec::new();
-        for (constraint, first) in self.first_row.iter().enumerate() {
-            let stays = constraint.checked_sub(joints).is_none_or(|k| keep[k]);
-            let rows = structure.places.iter().find(|place| place.constraint == constraint);
-            if stays {
-                let modes = first.zip(rows).map(|(row, place)| self.modes[row..row + place.rows].to_vec());
-                states.push(modes);
-            }
-        }
-        let grips: Vec<_> = self
-            .grips
-            .iter()
-            .map(|grip| {
-                let of = |first: &&Option<usize>| first.is_some_and(|row| row == grip.normal);
-                let constraint = self.first_row.iter().position(|first| of(&first)).unwrap_or_default();
-                (constraint, grip.row - grip.normal, grip.clone())
-            })
-            .collect();
-        let kept_before =
-            |constraint: usize| constraint - (joints..constraint).filter(|k| !keep[k - joints]).count();
-        let mut index = 0;
-        self.contacts.retain(|_| {
-            index += 1;
-            keep[index - 1]
-        });
+        let mut keep = keep.into_iter();
+        self.contacts.retain(|_| keep.next().unwrap_or(false));
         self.forget();
-        self.plan(model);
-        for (first, modes) in self.first_row.iter().zip(states) {
-            if let (Some(row), Some(modes)) = (first, modes) {
-                self.modes[*row..*row + modes.len()].copy_from_slice(&modes);
-            }
-        }
-        for (constraint, offset, known) in grips {
-            if constraint >= joints && !keep[constraint - joints] {
-                continue;
-            }
-            let normal = self.first_row[kept_before(constraint)];
-            for grip in &mut self.grips {
-                if Some(grip.normal) == normal && grip.row == grip.normal + offset {
-                    let Grip { push, heading, is_beginning, strength, .. } = known;
-                    *grip = Grip { push, heading, is_beginning, strength, ..grip.clone() };
-                }
-            }
-        }
+        true
     }
 
     /// Solves A x = b for the rows that hold.

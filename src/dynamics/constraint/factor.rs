@@ -30,6 +30,8 @@ pub(super) struct Factor {
     /// Of rows that give way a little, so that those that others imply share the load, the row with which each does so alike: itself,
     /// or the other tangent of a contact, so that it does not matter how tangents are turned. See [`SOFT`].
     soft: Vec<Option<usize>>,
+    /// How much more than others each soft row gives way.
+    weights: Vec<f64>,
     /// Room to work in; all zero between two calls.
     work: Vec<f64>,
 }
@@ -73,7 +75,7 @@ struct Crossing {
 
 /// By this part of its diagonal, or of the mean of two, a soft row gives way. Refining the solution takes it out again, but for how loads are shared: rows
 /// that imply each other get those with the smallest sum of squares.
-const SOFT: f64 = 1e-6;
+const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
 
@@ -183,7 +185,7 @@ impl Factor {
     /// Factorises the matrix. `held` says which rows take part; where `choose` is set, those that others imply are taken out
     /// of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
-        let Factor { lines, matrix, crossings, lower, inverse, soft, work, .. } = self;
+        let Factor { lines, matrix, crossings, lower, inverse, soft, weights, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
             for entry in &matrix[line.column.clone()] {
                 work[entry.row] = entry.value;
@@ -192,7 +194,7 @@ impl Factor {
             let partner = soft.get(k).copied().flatten();
             let is_soft = partner.is_some();
             let give = partner.map_or(0.0, |row| 0.5 * (diagonal + matrix[lines[row].column.end - 1].value));
-            let mut pivot = diagonal + SOFT * give;
+            let mut pivot = diagonal + SOFT * give * weights.get(k).unwrap_or(&1.0);
             for &Crossing { column, first, at } in &crossings[line.crossings.clone()] {
                 let value = std::mem::take(&mut work[column]);
                 for entry in &lower[first..at] {
@@ -212,7 +214,14 @@ impl Factor {
 
     /// Sets which rows are soft, and with which other row; by default none is.
     pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
+        self.weights = vec![1.0; soft.len()];
         self.soft = soft;
+    }
+
+    /// Sets how much more than others each soft row gives way.
+    pub(super) fn weigh(&mut self, weights: impl IntoIterator<Item = (usize, f64)>) {
+        self.weights.fill(1.0);
+        weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
     }
 
     /// Whether some row is soft, so that solutions have to be refined.

@@ -17,6 +17,9 @@ const ROUNDS: usize = 200;
 /// What slides slower than so many times what friction changes in a step slides slowly.
 const SLOWLY: f64 = 2.0;
 
+/// The loads of places may be so many times more or less than their mean for friction to be shared accordingly.
+const UNLIKE: f64 = 10.0;
+
 /// Directions are about the same where the cosine of their angle is larger.
 const ABOUT: f64 = 0.99;
 
@@ -228,6 +231,17 @@ impl Solver {
     /// The sum of the sizes of the entries of A between a row of friction and all others: it bounds how much they change each other.
     fn stiffness(&self, row: usize) -> f64 {
         self.factor.row_size(row, |other| matches!(self.laws[other], Law::Friction { .. }))
+    }
+
+    /// Lets places where bodies press harder take more of what friction has to hold: all reach their limits together. The normal forces
+    /// are those that were found last.
+    pub(super) fn share_load(&mut self) {
+        let loads: Vec<f64> = self.grips.iter().map(|grip| self.unknown[grip.normal].max(0.0)).collect();
+        let sum: f64 = loads.iter().sum();
+        let weight = |load: f64| (sum / (self.grips.len() as f64 * load)).clamp(1.0 / UNLIKE, UNLIKE);
+        let weights = self.grips.iter().zip(&loads).filter(|_| sum > 0.0);
+        let weights = weights.flat_map(|(grip, load)| [0, 1].map(|i| (grip.row + i, weight(*load))));
+        self.factor.weigh(weights);
     }
 
     /// Notes how strong friction is.

@@ -215,6 +215,12 @@ impl Solver {
     ) {
         let n = self.rows.len();
         let is_free = can_hold.iter().all(|can| !can);
+        if !self.grips.is_empty() {
+            self.factor.weigh([]);
+            self.hold();
+            self.see_accelerations(model, t, state, loads, members);
+            self.share_load();
+        }
         for round in 0..rounds(n) {
             self.hold();
             if is_free {

@@ -109,10 +109,12 @@ impl World {
             }
         };
         self.solver.take_contacts(closed);
-        let mut system = System::new(&self.model, &mut self.solver);
-        if system.is_constrained() {
+        while !self.solver.is_idle(&self.model) {
+            let mut system = System::new(&self.model, &mut self.solver);
             system.decide(t, &mut self.state, &mut self.loads);
-            self.solver.drop_open_contacts(&self.model);
+            if !self.solver.drop_open_contacts(&self.model) {
+                break;
+            }
         }
     }
 
