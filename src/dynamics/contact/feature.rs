@@ -9,13 +9,15 @@ use super::solid::{Part, Pose};
 #[derive(Clone, Debug)]
 pub(super) struct Feature {
     pub(super) patch: Patch,
-    outline: Outline,
-    normals: Normals,
+    pub(super) outline: Outline,
+    pub(super) normals: Normals,
+    /// Whether it is inside a surface of triangles, so that nothing touches there: a face is nearer.
+    pub(super) is_seam: bool,
 }
 
 /// Where the places of a feature are.
 #[derive(Clone, Debug)]
-enum Outline {
+pub(super) enum Outline {
     /// Wherever the patch is.
     All,
     /// No farther than `half` from the middle, along a unit direction.
@@ -28,7 +30,7 @@ enum Outline {
 
 /// Which directions are normals of the body at a feature.
 #[derive(Clone, Debug)]
-enum Normals {
+pub(super) enum Normals {
     /// All that the patch has.
     All,
     /// Those that point away from each of these unit directions, which go along the surface.
@@ -41,9 +43,14 @@ enum Normals {
 }
 
 impl Feature {
+    /// A patch with where it ends, and its normals.
+    pub(super) fn new(patch: Patch, outline: Outline, normals: Normals) -> Feature {
+        Feature { patch, outline, normals, is_seam: false }
+    }
+
     /// A patch that has no end.
     pub(super) fn all(patch: Patch) -> Feature {
-        Feature { patch, outline: Outline::All, normals: Normals::All }
+        Feature::new(patch, Outline::All, Normals::All)
     }
 
     /// How far a place on the patch is from where the feature ends, m; negative beyond it.
@@ -129,11 +136,13 @@ pub(super) fn features_of_capsule(ends: [DVec3; 2], radius: f64) -> Vec<Feature>
         patch: Patch::Point { at, radius },
         outline: Outline::All,
         normals: Normals::Away(vec![inward]),
+        is_seam: false,
     };
     let side = Feature {
         patch: Patch::Line { at, along, half, radius, outward: DVec3::ZERO },
         outline: Outline::Length { at, along, half },
         normals: Normals::All,
+        is_seam: false,
     };
     vec![side, end(ends[0], along), end(ends[1], -along)]
 }
@@ -152,6 +161,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
                 patch: Patch::Plane { at: centre + radius * normal, normal },
                 outline: Outline::Edges(vec![edge(j, 1.0), edge(j, -1.0), edge(k, 1.0), edge(k, -1.0)]),
                 normals: Normals::All,
+                is_seam: false,
             });
         }
     }
@@ -163,6 +173,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
                 patch: Patch::Line { at, along: axes[i], half: half[i], radius, outward: y + z },
                 outline: Outline::Length { at, along: axes[i], half: half[i] },
                 normals: Normals::Away(vec![-y, -z]),
+                is_seam: false,
             });
         }
     }
@@ -177,6 +188,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
                     },
                     outline: Outline::All,
                     normals: Normals::Away(vec![-x, -y, -z]),
+                    is_seam: false,
                 });
             }
         }
@@ -201,6 +213,7 @@ pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]
         patch: round,
         outline: Outline::Length { at, along: axis, half },
         normals: Normals::All,
+        is_seam: false,
     }];
     for (centre, radius, out, side) in
         [(ends[0], radii[0], -axis, side), (ends[1], radii[1], axis, side.map(|part| -part))]
@@ -210,6 +223,7 @@ pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]
                 patch: Patch::Point { at: centre, radius: 0.0 },
                 outline: Outline::All,
                 normals: Normals::Tip { axis: out, half_angle: [side[1].abs(), side[0].abs()] },
+                is_seam: false,
             });
             continue;
         }
@@ -217,11 +231,13 @@ pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]
             patch: Patch::Plane { at: centre, normal: out },
             outline: Outline::Disc { centre, radius },
             normals: Normals::All,
+            is_seam: false,
         });
         features.push(Feature {
             patch: Patch::Circle { centre, axis: out, radius },
             outline: Outline::All,
             normals: Normals::Rim { centre, axis, side },
+            is_seam: false,
         });
     }
     features

@@ -21,6 +21,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod touch;
+mod triangles;
 
 use std::collections::BTreeSet;
 

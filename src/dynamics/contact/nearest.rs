@@ -4,13 +4,17 @@ use glam::DVec3;
 
 use super::feature::Feature;
 use super::gjk;
-use super::patch::meet;
+use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
 /// Features count as near a place within so many sizes of a part: parry's places are less wrong, but for round parts that overlap.
 const NEAR: f64 = 1e-3;
 /// A place counts as on a feature up to so many sizes beyond its end. What that changes of a gap is the square of it.
 pub(super) const EDGE: f64 = 1e-9;
+/// The same for the edges of a triangle, beyond which there may be another one that is a little bent.
+const SEAM: f64 = 1e-7;
+/// The search among triangles begins within so many sizes.
+const START: f64 = 0.25;
 /// Parts with no more features than that are compared feature by feature.
 const FEW: usize = 16;
 
@@ -49,19 +53,56 @@ pub(in crate::dynamics) fn nearest(
     beyond: f64,
 ) -> Option<Nearest> {
     let mut best: Option<Nearest> = None;
-    for part_a in a.parts() {
-        for part_b in b.parts() {
-            let limit = best.map_or(beyond, |best| best.gap.min(beyond));
-            if apart(part_a, pa, part_b, pb) > limit {
-                continue;
+    let mut within = if a.is_surface() || b.is_surface() { START * a.size().min(b.size()) } else { beyond };
+    loop {
+        for_pairs(a, pa, b, pb, within, &mut |i, j| {
+            let (part_a, part_b) = (&a.parts()[i], &b.parts()[j]);
+            if apart(part_a, pa, part_b, pb) <= best.map_or(beyond, |best| best.gap.min(beyond)) {
+                let found = between(part_a, pa, part_b, pb);
+                if found.gap <= beyond && best.is_none_or(|best| found.gap < best.gap) {
+                    best = Some(found);
+                }
             }
-            let found = between(part_a, pa, part_b, pb);
-            if found.gap <= beyond && best.is_none_or(|best| found.gap < best.gap) {
-                best = Some(found);
+        });
+        // Among the triangles that are within reach, the nearest one is the nearest of all if its gap is no larger.
+        if best.is_some_and(|best| best.gap <= within) || within >= beyond || !within.is_finite() {
+            return best.filter(|best| best.gap.is_finite());
+        }
+        within *= 4.0;
+    }
+}
+
+/// Calls `look` with the numbers of all parts that may be nearer to each other than `within`, in rising order.
+pub(super) fn for_pairs(
+    a: &Solid,
+    pa: &Pose,
+    b: &Solid,
+    pb: &Pose,
+    within: f64,
+    look: &mut dyn FnMut(usize, usize),
+) {
+    match (a.tree(), b.tree()) {
+        (_, Some(tree)) => {
+            for (i, part) in a.parts().iter().enumerate() {
+                for j in tree.near(part.box_in(pa, pb), within, b.parts().len()) {
+                    look(i, j);
+                }
+            }
+        }
+        (Some(_), None) => {
+            let mut pairs = Vec::new();
+            for_pairs(b, pb, a, pa, within, &mut |j, i| pairs.push((i, j)));
+            pairs.sort_unstable();
+            pairs.into_iter().for_each(|(i, j)| look(i, j));
+        }
+        (None, None) => {
+            for i in 0..a.parts().len() {
+                for j in 0..b.parts().len() {
+                    look(i, j);
+                }
             }
         }
     }
-    best
 }
 
 /// A distance that is not larger than that of two parts, m.
@@ -103,27 +144,38 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
     Nearest { gap, normal, on: [place - gap * normal, place] }
 }
 
+/// How far beyond the end of a feature of a part a place counts as on it, m; of what touches it, whether it is round.
+pub(super) fn edge(part: &Part, round: bool) -> f64 {
+    part.bound * if round && part.surface.is_some() { SEAM } else { EDGE }
+}
+
 /// Where a ball and a convex part are nearest, and the feature of the part.
 pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
     let patch = &ball.features[0].patch;
-    let meeting = |feature: &Feature| meet(patch, pose, &feature.patch, at);
-    let edge = -EDGE * part.bound;
-    let mut best: Option<(f64, Nearest, usize)> = None;
-    for (i, feature) in part.features.iter().enumerate() {
-        let found = meeting(feature);
-        let inside = margin(feature, at, found.on[1], -found.normal, part.bound).max(edge);
-        // Where the feature ends and another begins, rounding may put the place on neither: then the one that is nearest to it.
-        let better = best.is_none_or(|(other, nearest, _)| {
-            let (inside, other) = (inside.min(0.0), other.min(0.0));
+    // In the axes of the part, so that its features need not be turned.
+    let centre = at.local(pose.point(ball.centre));
+    let local = Patch::Point { at: centre, radius: ball.radius };
+    // The seam of two triangles may be a little bent.
+    let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
+    let mut best: Option<(f64, f64, usize)> = None;
+    for (i, feature) in part.features.iter().enumerate().filter(|(_, feature)| !feature.is_seam) {
+        let found = meet_placed(&local, &feature.patch);
+        let slack = part.bound * feature.slack(found.on[1], -found.normal);
+        let inside = feature.margin(found.on[1]).min(slack).clamp(edge, 0.0);
+        // Where a feature ends and another begins, rounding may put the place on neither: then the one that is nearest to it.
+        let better = best.is_none_or(|(other, gap, _)| {
             let (is_in, was_in) = (inside > edge, other > edge);
-            is_in && !was_in
-                || is_in == was_in && if is_in { found.gap > nearest.gap } else { inside > other }
+            is_in && !was_in || is_in == was_in && if is_in { found.gap > gap } else { inside > other }
         });
         if better {
-            best = Some((inside, found, i));
+            best = Some((inside, found.gap, i));
         }
     }
-    best.map_or_else(|| (meet(patch, pose, patch, at), 0), |(_, found, i)| (found, i))
+    let (inside, i) = best.map_or((edge, 0), |(inside, _, i)| (inside, i));
+    let found = meet(patch, pose, &part.features[i].patch, at);
+    // Beyond the end of a triangle, another one is nearer.
+    let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
+    (Nearest { gap, ..found }, i)
 }
 
 /// How far a meeting is within a feature, m, both by its place and by its normal out of the body.
@@ -165,6 +217,16 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
+/// The patch of a feature. A triangle has no inside, so its edges may be met from all sides.
+fn side(part: &Part, feature: &Feature) -> Patch {
+    match feature.patch {
+        Patch::Line { at, along, half, radius, .. } if part.surface.is_some() => {
+            Patch::Line { at, along, half, radius, outward: DVec3::ZERO }
+        }
+        patch => patch,
+    }
+}
+
 /// The search for the direction along which two parts are farthest apart.
 struct Search<'a> {
     a: &'a Part,
@@ -180,7 +242,7 @@ impl Search<'_> {
         for &i in of_a {
             for &j in of_b {
                 let (of_a, of_b) = (&self.a.features[i], &self.b.features[j]);
-                let found = meet(&of_a.patch, self.pa, &of_b.patch, self.pb);
+                let found = meet(&side(self.a, of_a), self.pa, &side(self.b, of_b), self.pb);
                 if of_a.patch.has_no_normal_with(&of_b.patch) && self.is_nearest(of_a, of_b, &found) {
                     self.best_of(found.gap, found);
                 } else {

@@ -7,7 +7,9 @@ use glam::{DQuat, DVec3};
 use super::feature::{
     Feature, features_of_box, features_of_capsule, features_of_frustum, features_of_ground,
 };
+use super::gjk::Tree;
 use super::patch::Patch;
+use super::triangles::triangles;
 use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
 
 /// A place of a body's own axes in the world (not of its principal axes).
@@ -23,6 +25,9 @@ pub(in crate::dynamics) struct Pose {
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Solid {
     parts: Arc<[Part]>,
+    /// Where the parts are, if they are many.
+    tree: Option<Arc<Tree>>,
+    is_surface: bool,
 }
 
 /// A convex part: all that is within `radius` of its core. Everything is in the axes of the body.
@@ -35,6 +40,8 @@ pub(super) struct Part {
     pub(super) bound: f64,
     /// Its corners, edges and faces.
     pub(super) features: Vec<Feature>,
+    /// The size of the surface of which it is a triangle, m; none for a solid.
+    pub(super) surface: Option<f64>,
 }
 
 /// What a part is without its rounding.
@@ -65,7 +72,10 @@ impl Solid {
     pub(in crate::dynamics) fn of(shape: &Shape) -> Option<Solid> {
         let mut parts = Vec::new();
         add(shape, &Pose::IDENTITY, &mut parts)?;
-        Some(Solid { parts: parts.into() })
+        let is_surface = parts.iter().any(|part| part.surface.is_some());
+        let body = Pose::IDENTITY;
+        let tree = is_surface.then(|| Tree::new(parts.iter().map(|part| part.box_in(&body, &body))).into());
+        Some(Solid { parts: parts.into(), tree, is_surface })
     }
 
     /// The largest distance of a point of the core from the centre of mass, m: turning moves no place of the surface faster.
@@ -88,15 +98,20 @@ impl Solid {
             if part.is_ground() {
                 return [DVec3::NEG_INFINITY, DVec3::INFINITY];
             }
-            let reach = |axis: DVec3| {
-                let direction = pose.orientation.conjugate() * axis;
-                part.support(direction).dot(direction)
-            };
-            let high = DVec3::new(reach(DVec3::X), reach(DVec3::Y), reach(DVec3::Z));
-            let low = -DVec3::new(reach(-DVec3::X), reach(-DVec3::Y), reach(-DVec3::Z));
-            bounds = [bounds[0].min(pose.location + low), bounds[1].max(pose.location + high)];
+            let [low, high] = part.box_in(pose, &Pose::IDENTITY);
+            bounds = [bounds[0].min(low), bounds[1].max(high)];
         }
         bounds
+    }
+
+    /// The tree of the parts, if they are many.
+    pub(super) fn tree(&self) -> Option<&Tree> {
+        self.tree.as_deref()
+    }
+
+    /// Whether triangles are among the parts.
+    pub(super) fn is_surface(&self) -> bool {
+        self.is_surface
     }
 
     pub(super) fn parts(&self) -> &[Part] {
@@ -117,13 +132,29 @@ impl Part {
             }
             Core::Ground { at, .. } => (*at, f64::INFINITY),
         };
-        Part { core, radius, centre, bound: bound + radius, features }
+        Part { core, radius, centre, bound: bound + radius, features, surface: None }
     }
 
     /// The place that is farthest in a direction of any length.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         let core = self.core.support(direction);
         if self.radius > 0.0 { core + self.radius * direction.normalize_or_zero() } else { core }
+    }
+
+    /// The box along the axes of another body that holds the part, by its lowest and its highest corner.
+    pub(super) fn box_in(&self, pose: &Pose, other: &Pose) -> [DVec3; 2] {
+        if self.is_ground() {
+            return [DVec3::NEG_INFINITY, DVec3::INFINITY];
+        }
+        let turn = pose.orientation.conjugate() * other.orientation;
+        let reach = |axis: DVec3| {
+            let direction = turn * axis;
+            self.support(direction).dot(direction)
+        };
+        let high = DVec3::new(reach(DVec3::X), reach(DVec3::Y), reach(DVec3::Z));
+        let low = -DVec3::new(reach(-DVec3::X), reach(-DVec3::Y), reach(-DVec3::Z));
+        let origin = other.local(pose.location);
+        [origin + low, origin + high]
     }
 
     pub(super) fn is_ground(&self) -> bool {
@@ -153,6 +184,9 @@ impl Part {
     }
 
     fn size(&self) -> f64 {
+        if let Some(size) = self.surface {
+            return size;
+        }
         let core = match &self.core {
             // Along the normals of the faces.
             Core::Hull(corners) if corners.len() > 2 => {
@@ -243,7 +277,16 @@ fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
             }
             return Some(());
         }
-        Shape::Torus { .. } | Shape::Axes { .. } | Shape::Mesh { .. } => return None,
+        Shape::Mesh { ref mesh, scale } => {
+            let half = shape.half_thickness().or(shape.bounding_radius());
+            let size = 2.0 * half.unwrap_or(0.5);
+            for (corners, features) in triangles(mesh, scale, pose) {
+                let part = Part::new(Core::Hull(corners.to_vec()), 0.0, features);
+                parts.push(Part { surface: Some(size), ..part });
+            }
+            return Some(());
+        }
+        Shape::Torus { .. } | Shape::Axes { .. } => return None,
     });
     Some(())
 }

@@ -4,11 +4,13 @@ use glam::{DQuat, DVec3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use std::sync::Arc;
+
 use super::nearest::{Nearest, nearest};
 use super::patch::{Patch, meet};
 use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
-use crate::dynamics::shape::Shape;
+use crate::dynamics::shape::{Mesh, Shape};
 
 /// Numbers between −1 and 1, the same on every run.
 struct Random(ChaCha8Rng);
@@ -352,4 +354,82 @@ fn boxes_touch_where_their_faces_overlap() {
             }
         }
     }
+}
+
+/// The box as a mesh: its corners by the bits of their numbers.
+fn mesh_of_box(size: DVec3) -> Shape {
+    let corner = |i: u32| {
+        let side = |bit: u32| f64::from(i >> bit & 1) - 0.5;
+        size * DVec3::new(side(0), side(1), side(2))
+    };
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    let mesh = Mesh::new("box", (0..8).map(corner).collect(), triangles);
+    Shape::Mesh { mesh: Arc::new(mesh), scale: 1.0 }
+}
+
+/// A flat square of 4 m by 4 m at height 0, of 4 × 4 squares of two triangles.
+fn flat() -> Shape {
+    let vertices = (0..25).map(|i| DVec3::new(f64::from(i % 5) - 2.0, 0.0, f64::from(i / 5) - 2.0)).collect();
+    let squares = (0..16).map(|i| i % 4 + 5 * (i / 4));
+    let triangles = squares.flat_map(|a| [[a, a + 5, a + 1], [a + 1, a + 5, a + 6]]).collect();
+    Shape::Mesh { mesh: Arc::new(Mesh::surface("flat", vertices, triangles)), scale: 1.0 }
+}
+
+#[test]
+fn a_mesh_touches_as_the_solid_does_that_it_encloses() {
+    let mut random = Random::new(6);
+    let Shape::Box { size } = CUBE else { return };
+    let mesh = mesh_of_box(size);
+    for other in &ALL {
+        for _ in 0..50 {
+            let (pa, mut pb) = (random.pose(0.1), random.pose(2.0));
+            let solid_gap = near(&CUBE, &pa, other, &pb);
+            if solid_gap.gap < 0.01 {
+                continue;
+            }
+            let found = near(&mesh, &pa, other, &pb);
+            let what = format!("{other:?} {pa:?} {pb:?}: {found:?} {solid_gap:?}");
+            assert!((found.gap - solid_gap.gap).abs() < 1e-13, "{what}");
+            pb.location -= (found.gap - 1e-7) * found.normal;
+            let found = touches(&solid(&mesh), &pa, &solid(other), &pb, 2e-7);
+            // At a corner, neighbours may say the same.
+            assert!(!found.is_empty() && found.len() < 4, "{what} {found:?}");
+            for touch in &found {
+                assert!((touch.meeting.gap - 1e-7).abs() < 1e-9, "{what} {found:?}");
+                assert!((touch.meeting.on[0] - found[0].meeting.on[0]).length() < 1e-6, "{what} {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_catches_at_the_seams_of_a_flat_surface() {
+    let (surface, place) = (flat(), at(0.0, 0.0, 0.0));
+    // Across seams, along them, and over corners of triangles.
+    for i in 0..100 {
+        let x = f64::from(i) * 0.037 - 1.85;
+        for z in [0.0, 0.25, x, -x, 1.0] {
+            for side in [1.0, -1.0] {
+                let pose = at(x, 0.5 * side, z);
+                let found = touch(&surface, &place, &BALL, &pose);
+                assert_eq!(found.len(), 1, "{x} {z}: {found:?}");
+                assert!(matches!(found[0].patches[0], Patch::Plane { .. }), "{x} {z}: {found:?}");
+                assert!(found[0].meeting.gap.abs() < 1e-15, "{x} {z}: {found:?}");
+                assert_eq!(found[0].meeting.normal, side * DVec3::Y, "{x} {z}: {found:?}");
+            }
+        }
+    }
+    let found = touch(&surface, &place, &CUBE, &at(0.13, 0.7, 0.41));
+    assert_eq!(found.len(), 4, "{found:?}");
+    // Beyond its end there is no ground.
+    assert!(touch(&surface, &place, &BALL, &at(2.3, 0.45, 0.0)).is_empty());
+    assert_eq!(touch(&surface, &place, &BALL, &at(2.3, 0.4, 0.0)).len(), 1);
+}
+
+#[test]
+fn a_mesh_rests_on_its_corners() {
+    let Shape::Box { size } = CUBE else { return };
+    assert_eq!(touch(&GROUND, &at(0.0, 0.0, 0.0), &mesh_of_box(size), &at(0.3, 0.7, 0.1)).len(), 4);
+    assert_eq!(touch(&flat(), &at(0.0, 0.0, 0.0), &mesh_of_box(size), &at(0.3, 0.7, 0.1)).len(), 4);
 }

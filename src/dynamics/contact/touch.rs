@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::feature::Feature;
-use super::nearest::{EDGE, Nearest, apart, ball_and, between, margin};
+use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, margin};
 use super::patch::{Patch, meet};
 use super::solid::{Core, Part, Pose, Solid};
 
@@ -29,24 +29,36 @@ pub(in crate::dynamics) struct Touch {
 /// order that depends on nothing but the arguments.
 pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
     let mut all = Vec::new();
-    for (i, part_a) in a.parts().iter().enumerate() {
-        for (j, part_b) in b.parts().iter().enumerate() {
-            if apart(part_a, pa, part_b, pb) <= within {
-                Pair {
-                    a: part_a,
-                    pa,
-                    b: part_b,
-                    pb,
-                    parts: [i, j],
-                    within,
-                    depth: f64::INFINITY,
-                    found: Vec::new(),
-                }
-                .add_to(&mut all);
+    for_pairs(a, pa, b, pb, within, &mut |i, j| {
+        let (a, b) = (&a.parts()[i], &b.parts()[j]);
+        if apart(a, pa, b, pb) <= within {
+            let parts = [i, j];
+            let pair = Pair { a, pa, b, pb, parts, within, depth: f64::INFINITY, found: Vec::new() };
+            pair.add_to(&mut all);
+        }
+    });
+    if a.is_surface() || b.is_surface() {
+        // Triangles share their edges and corners.
+        let same = SAME * a.size().min(b.size());
+        let mut once: Vec<Touch> = Vec::new();
+        for touch in all {
+            if !once.iter().any(|other| is_same(&other.meeting, &touch.meeting, same)) {
+                once.push(touch);
             }
         }
+        // A corner of one triangle may seem to touch a corner where the next triangle says more.
+        let is_smooth = |touch: &Touch| !touch.patches[0].has_no_normal_with(&touch.patches[1]);
+        if once.iter().any(is_smooth) {
+            once.retain(is_smooth);
+        }
+        return farthest(once);
     }
     all
+}
+
+/// Whether two meetings are one place.
+fn is_same(a: &Nearest, b: &Nearest, same: f64) -> bool {
+    a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
 }
 
 /// How far a touch is from where one of its patches ends, m; negative beyond it, infinite where nothing ends.
@@ -64,7 +76,7 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
     for (side, pose) in [pa, pb].into_iter().enumerate() {
         let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
         let place = pose.local(meeting.on[side]);
-        least = least.min(feature.margin(place) + EDGE * parts[side].bound);
+        least = least.min(feature.margin(place) + edge(parts[side], sum > 0.0));
         // Where something round passes from an edge to a face, the normal leaves the edge before any place does. A flat face
         // is met by its corners at any tilt.
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
@@ -96,12 +108,16 @@ impl Pair<'_> {
             (Core::Ground { .. }, _) | (_, Core::Ground { .. }) => self.on_ground(),
             _ => match (self.a.ball().is_some(), self.b.ball().is_some()) {
                 (true, _) => {
-                    let (_, i) = ball_and(self.a, self.pa, self.b, self.pb);
-                    self.add(0, i);
+                    let (found, i) = ball_and(self.a, self.pa, self.b, self.pb);
+                    if found.gap <= self.within {
+                        self.add(0, i);
+                    }
                 }
                 (_, true) => {
-                    let (_, i) = ball_and(self.b, self.pb, self.a, self.pa);
-                    self.add(i, 0);
+                    let (found, i) = ball_and(self.b, self.pb, self.a, self.pa);
+                    if found.gap <= self.within {
+                        self.add(i, 0);
+                    }
                 }
                 _ => self.convex(),
             },
@@ -142,7 +158,9 @@ impl Pair<'_> {
             // A corner on a corner or an edge: there is no smooth normal, but they touch.
             for &i in &near_a {
                 for &j in &near_b {
-                    self.add(i, j);
+                    if self.a.features[i].patch.has_no_normal_with(&self.b.features[j].patch) {
+                        self.add(i, j);
+                    }
                 }
             }
         }
@@ -151,6 +169,9 @@ impl Pair<'_> {
     /// Adds a pair of features, if the parts touch there.
     fn add(&mut self, i: usize, j: usize) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
+        if a.is_seam || b.is_seam {
+            return;
+        }
         match (a.patch, b.patch) {
             (Patch::Circle { .. }, Patch::Plane { normal, .. }) if self.is_flat(&a.patch, normal, false) => {
                 for patch in self.rim_points(0, &a.patch, b) {
@@ -208,7 +229,7 @@ impl Pair<'_> {
         let parts = [(self.a, self.pa, meeting.normal), (self.b, self.pb, -meeting.normal)];
         for (side, (part, pose, normal)) in parts.into_iter().enumerate() {
             let Some(feature) = features[side].map(|i| &part.features[i]) else { continue };
-            let edge = EDGE * part.bound;
+            let edge = edge(part, !patches[1 - side].is_sharp());
             // Of a face that lies on another, the corners are within reach at a small tilt.
             let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
             let place = feature.margin(pose.local(meeting.on[side]));
@@ -218,11 +239,7 @@ impl Pair<'_> {
             }
         }
         let same = SAME * self.a.bound.min(self.b.bound);
-        let known = |touch: &Touch| {
-            touch.meeting.on[1].distance(meeting.on[1]) < same
-                && touch.meeting.normal.dot(meeting.normal) > 1.0 - SAME
-        };
-        if self.found.iter().any(known) {
+        if self.found.iter().any(|touch| is_same(&touch.meeting, &meeting, same)) {
             return;
         }
         let features = [(self.parts[0], features[0]), (self.parts[1], features[1])];
@@ -244,34 +261,36 @@ impl Pair<'_> {
             let mut parallel = parallel.into_iter();
             self.found.retain(|_| !parallel.next().unwrap_or(false));
         }
-        if self.found.len() <= MOST {
-            return;
-        }
-        let lowest = (0..self.found.len())
-            .min_by(|&i, &j| self.found[i].meeting.gap.total_cmp(&self.found[j].meeting.gap));
-        let mut kept: Vec<usize> = lowest.into_iter().collect();
-        while kept.len() < MOST {
-            let far = |i: usize| {
-                let place = self.found[i].meeting.on[0];
-                kept.iter()
-                    .map(|&k| self.found[k].meeting.on[0].distance(place))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            let mut best = (0.0, None);
-            for i in 0..self.found.len() {
-                let distance = far(i);
-                if distance > best.0 {
-                    best = (distance, Some(i));
-                }
-            }
-            match best.1 {
-                Some(i) => kept.push(i),
-                None => break,
-            }
-        }
-        kept.sort_unstable();
-        self.found = kept.into_iter().map(|i| self.found[i]).collect();
+        self.found = farthest(std::mem::take(&mut self.found));
     }
+}
+
+/// The places that are farthest from each other, if there are too many; the nearest one is among them.
+fn farthest(all: Vec<Touch>) -> Vec<Touch> {
+    if all.len() <= MOST {
+        return all;
+    }
+    let first = (0..all.len()).min_by(|&i, &j| all[i].meeting.gap.total_cmp(&all[j].meeting.gap));
+    let mut kept: Vec<usize> = first.into_iter().collect();
+    while kept.len() < MOST {
+        let far = |i: usize| {
+            let place = all[i].meeting.on[0];
+            kept.iter().map(|&k| all[k].meeting.on[0].distance(place)).fold(f64::INFINITY, f64::min)
+        };
+        let mut best = (0.0, None);
+        for i in 0..all.len() {
+            let distance = far(i);
+            if distance > best.0 {
+                best = (distance, Some(i));
+            }
+        }
+        match best.1 {
+            Some(i) => kept.push(i),
+            None => break,
+        }
+    }
+    kept.sort_unstable();
+    kept.into_iter().map(|i| all[i]).collect()
 }
 
 /// Whether the meeting of two patches says what others do not: the ends of lines and the corners of faces are patches of their own.
