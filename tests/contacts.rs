@@ -168,5 +168,6 @@ fn arrows_show_weight_from_the_centre_in_front_of_the_body() {
     let script = run.script(&frame).unwrap();
     let line = script.lines().find(|line| line.ends_with("// a, weight")).unwrap_or(&script);
     assert!(line.starts_with("Arrow(<0, 5, 1."), "in front of the ball, which reaches to z = 1: {line}");
+    assert!(script.contains("#macro Arrow("), "{script}");
     assert!(!script.contains("// a, normal"), "nothing touches it");
 }

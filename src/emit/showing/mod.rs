@@ -60,7 +60,7 @@ impl Shows {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
         Shows {
-            arrows: scene.bodies.iter().any(|body| body.showing.arrows.iter().any(Option::is_some))
+            arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),

@@ -203,7 +203,10 @@ impl Kind {
             }
             Kind::Include => "the name of an include file".to_owned(),
             Kind::Asset | Kind::File => "the path of a file beside the scene".to_owned(),
-            Kind::Choice(words) => format!("one of {}", quoted(&words())),
+            Kind::Choice(words) => match words().as_slice() {
+                [only] => format!("`{only}`"),
+                words => format!("one of {}", quoted(words)),
+            },
             Kind::Reference(collection) => format!("the name of a {}", collection.key()),
             Kind::List { of, min, max } if min == max => {
                 format!("a list of {min} values, each {}", of.in_words())
