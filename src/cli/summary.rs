@@ -6,6 +6,7 @@ use std::time::Duration;
 use jabuka::Run;
 use jabuka::diagnostic::visible_path;
 use jabuka::output::Written;
+use jabuka::simulate::ContactTotals;
 
 use super::shell;
 
@@ -34,6 +35,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
          bodies    {bodies}\n\
          timestep  {step} s, {steps} a frame, by {method}\n\
          {drift}\
+         {contacts}\
          {unit}\
          {blur}\
          written   {bytes} in {seconds:.2} s\n\
@@ -46,6 +48,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         steps = survey.steps_per_frame,
         method = scene.simulation.method.name,
         drift = drift(survey.drift),
+        contacts = survey.contacts.map(contacts).unwrap_or_default(),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
@@ -54,6 +57,11 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
 /// How right a run is.
 pub(super) fn drift(drift: f64) -> String {
     format!("drift     {} of the largest kinetic energy\n", percent(drift))
+}
+
+/// How many impacts there have been, and what contacts have taken.
+fn contacts(ContactTotals { impacts, lost, rubbed }: ContactTotals) -> String {
+    format!("impacts   {impacts}, which took {} J; friction took {} J\n", short(lost), short(rubbed))
 }
 
 /// A number to four digits, without trailing zeros.
@@ -96,6 +104,8 @@ mod tests {
     #[test]
     fn figures_are_short() {
         assert_eq!([short(0.01), short(1.0 / 240.0), short(1e-9)], ["0.01", "0.004167", "1e-9"]);
+        let totals = ContactTotals { impacts: 31415.0, lost: 0.123_456, rubbed: 0.0 };
+        assert_eq!(contacts(totals), "impacts   31415, which took 0.1235 J; friction took 0 J\n");
         assert_eq!([percent(0.0), percent(-0.00123), percent(3e-17)], ["0 %", "-0.12 %", "3e-15 %"]);
         assert_eq!([bytes(999), bytes(1_000), bytes(123_456_789)], ["999 B", "1.0 kB", "123 MB"]);
     }

@@ -57,7 +57,7 @@ pub use record::{Recorded, Recorder};
 pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use span::{Bounds, Span};
-pub use survey::{Corrected, Crossing, Survey, Surveyor, survey};
+pub use survey::{ContactTotals, Corrected, Crossing, Survey, Surveyor, survey};
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 

@@ -30,10 +30,23 @@ pub struct Survey {
     /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
     /// run begins at rest.)
     pub drift: f64,
+    /// What contacts have done up to the last frame; none without them.
+    pub contacts: Option<ContactTotals>,
     /// The real timestep, s.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
     pub steps_per_frame: u32,
+}
+
+/// What contacts have done in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactTotals {
+    /// The number of impacts.
+    pub impacts: f64,
+    /// The energy that they have taken, J.
+    pub lost: f64,
+    /// The energy that friction has taken between impacts, J.
+    pub rubbed: f64,
 }
 
 /// That bodies go through a plane, since nothing keeps them from it.
@@ -123,6 +136,7 @@ pub struct Surveyor<'a> {
     asked: Asked,
     /// The arrows of joints: where they begin, what they show, and their scales.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
+    contacts: Option<ContactTotals>,
     /// The error of the energy where it is largest, J.
     error: f64,
     largest_kinetic: f64,
@@ -149,6 +163,7 @@ impl<'a> Surveyor<'a> {
             corrected: None,
             asked: Asked::new(scene),
             joint_arrows: joint_arrows(scene),
+            contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
             error: 0.0,
             largest_kinetic: 0.0,
         }
@@ -183,6 +198,12 @@ impl<'a> Surveyor<'a> {
             vector: load.vector,
         });
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints.chain(loads));
+        if let Some(contacts) = &mut self.contacts {
+            let accounts = &frame.balance.accounts;
+            // They take energy; zero has no sign.
+            let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
+            *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed };
+        }
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;
         if error_now.abs() > self.error.abs() {
@@ -192,7 +213,18 @@ impl<'a> Surveyor<'a> {
 
     /// What is known after the last frame.
     pub fn finish(self) -> Survey {
-        let Surveyor { scene, spans, planes, overlaps, corrected, asked, error, largest_kinetic, .. } = self;
+        let Surveyor {
+            scene,
+            spans,
+            planes,
+            overlaps,
+            corrected,
+            asked,
+            contacts,
+            error,
+            largest_kinetic,
+            ..
+        } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
         Survey {
@@ -201,6 +233,7 @@ impl<'a> Surveyor<'a> {
             overlap: overlaps.finish(),
             corrected,
             asked,
+            contacts,
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,

@@ -50,6 +50,15 @@ pub(super) fn read(
         let Some((kind, servo)) = found else { continue };
         let arrows = arrows(&view);
         let collides = self::kind(&view).and_then(|kind| kind.boolean("collides")).unwrap_or_default();
+        if simulation.contacts.is_some() && kind.between().iter().any(|end| end.body().is_none()) {
+            let before = context.diagnostics.len();
+            let key = self::kind(&view).and_then(|kind| kind.key_span("collides"));
+            let warning =
+                Diagnostic::warning(Code::NoEffect, format!("`collides` of `{name}` has no effect"));
+            let why = "it joins a body to a point of the world";
+            context.diagnostics.extend(key.map(|key| warning.at(key, why)));
+            context.once(before, name, span);
+        }
         let look = look(&view, &kind);
         joints.push(Joint { name: name.to_owned(), look, collides, kind, servo, arrows });
     }
