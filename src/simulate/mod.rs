@@ -181,10 +181,10 @@ impl std::fmt::Display for Stuck {
             self.bodies.clone().map(|name| name.map_or("the ground".to_owned(), |name| format!("`{name}`")));
         let ([one, two], time) = (names, self.time);
         match self.depth {
-            Some(depth) => write!(
-                f,
-                "{one} and {two} overlap by {depth:.3e} m at t = {time} s, where their contact begins"
-            ),
+            Some(depth) => {
+                let depth: f64 = format!("{depth:.3e}").parse().unwrap_or(depth);
+                write!(f, "{one} and {two} overlap by {depth} m at t = {time} s, where their contact begins")
+            }
             None => write!(f, "the impacts of {one} and {two} do not end: at t = {time} s they are jammed"),
         }
     }
