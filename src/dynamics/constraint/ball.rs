@@ -25,6 +25,6 @@ impl Constraint for Ball {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        parts::same_point(&End::all(self.between, members), 0, equations);
+        parts::same_point(&End::all(&self.between, members), 0, equations);
     }
 }

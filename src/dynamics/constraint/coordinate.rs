@@ -48,36 +48,38 @@ impl Coordinate {
         }
         let members =
             Members { all: &all, of: &[0, 1], time: 0.0, origin: &all, begun: 0.0, is_aiming: false };
-        let ends = End::all(self.between, &members);
+        let ends = End::all(&self.between, &members);
         let free = self.measure(&ends);
         Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
     /// The coordinate at the present moment of the members, which are those of its ends.
-    pub(super) fn measure(&self, [a, b]: &[End; 2]) -> Free {
-        let axis = a.orientation * self.axis;
+    pub(super) fn measure(&self, [a, b]: &[End<'_>; 2]) -> Free {
+        let axis = a.orientation() * self.axis;
         match self.zero {
             Some(zero) => {
-                let (u, w) = (a.orientation * zero[0], b.orientation * zero[1]);
+                let (u, w) = (a.orientation() * zero[0], b.orientation() * zero[1]);
                 let parts = [(a.body, DVec3::ZERO, -axis), (b.body, DVec3::ZERO, axis)];
-                let relative = b.angular_velocity - a.angular_velocity;
+                let relative = b.angular_velocity() - a.angular_velocity();
                 Free {
                     value: libm::atan2(axis.dot(u.cross(w)), u.dot(w)),
-                    bias: a.angular_velocity.cross(axis).dot(relative),
+                    bias: a.angular_velocity().cross(axis).dot(relative),
                     scale: 1.0,
                     parts,
                 }
             }
             None => {
-                let apart = b.location - a.location;
-                let rate = b.velocity - a.velocity;
-                let axis_rate = a.angular_velocity.cross(axis);
+                let [from, to] = [a.location(), b.location()];
+                let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];
+                let apart = to - from;
+                let omega = a.angular_velocity();
+                let axis_rate = omega.cross(axis);
                 Free {
                     value: axis.dot(apart),
-                    bias: axis.dot(b.centripetal - a.centripetal)
-                        + 2.0 * axis_rate.dot(rate)
-                        + a.angular_velocity.cross(axis_rate).dot(apart),
-                    scale: a.location.abs().max(b.location.abs()).max_element(),
+                    bias: axis.dot(to_bend - from_bend)
+                        + 2.0 * axis_rate.dot(to_rate - from_rate)
+                        + omega.cross(axis_rate).dot(apart),
+                    scale: from.abs().max(to.abs()).max_element(),
                     parts: [(a.body, -axis, axis.cross(apart + a.arm)), (b.body, axis, b.arm.cross(axis))],
                 }
             }
@@ -86,7 +88,7 @@ impl Coordinate {
 
     /// The coordinate now, and at the beginning of the step.
     pub(super) fn measure_both(&self, members: &Members<'_>) -> [Free; 2] {
-        [*members, members.at_origin()].map(|members| self.measure(&End::all(self.between, &members)))
+        [*members, members.at_origin()].map(|members| self.measure(&End::all(&self.between, &members)))
     }
 
     /// The difference of two values, of angles the shortest way round.
@@ -95,10 +97,9 @@ impl Coordinate {
     }
 
     /// The rate of the coordinate, rad/s or m/s.
-    pub(super) fn rate([a, b]: &[End; 2], free: &Free) -> f64 {
-        let rate = |end: &End, (_, linear, angular): (Option<usize>, DVec3, DVec3)| {
-            let centre = end.velocity - end.angular_velocity.cross(end.arm);
-            linear.dot(centre) + angular.dot(end.angular_velocity)
+    pub(super) fn rate([a, b]: &[End<'_>; 2], free: &Free) -> f64 {
+        let rate = |end: &End<'_>, (_, linear, angular): (Option<usize>, DVec3, DVec3)| {
+            linear.dot(end.member.velocity) + angular.dot(end.angular_velocity())
         };
         rate(a, free.parts[0]) + rate(b, free.parts[1])
     }

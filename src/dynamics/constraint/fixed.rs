@@ -29,7 +29,7 @@ impl Constraint for Fixed {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::all(self.between, members);
+        let ends = End::all(&self.between, members);
         parts::same_point(&ends, 0, equations);
         parts::same_turn(&ends, self.turned, 3, equations);
     }

@@ -36,7 +36,7 @@ impl Constraint for Gear {
     /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step: so the turns need not be counted.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let measure = |members: &Members<'_>| {
-            let [a, b, c, d] = super::member::End::all(self.ends(), members);
+            let [a, b, c, d] = super::member::End::all(&self.ends(), members);
             [self.joints[0].measure(&[a, b]), self.joints[1].measure(&[c, d])]
         };
         let (now, before) = (measure(members), measure(&members.at_origin()));

@@ -65,11 +65,11 @@ impl Constraint for Hinge {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::all(self.between, members);
+        let ends = End::all(&self.between, members);
         parts::same_point(&ends, 0, equations);
-        let axis = ends[1].orientation * self.axis[1];
+        let axis = ends[1].orientation() * self.axis[1];
         for (i, across) in parts::across(self.axis[0]).into_iter().enumerate() {
-            parts::perpendicular(&ends, ends[0].orientation * across, axis, 3 + i, equations);
+            parts::perpendicular(&ends, ends[0].orientation() * across, axis, 3 + i, equations);
         }
         self.freedom.measure(|| self.coordinate(), 5, members, equations);
     }

@@ -26,11 +26,11 @@ pub(super) fn for_each_direction(
     multipliers: &[f64],
     mut act: impl FnMut(usize, &Direction, f64),
 ) {
-    for (row, &multiplier) in structure.row_start.windows(2).zip(multipliers) {
+    for (row, &multiplier) in multipliers.iter().enumerate() {
         if multiplier != 0.0 {
-            jacobian[row[0]..row[1]]
-                .iter()
-                .for_each(|direction| act(direction.member, direction, multiplier));
+            for direction in &jacobian[structure.directions_of(row)] {
+                act(direction.member, direction, multiplier);
+            }
         }
     }
 }
@@ -60,9 +60,9 @@ pub(super) fn products(
     out: &mut [f64],
 ) -> f64 {
     let mut largest = 0.0_f64;
-    for (row, out) in structure.row_start.windows(2).zip(out) {
+    for (row, out) in out.iter_mut().enumerate() {
         let (mut sum, mut size) = (0.0, 0.0);
-        for direction in &jacobian[row[0]..row[1]] {
+        for direction in &jacobian[structure.directions_of(row)] {
             let member = &members[direction.member];
             let moving = direction.linear.dot(member.velocity);
             let turning = direction.angular.dot(member.angular_velocity);

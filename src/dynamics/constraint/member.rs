@@ -68,6 +68,7 @@ impl Member {
     }
 
     /// Takes from a state what changes with time. Says whether the place is another one.
+    #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;
         let angular_momentum = state.angular_momentum[i];
@@ -111,31 +112,35 @@ impl Member {
 
 /// An end of a constraint at one moment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
+pub(super) struct End<'a> {
     /// Which of the constraint's bodies it belongs to; none for a point of the world.
     pub(super) body: Option<usize>,
-    /// Where it is, m.
-    pub(super) location: DVec3,
-    /// How it moves, m/s.
-    pub(super) velocity: DVec3,
-    /// ω × (ω × r): the part of its acceleration that does not come from accelerations of the body, m/s².
-    pub(super) centripetal: DVec3,
+    /// That body; for a point of the world, one that rests at the origin.
+    pub(super) member: &'a Member,
     /// r: the way to it from the centre of mass, m.
     pub(super) arm: DVec3,
-    /// The rotation that takes the axes of the body to the world's.
-    pub(super) orientation: DQuat,
-    /// Its angular velocity, rad/s.
-    pub(super) angular_velocity: DVec3,
+    /// Whether it goes around the centre of mass when the body turns.
+    pub(super) is_off_centre: bool,
 }
 
-impl End {
+/// What the points of the world belong to.
+static WORLD: Member = Member {
+    location: DVec3::ZERO,
+    velocity: DVec3::ZERO,
+    orientation: DQuat::IDENTITY,
+    angular_velocity: DVec3::ZERO,
+    inverse_mass: 0.0,
+    inverse_inertia: DMat3::ZERO,
+};
+
+impl<'a> End<'a> {
     /// The ends of a constraint; `members` are its bodies, each once, in the order of the ends.
     #[inline(always)]
-    pub(super) fn all<const N: usize>(anchors: [Anchor; N], members: &Members<'_>) -> [End; N] {
+    pub(super) fn all<const N: usize>(anchors: &[Anchor; N], members: &'a Members<'_>) -> [End<'a>; N] {
         let mut next = 0;
         let mut slots = [None; N];
         std::array::from_fn(|i| match anchors[i] {
-            Anchor::Point(location) => End::fixed(location),
+            Anchor::Point(arm) => End { body: None, member: &WORLD, arm, is_off_centre: false },
             Anchor::Body { id, at } => {
                 let known = anchors[..i].iter().position(|other| other.body() == Some(id));
                 let slot = known.and_then(|other| slots[other]).unwrap_or_else(|| {
@@ -143,47 +148,45 @@ impl End {
                     next - 1
                 });
                 slots[i] = Some(slot);
-                End::on(&members[slot], slot, at)
+                let member = &members[slot];
+                let is_off_centre = at != DVec3::ZERO;
+                let arm = if is_off_centre { member.orientation * at } else { at };
+                End { body: Some(slot), member, arm, is_off_centre }
             }
         })
     }
 
-    fn fixed(location: DVec3) -> End {
-        End {
-            body: None,
-            location,
-            velocity: DVec3::ZERO,
-            centripetal: DVec3::ZERO,
-            arm: DVec3::ZERO,
-            orientation: DQuat::IDENTITY,
-            angular_velocity: DVec3::ZERO,
-        }
+    /// Where it is, m.
+    pub(super) fn location(&self) -> DVec3 {
+        self.member.location + self.arm
     }
 
+    /// The rotation that takes the axes of the body to the world's.
+    pub(super) fn orientation(&self) -> DQuat {
+        self.member.orientation
+    }
+
+    /// The angular velocity of the body, rad/s.
+    pub(super) fn angular_velocity(&self) -> DVec3 {
+        self.member.angular_velocity
+    }
+
+    /// ω × r, by which it moves faster than the centre of mass, m/s; and ω × (ω × r), the part of its acceleration that does not come
+    /// from accelerations of the body, m/s².
     #[inline(always)]
-    fn on(member: &Member, body: usize, at: DVec3) -> End {
-        let omega = member.angular_velocity;
-        if at == DVec3::ZERO {
-            return End {
-                body: Some(body),
-                location: member.location,
-                velocity: member.velocity,
-                centripetal: DVec3::ZERO,
-                arm: DVec3::ZERO,
-                orientation: member.orientation,
-                angular_velocity: omega,
-            };
+    pub(super) fn turning(&self) -> (DVec3, DVec3) {
+        let omega = self.member.angular_velocity;
+        let turning = omega.cross(self.arm);
+        (turning, omega.cross(turning))
+    }
+
+    /// How it moves, m/s; and ω × (ω × r).
+    #[inline(always)]
+    pub(super) fn motion(&self) -> (DVec3, DVec3) {
+        if !self.is_off_centre {
+            return (self.member.velocity, DVec3::ZERO);
         }
-        let arm = member.orientation * at;
-        let turning = omega.cross(arm);
-        End {
-            body: Some(body),
-            location: member.location + arm,
-            velocity: member.velocity + turning,
-            centripetal: omega.cross(turning),
-            arm,
-            orientation: member.orientation,
-            angular_velocity: omega,
-        }
+        let (turning, bend) = self.turning();
+        (self.member.velocity + turning, bend)
     }
 }

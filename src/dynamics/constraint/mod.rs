@@ -187,9 +187,13 @@ impl Equations<'_> {
     /// Writes a row; the directions that are not set are zero.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[row] = Row { violation, rate: 0.0, bias, scale };
-        let first = row * self.bodies;
-        for direction in &mut self.jacobian[first..first + self.bodies] {
+        // By index: most rows have one body or two, and the loop of an iterator is unrolled for many.
+        let mut i = row * self.bodies;
+        let end = i + self.bodies;
+        while i != end {
+            let direction = &mut self.jacobian[i];
             (direction.linear, direction.angular) = (DVec3::ZERO, DVec3::ZERO);
+            i += 1;
         }
     }
 

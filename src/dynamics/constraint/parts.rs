@@ -18,7 +18,7 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
 }
 
 /// The way from one end to another: its length |d|, whose second derivative is u·d'' + (|d'|² − (u·d')²) / |d|, u = d / |d|.
-pub(super) struct Way {
+pub(super) struct Way<'a> {
     /// |d|, m.
     pub(super) length: f64,
     /// The part of |d|'' that does not come from accelerations of the bodies, m/s².
@@ -26,38 +26,66 @@ pub(super) struct Way {
     /// The size of the coordinates that it is a difference of, m.
     pub(super) scale: f64,
     u: DVec3,
-    arms: [(Option<usize>, DVec3); 2],
+    ends: &'a [End<'a>; 2],
 }
 
-impl Way {
+impl<'a> Way<'a> {
     /// The way between two ends; `typical` is what its length is about, m.
-    pub(super) fn new([a, b]: &[End; 2], typical: f64) -> Way {
-        let apart = b.location - a.location;
+    #[inline(always)]
+    pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> Way<'a> {
+        let [a, b] = ends;
+        let [from, to] = [a.location(), b.location()];
+        let apart = to - from;
         let length = apart.length();
+        let shortest = 1e-3 * typical;
+        let (u, inverse) =
+            if length > shortest { Way::along(apart, length) } else { Way::short(apart, length, shortest) };
+        let mut rate = b.member.velocity - a.member.velocity;
+        let mut bias = 0.0;
+        for (end, sign) in [(a, -1.0), (b, 1.0)] {
+            if end.is_off_centre {
+                let (turning, bend) = end.turning();
+                rate += sign * turning;
+                bias += sign * u.dot(bend);
+            }
+        }
+        let along = u.dot(rate);
+        bias += (rate.length_squared() - along * along) * inverse;
+        let scale = from.abs().max(to.abs()).max_element();
+        Way { length, bias, scale, u, ends }
+    }
+
+    /// u, and 1/|d|.
+    #[inline(always)]
+    fn along(apart: DVec3, length: f64) -> (DVec3, f64) {
+        let inverse = length.recip();
+        (apart * inverse, inverse)
+    }
+
+    /// The same where |d| is so small that 1/|d| has to be limited.
+    #[cold]
+    fn short(apart: DVec3, length: f64, shortest: f64) -> (DVec3, f64) {
         // Two ends at the same point have no direction; any one leads them apart.
         let u = if length > 0.0 { apart * length.recip() } else { DVec3::Y };
-        let rate = b.velocity - a.velocity;
-        let across = rate - rate.dot(u) * u;
-        let bias =
-            u.dot(b.centripetal - a.centripetal) + across.length_squared() / length.max(1e-3 * typical);
-        let scale = a.location.abs().max(b.location.abs()).max_element();
-        Way { length, bias, scale, u, arms: [(a.body, a.arm), (b.body, b.arm)] }
+        (u, shortest.recip())
     }
 
     /// Adds `factor` times the directions of its length to a row.
+    #[inline(always)]
     pub(super) fn write(&self, factor: f64, row: usize, equations: &mut Equations<'_>) {
-        for ((body, arm), sign) in self.arms.into_iter().zip([-factor, factor]) {
+        for (end, sign) in self.ends.iter().zip([-factor, factor]) {
             let linear = sign * self.u;
-            equations.direction(row, body, linear, arm.cross(linear));
+            let angular = if end.is_off_centre { end.arm.cross(linear) } else { DVec3::ZERO };
+            equations.direction(row, end.body, linear, angular);
         }
     }
 }
 
 /// Three rows: two points are the same.
-pub(super) fn same_point([a, b]: &[End; 2], first: usize, equations: &mut Equations<'_>) {
-    let apart = b.location - a.location;
-    let bias = b.centripetal - a.centripetal;
-    let scale = a.location.abs().max(b.location.abs()).max(a.arm.abs()).max(b.arm.abs());
+pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Equations<'_>) {
+    let [from, to] = [a.location(), b.location()];
+    let (apart, bias) = (to - from, b.motion().1 - a.motion().1);
+    let scale = from.abs().max(to.abs()).max(a.arm.abs()).max(b.arm.abs());
     for (i, axis) in DVec3::AXES.into_iter().enumerate() {
         equations.row(first + i, apart[i], bias[i], scale.max_element());
         equations.direction(first + i, a.body, -axis, -a.arm.cross(axis));
@@ -68,16 +96,15 @@ pub(super) fn same_point([a, b]: &[End; 2], first: usize, equations: &mut Equati
 /// One row: `u`, which turns with the first end, is perpendicular to `w`, which turns with the second. Both are unit
 /// vectors in world axes.
 pub(super) fn perpendicular(
-    [a, b]: &[End; 2],
+    [a, b]: &[End<'_>; 2],
     u: DVec3,
     w: DVec3,
     row: usize,
     equations: &mut Equations<'_>,
 ) {
-    let (u_rate, w_rate) = (a.angular_velocity.cross(u), b.angular_velocity.cross(w));
-    let bias = a.angular_velocity.cross(u_rate).dot(w)
-        + 2.0 * u_rate.dot(w_rate)
-        + u.dot(b.angular_velocity.cross(w_rate));
+    let [first, second] = [a.angular_velocity(), b.angular_velocity()];
+    let (u_rate, w_rate) = (first.cross(u), second.cross(w));
+    let bias = first.cross(u_rate).dot(w) + 2.0 * u_rate.dot(w_rate) + u.dot(second.cross(w_rate));
     equations.row(row, u.dot(w), bias, 1.0);
     equations.direction(row, a.body, DVec3::ZERO, u.cross(w));
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
@@ -85,24 +112,30 @@ pub(super) fn perpendicular(
 
 /// Three rows: the second end is not turned against the first. `turned` are the axes of the first end's frame as they stand
 /// in that of the second where the rows hold.
-pub(super) fn same_turn(ends: &[End; 2], turned: glam::DQuat, first: usize, equations: &mut Equations<'_>) {
+pub(super) fn same_turn(
+    ends: &[End<'_>; 2],
+    turned: glam::DQuat,
+    first: usize,
+    equations: &mut Equations<'_>,
+) {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let of_first = axes.map(|axis| ends[0].orientation * axis);
-    let of_second = axes.map(|axis| ends[1].orientation * (turned * axis));
+    let of_first = axes.map(|axis| ends[0].orientation() * axis);
+    let of_second = axes.map(|axis| ends[1].orientation() * (turned * axis));
     for i in 0..3 {
         perpendicular(ends, of_first[i], of_second[(i + 1) % 3], first + i, equations);
     }
 }
 
 /// One row: the way from the first end to the second is perpendicular to `u`, which turns with the first.
-pub(super) fn beside([a, b]: &[End; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
-    let apart = b.location - a.location;
-    let rate = b.velocity - a.velocity;
-    let u_rate = a.angular_velocity.cross(u);
-    let bias = u.dot(b.centripetal - a.centripetal)
-        + 2.0 * u_rate.dot(rate)
-        + a.angular_velocity.cross(u_rate).dot(apart);
-    let scale = a.location.abs().max(b.location.abs()).max_element();
+pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
+    let [from, to] = [a.location(), b.location()];
+    let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];
+    let apart = to - from;
+    let omega = a.angular_velocity();
+    let u_rate = omega.cross(u);
+    let bias =
+        u.dot(to_bend - from_bend) + 2.0 * u_rate.dot(to_rate - from_rate) + omega.cross(u_rate).dot(apart);
+    let scale = from.abs().max(to.abs()).max_element();
     equations.row(row, u.dot(apart), bias, scale);
     equations.direction(row, a.body, -u, u.cross(apart + a.arm));
     equations.direction(row, b.body, u, b.arm.cross(u));

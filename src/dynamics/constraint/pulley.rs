@@ -46,10 +46,11 @@ impl Constraint for Pulley {
 
     /// c = ℓ − |d₁| − r |d₂| ≥ 0, with d the ways from the points to the ends, and |d| − ε ≥ 0 for both.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let [a, b, c, d] = End::all(self.ends(), members);
-        let ways = [([a, b], 1.0), ([c, d], self.ratio)];
-        let ways = ways.map(|(ends, factor)| (parts::Way::new(&ends, self.length), factor));
-        let sum = |value: fn(&parts::Way) -> f64| -> f64 {
+        let [a, b, c, d] = End::all(&self.ends(), members);
+        let [first, second] = [[a, b], [c, d]];
+        let ways = [(&first, 1.0), (&second, self.ratio)];
+        let ways = ways.map(|(ends, factor)| (parts::Way::new(ends, self.length), factor));
+        let sum = |value: fn(&parts::Way<'_>) -> f64| -> f64 {
             ways.iter().map(|(way, factor)| factor * value(way)).sum()
         };
         let scale = ways.iter().fold(self.length, |scale, (way, _)| scale.max(way.scale));

@@ -32,7 +32,8 @@ impl Constraint for Rope {
 
     /// c = ℓ − |d| ≥ 0, with d the way from one end to the other.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let way = parts::Way::new(&End::all(self.between, members), self.length);
+        let ends = End::all(&self.between, members);
+        let way = parts::Way::new(&ends, self.length);
         equations.row(0, self.length - way.length, -way.bias, way.scale.max(self.length));
         way.write(-1.0, 0, equations);
     }

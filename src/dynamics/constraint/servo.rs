@@ -37,7 +37,7 @@ impl Force for Servo {
             begun: moment.time,
             is_aiming: false,
         };
-        let ends = End::all(self.coordinate.between, &members);
+        let ends = End::all(&self.coordinate.between, &members);
         let free = self.coordinate.measure(&ends);
         let rate = Coordinate::rate(&ends, &free);
         let [value, wanted, _] = self.target.at(moment.time);

@@ -45,10 +45,10 @@ impl Constraint for Slider {
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let ends = End::all(self.between, members);
+        let ends = End::all(&self.between, members);
         parts::same_turn(&ends, self.turned, 0, equations);
         for (i, across) in parts::across(self.axis).into_iter().enumerate() {
-            parts::beside(&ends, ends[0].orientation * across, 3 + i, equations);
+            parts::beside(&ends, ends[0].orientation() * across, 3 + i, equations);
         }
         self.freedom.measure(|| self.coordinate(), 5, members, equations);
     }

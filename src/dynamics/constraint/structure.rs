@@ -1,6 +1,7 @@
 //! Which constraints share a body, and the order in which they are eliminated.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::{Constraint, Direction};
@@ -55,6 +56,12 @@ pub(super) struct Neighbour {
 }
 
 impl Structure {
+    /// The places of the directions of a row.
+    #[inline(always)]
+    pub(super) fn directions_of(&self, row: usize) -> Range<usize> {
+        self.row_start[row]..self.row_start[row + 1]
+    }
+
     /// That of some constraints, of which those hold whose bodies are there. A body that no force can move connects nothing.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
