@@ -70,7 +70,9 @@ pub(super) fn products(
             size += moving.abs() + turning.abs();
         }
         *out = sum;
-        largest = largest.max(size);
+        if size > largest {
+            largest = size;
+        }
     }
     largest
 }

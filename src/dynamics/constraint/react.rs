@@ -39,7 +39,9 @@ impl Solver {
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
         let mut size = self.see_free_accelerations(t, state, loads);
         for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
-            size = size.max(row.bias.abs());
+            if row.bias.abs() > size {
+                size = row.bias.abs();
+            }
             *value = -(*value + row.bias);
         }
         if self.slides() {

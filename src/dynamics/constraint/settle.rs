@@ -74,7 +74,8 @@ impl Solver {
 
     pub(super) fn settle_places(&mut self, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
-        self.is_factorised = false;
+        // The last stage of many methods is at the end of the step, and near enough.
+        self.is_factorised = self.factorised.to_bits() == t.to_bits();
         for _ in 0..ITERATIONS {
             self.measure_places(t, state);
             let worst = self.worst();
@@ -117,10 +118,10 @@ impl Solver {
             if !(worst > ROUNDING * scale && worst < 0.5 * before) {
                 return;
             }
-            before = worst;
-            if !self.is_factorised {
+            if !self.is_factorised || worst > 0.1 * before {
                 self.factorise(false);
             }
+            before = worst;
             self.unknown.iter_mut().for_each(|rate| *rate = -*rate);
             self.solve();
             let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self else {

@@ -66,8 +66,9 @@ pub(in crate::dynamics) struct Solver {
     pub(super) trial: State,
     /// Whether rows and factors are those of the state that comes next.
     pub(super) is_ready: bool,
-    /// Whether there are factors near enough for the step that is being settled.
+    /// Whether there are factors near enough for the step that is being settled, and of what time they are, s.
     pub(super) is_factorised: bool,
+    pub(super) factorised: f64,
     /// When rows and Jacobian were measured.
     pub(super) measured: f64,
     pub(super) failure: Option<Breakdown>,
@@ -149,10 +150,15 @@ impl Solver {
     }
 
     /// Finds the structure, where it is not known.
+    #[inline]
     pub(super) fn plan(&mut self, model: &Model) {
-        if self.structure.is_some() {
-            return;
+        if self.structure.is_none() {
+            self.make_structure(model);
         }
+    }
+
+    #[cold]
+    fn make_structure(&mut self, model: &Model) {
         let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
@@ -176,7 +182,7 @@ impl Solver {
         }
         self.natures = structure.bodies.iter().map(|&body| Nature::of(body, model)).collect();
         self.members = self.natures.iter().map(Member::new).collect();
-        self.measured = f64::NAN;
+        (self.measured, self.factorised) = (f64::NAN, f64::NAN);
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
         self.rows = vec![Row::default(); structure.rows];
         self.jacobian = structure.places.iter().flat_map(Place::directions).collect();
@@ -259,5 +265,6 @@ impl Solver {
         self.factor.assemble(&self.jacobian, &self.members);
         self.factor.compute(&mut self.held, choose);
         self.is_factorised = true;
+        self.factorised = self.measured;
     }
 }
