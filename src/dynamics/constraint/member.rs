@@ -129,6 +129,7 @@ static WORLD: Member = Member {
     velocity: DVec3::ZERO,
     orientation: DQuat::IDENTITY,
     angular_velocity: DVec3::ZERO,
+    angular_momentum: DVec3::ZERO,
     inverse_mass: 0.0,
     inverse_inertia: DMat3::ZERO,
 };
