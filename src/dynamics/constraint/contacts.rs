@@ -67,11 +67,16 @@ impl Solver {
     }
 
     /// Solves A x = b for the rows that hold.
+    #[inline]
     pub(super) fn solve(&mut self) {
-        if !self.factor.is_soft() {
+        if self.factor.is_soft() {
+            self.solve_softly();
+        } else {
             self.factor.solve(&mut self.unknown);
-            return;
         }
+    }
+
+    fn solve_softly(&mut self) {
         // Soft rows give way a little; refining takes that out again.
         let right = self.unknown.clone();
         self.factor.solve(&mut self.unknown);

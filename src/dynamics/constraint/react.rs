@@ -18,10 +18,14 @@ impl Solver {
             self.factorise(false);
         }
         self.is_ready = false;
-        self.push_drives(loads);
-        self.see_slips();
+        if self.has_modes {
+            self.push_drives(loads);
+            self.see_slips();
+        }
         self.solve_forces(t, state, loads);
-        self.book_friction(loads);
+        if self.has_modes {
+            self.book_friction(loads);
+        }
         let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
         for (multiplier, row) in unknown.iter().zip(rows) {
             // The power λ J v, since J v + ∂c/∂t = 0.
@@ -44,7 +48,7 @@ impl Solver {
             }
             *value = -(*value + row.bias);
         }
-        if self.slides() {
+        if self.has_modes && self.slides() {
             self.solve_sliding();
         } else {
             self.solve();
