@@ -188,13 +188,10 @@ fn labels_know_copies_by_their_names() {
     assert!(script.contains("a = 9, b = 16.0") && script.contains("c = "), "{script}");
 }
 
-/// Twenty pendulums are one body and one joint; a chain is one body and one joint, too.
-#[test]
-fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
-    let scene = Scene::parse(
-        r#"
+/// Bobs that hang from hooks, each on a rod, and a chain of rods from bob to bob.
+const PENDULUMS: &str = r#"
         [variables]
-        count = 5
+        count = 4
         [body.hook]
         repeat = "count"
         shape.sphere.radius = 0.1
@@ -208,13 +205,21 @@ fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
         between = ["hook[i]", "bob[i]"]
         [joint.chain.rod]
         between = ["bob[i]", { body = "bob[i+1]", at = [0, 0, 0] }]
+"#;
+
+/// Twenty pendulums are one body and one joint; a chain is one body and one joint, too.
+#[test]
+fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
+    let scene = Scene::parse(
+        &(PENDULUMS.to_owned()
+            + r#"
         [joint.last.rod]
         between = ["hook[count-1]", [4, 3, 0]]
         [force.some]
         repeat = 3
         spring.between = [["i", 0, "2*i"], "bob[count-1-i]"]
         spring.stiffness = "1 + i"
-        "#,
+        "#),
     );
     // The last rod holds nothing that moves.
     let report = scene.unwrap_err().to_text(false);
@@ -224,26 +229,14 @@ fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
 
 #[test]
 fn copies_of_joints_and_forces_have_names_and_numbers_of_their_own() {
-    let text = r#"
-        [body.hook]
-        repeat = 4
-        shape.sphere.radius = 0.1
-        location = ["i", 2, 0]
-        fixed = true
-        [body.bob]
-        repeat = 4
-        shape.sphere.radius = 0.1
-        location = ["i", "1 - i/10", 0]
-        [joint.string.rod]
-        between = ["hook[i]", "bob[i]"]
-        [joint.chain.rod]
-        between = ["bob[i]", { body = "bob[i+1]", at = [0, 0, 0] }]
+    let text = PENDULUMS.to_owned()
+        + r#"
         [force.some]
         repeat = 3
         spring.between = [["i", 0, 0], "bob[3-i]"]
         spring.stiffness = "1 + i"
         "#;
-    let scene = Scene::parse(text).unwrap();
+    let scene = Scene::parse(&text).unwrap();
     let names: Vec<&str> = scene.joints.iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(
         names,

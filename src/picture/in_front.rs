@@ -29,7 +29,7 @@ impl Planes {
         Planes { planes: ground.into_iter().chain(bodies).collect() }
     }
 
-    /// Moves an arrow in front of the planes that it goes into on its way away from the camera.
+    /// Moves an arrow in front of the planes that it would pass through away from the camera.
     pub(super) fn lift(&self, arrow: &mut Arrow, camera: &Placed) {
         for (point, normal) in &self.planes {
             let above = |place: DVec3| (place - *point).dot(*normal);
@@ -52,7 +52,7 @@ impl Planes {
     }
 }
 
-/// Moves an arrow in front of a spring or a joint in which it lies.
+/// Moves an arrow that lies within a spring or a joint in front of it.
 pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;
     let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;

@@ -338,16 +338,18 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
     }
 }
 
+/// A bob and an arm, to be held by joints.
+const HELD: &str = "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
+    [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
+    [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1\n";
+
 #[test]
 fn a_label_tells_what_a_joint_does() {
-    let (scene, plan) = plan(
-        "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
-        [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
-        [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1
-        [joint.clamp.fixed]\nbetween = [[3, 0, 0], 'arm']
+    let (scene, plan) = plan(&format!(
+        "{HELD}[joint.clamp.fixed]\nbetween = [[3, 0, 0], 'arm']
         [joint.string.rod]\nbetween = [[0, 0, 0], 'bob']
-        [label.note]\ntext = '${joint.string.force:.3} ${-joint.string.fx + joint.string.fy:.1} ${joint.clamp.tz:.2} ${2*bob.y}'",
-    );
+        [label.note]\ntext = '${{joint.string.force:.3}} ${{-joint.string.fx + joint.string.fy:.1}} ${{joint.clamp.tz:.2}} ${{2*bob.y}}'",
+    ));
     let frame = frames(&scene).nth(20).unwrap();
     let [ref note] = plan.texts(&frame)[..] else { panic!("there is one") };
     assert_eq!(note.says, "30.000 30.0 10.00 –4");
@@ -356,14 +358,11 @@ fn a_label_tells_what_a_joint_does() {
 /// The force on the bob is along its rod; the scale is that of all forces.
 #[test]
 fn a_joint_has_arrows_for_its_force_and_its_torque() {
-    let (scene, plan) = plan(
-        "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
-        [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
-        [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1
-        [joint.string.rod]\nbetween = [[0, 0, 0], 'bob']\narrows.force = true
+    let (scene, plan) = plan(&format!(
+        "{HELD}[joint.string.rod]\nbetween = [[0, 0, 0], 'bob']\narrows.force = true
         [joint.clamp.fixed]\nbetween = ['arm', [3, 0, 0]]\narrows.force.scale = 0.05
-        arrows.torque = { scale = 0.1, color = 'red' }",
-    );
+        arrows.torque = {{ scale = 0.1, color = 'red' }}",
+    ));
     let frame = frames(&scene).nth(20).unwrap();
     let [string, force, torque] = plan.arrows(&frame)[..] else { panic!("three are asked for") };
     assert_eq!(string.bearer, Bearer::Joint { joint: 0, body: Some(0) });

@@ -74,6 +74,23 @@ pub(crate) fn air(body: BodyId, linear: f64) -> Drag {
     Drag { bodies: vec![body], linear, quadratic: 0.0, wind: DVec3::ZERO }
 }
 
+/// Asserts that each method has its order over a second, up to `slack`, by its errors with steps of 1/256 s and 1/512 s. `build`
+/// makes the world for a method and a step. The reference is RK4 with a sixteenth of the smaller step.
+pub(crate) fn assert_orders(slack: f64, build: impl Fn(&'static Method, f64) -> World) {
+    let end = |method, steps: u32| {
+        let mut world = build(method, 1.0 / f64::from(steps));
+        world.advance_to(1.0);
+        world.state().clone()
+    };
+    let exact = end(method("rk4"), 8192);
+    for method in METHODS {
+        let errors = [256, 512].map(|steps| distance(&end(method, steps), &exact));
+        let slope = libm::log2(errors[0] / errors[1]);
+        let is_right = (slope - f64::from(method.order)).abs() < slack;
+        assert!(is_right, "{}: order {slope}, errors {errors:?}", method.name);
+    }
+}
+
 /// The largest deviation between two states, of all quantities.
 pub(crate) fn distance(a: &State, b: &State) -> f64 {
     let mut largest = (a.accounts.work - b.accounts.work).abs();

@@ -8,7 +8,7 @@ use jabuka::dynamics::{
     Servo, Shape, Slider, Target, UniformGravity, World,
 };
 
-use crate::common::{ball, method};
+use crate::common::{assert_orders, ball, method};
 
 const G: f64 = 9.81;
 
@@ -376,21 +376,7 @@ fn events_keep_the_order_of_a_method() {
         world.add_constraint(axle(&world, wheel, freedom));
         world
     };
-    let end = |method, steps: u32| {
-        let mut world = build(method, 1.0 / f64::from(steps));
-        world.advance_to(1.0);
-        world.state().clone()
-    };
-    let exact = end(method("rk4"), 8192);
-    for method in METHODS {
-        let errors = [256, 512].map(|steps| crate::common::distance(&end(method, steps), &exact));
-        let slope = libm::log2(errors[0] / errors[1]);
-        assert!(
-            (slope - f64::from(method.order)).abs() < 0.5,
-            "{}: order {slope}, errors {errors:?}",
-            method.name
-        );
-    }
+    assert_orders(0.5, build);
 }
 
 /// What is drawn between two steps is drawn on the right side of an event.

@@ -1,9 +1,12 @@
 //! A chain that is let go, here and in rapier's multibody joints: the processor time of a step, measured in one run.
 //!
-//! Both have the same bodies and the same gravity: balls of 1 kg, 1 m apart, each held at that distance from the one before it.
-//! Here that is a rod, or a ball joint at the centre of the ball before; there it is a hinge, with which the chain swings in a
-//! plane and has the fewest coordinates, or a spherical joint, with which a chain of 1,000 takes too long. What drags on joints there by default is off. Neither has
-//! contacts, and rapier computes on one thread.
+//! Both simulate balls of 1 kg, 1 m apart, under the same gravity. Each ball is held at its distance from the one before it.
+//!
+//! - Here, by a rod, or by a ball joint at the centre of the ball before.
+//! - In rapier, by a hinge, so that the chain swings in a plane and has the fewest coordinates. The chain of 100 also runs with
+//!   spherical joints; with them, a chain of 1,000 would take too long.
+//!
+//! The default damping of rapier's joints is switched off. There are no contacts, and rapier runs on one thread.
 //!
 //! `cargo run --release --manifest-path benches/rapier/Cargo.toml`
 

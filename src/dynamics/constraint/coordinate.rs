@@ -1,4 +1,4 @@
-//! What a hinge or a slider leaves free: an angle, or a way.
+//! The coordinate that a hinge or a slider leaves free: an angle or a displacement.
 
 use glam::DVec3;
 
@@ -6,14 +6,15 @@ use super::super::{Anchor, BodyId, BodySnapshot};
 use super::member::{End, Member};
 use super::{Equations, Members};
 
-/// The angle of a hinge, or the way of a slider, from the first end to the second.
+/// The angle of a hinge or the displacement of a slider: that of the second end relative to the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinate {
     /// The two points.
     pub between: [Anchor; 2],
     /// The axis, a unit vector, in the axes of the first end.
     pub axis: DVec3,
-    /// Of an angle: two directions across the axis, in the axes of each end, which are the same where it is 0.
+    /// For an angle: two directions perpendicular to the axis, one in the axes of each end. They coincide where the angle is 0.
+    /// `None` for a displacement.
     pub zero: Option<[DVec3; 2]>,
 }
 
@@ -22,11 +23,11 @@ pub struct Coordinate {
 pub(super) struct Free {
     /// Its value, rad (from −π to π) or m.
     pub(super) value: f64,
-    /// By how much its second derivative is more than the accelerations make it.
+    /// The part of its second derivative that does not come from accelerations of the bodies.
     bias: f64,
-    /// The size of the terms of its value.
+    /// The size of the terms that its value is a difference of.
     pub(super) scale: f64,
-    /// How each end takes part.
+    /// For each end: its body, and the derivatives of the value with respect to its place and its turn.
     parts: [(Option<usize>, DVec3, DVec3); 2],
 }
 
@@ -37,8 +38,7 @@ impl Coordinate {
         self.zero.is_some()
     }
 
-    /// The coordinate and its rate where the bodies are known: rad (from −π to π) and rad/s, or m and m/s. The closure gives a
-    /// body, if it is there.
+    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure gives a body; `None` where it is away.
     pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
         let mut all = [Member::default(); 2];
         let ids = super::parts::bodies(&self.between);
@@ -53,7 +53,7 @@ impl Coordinate {
         Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
-    /// The coordinate at the present moment of the members, which are those of its ends.
+    /// The coordinate, with both ends as they are now.
     pub(super) fn measure(&self, [a, b]: &[End<'_>; 2]) -> Free {
         let axis = a.orientation() * self.axis;
         match self.zero {
@@ -91,7 +91,7 @@ impl Coordinate {
         [*members, members.at_origin()].map(|members| self.measure(&End::all(&self.between, &members)))
     }
 
-    /// The difference of two values, of angles the shortest way round.
+    /// The difference of two values; between angles, the shorter way round.
     pub(super) fn difference(&self, to: f64, from: f64) -> f64 {
         if self.is_angle() { libm::remainder(to - from, std::f64::consts::TAU) } else { to - from }
     }
@@ -104,7 +104,7 @@ impl Coordinate {
         rate(a, free.parts[0]) + rate(b, free.parts[1])
     }
 
-    /// The forces and torques on the two ends' bodies that a generalised force of 1 makes.
+    /// For each end, the force and the torque on its body that a generalised force of 1 makes.
     pub(super) fn directions(free: &Free) -> [(Option<usize>, DVec3, DVec3); 2] {
         free.parts
     }
@@ -112,7 +112,7 @@ impl Coordinate {
 
 /// One equation between coordinates.
 pub(super) struct CoordinateRow<'a> {
-    /// Which one, among those of the constraint.
+    /// Its number among the rows of the constraint.
     pub(super) row: usize,
     /// The factor of each coordinate.
     pub(super) terms: &'a [(f64, Free)],

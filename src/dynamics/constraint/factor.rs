@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// Below this part of its own diagonal, what is left of a row has come from rounding: other rows imply it.
+/// A row whose pivot is below this part of its diagonal is implied by other rows: the rest is rounding.
 const IMPLIED: f64 = 1e-11;
 
 /// A matrix and its factors; both keep their patterns.

@@ -1,4 +1,4 @@
-//! What is done with the angle of a hinge, or with the way of a slider: limits and a motor.
+//! Limits and a motor for the angle of a hinge or the displacement of a slider.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::{Equations, Law, Members};
 /// The limits and the motor of a joint that leaves one coordinate free.
 #[derive(Clone, Debug, Default)]
 pub struct Freedom {
-    /// The smallest and the largest value, rad or m. Those of an angle span less than a turn.
+    /// The smallest and the largest value, rad or m. For an angle, they are less than a turn apart.
     pub limits: Option<[f64; 2]>,
     /// What drives it.
     pub motor: Option<Motor>,
@@ -18,20 +18,20 @@ pub struct Freedom {
 /// What drives a joint.
 #[derive(Clone, Debug)]
 pub enum Motor {
-    /// A speed, as far as the motor is strong enough.
+    /// It keeps a speed, unless that takes more than its largest torque or force.
     Speed {
         /// The speed, rad/s or m/s.
         speed: f64,
         /// The largest torque, N m, or force, N; it is positive.
         limit: f64,
     },
-    /// A value that is given at every time, whatever it takes.
+    /// It keeps a value that is given as a function of time, with any force that this takes.
     Value(Arc<dyn Target>),
 }
 
-/// A value that is given at every time.
+/// A value as a function of time.
 pub trait Target: Debug + Send + Sync {
-    /// The value at time `t` (s), its rate, and the rate of that: rad or m, by the second.
+    /// The value at time `t` (s), and its first and second derivatives: rad, rad/s and rad/s², or m, m/s and m/s².
     fn at(&self, t: f64) -> [f64; 3];
 }
 
@@ -72,7 +72,7 @@ impl Freedom {
             row += 1;
         };
         if let Some([low, high]) = self.limits {
-            // An angle is that of its turns that is nearest to the middle.
+            // Angles repeat after a turn: take the one nearest to the middle of the limits.
             let middle = 0.5 * (low + high);
             let value = middle + coordinate.difference(now.value, middle);
             write(1.0, value - low, 0.0, 0.0);
@@ -80,7 +80,7 @@ impl Freedom {
         }
         match &self.motor {
             None => {}
-            // Against the beginning of the step: so the turns need not be counted.
+            // Relative to the beginning of the step, so that nobody has to count turns.
             Some(Motor::Speed { speed, .. }) => {
                 let moved = coordinate.difference(now.value, before.value);
                 let due = coordinate.difference(speed * members.elapsed(), 0.0);

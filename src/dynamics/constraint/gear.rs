@@ -4,7 +4,7 @@ use super::super::{Anchor, BodyId};
 use super::coordinate::{Coordinate, CoordinateRow};
 use super::{Constraint, Equations, Members, parts};
 
-/// What couples the angles of two hinges, or the ways of sliders.
+/// Couples the coordinates of two joints: the angle of a hinge or the displacement of a slider, at a fixed ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gear {
     /// The coordinates of the two joints.
@@ -33,7 +33,7 @@ impl Constraint for Gear {
         1
     }
 
-    /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step: so the turns need not be counted.
+    /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step. So nobody has to count turns.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let measure = |members: &Members<'_>| {
             let [a, b, c, d] = super::member::End::all(&self.ends(), members);

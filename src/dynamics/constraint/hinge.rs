@@ -1,4 +1,4 @@
-//! A hinge: two points stay together, and one axis is common.
+//! A hinge: two points stay together, and one axis stays common to both bodies.
 
 use glam::{DQuat, DVec3};
 

@@ -51,7 +51,7 @@ impl Nature {
 }
 
 impl Member {
-    /// A body, at no moment yet.
+    /// A body whose state is not known yet.
     pub(super) fn new(nature: &Nature) -> Member {
         let inverse_mass = nature.inverse_mass;
         let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
@@ -67,7 +67,7 @@ impl Member {
         member
     }
 
-    /// Takes from a state what changes with time. Says whether the place is another one.
+    /// Takes place and motion from a state. Says whether the place has changed.
     #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;
@@ -104,7 +104,7 @@ impl Member {
         }
     }
 
-    /// I⁻¹ times a vector, which is zero for most ends at the centre of a body.
+    /// I⁻¹ times a vector. The vector is often zero: that of a point-like end always is.
     pub(super) fn turn(&self, vector: DVec3) -> DVec3 {
         if vector == DVec3::ZERO { vector } else { self.inverse_inertia * vector }
     }
@@ -119,11 +119,11 @@ pub(super) struct End<'a> {
     pub(super) member: &'a Member,
     /// r: the way to it from the centre of mass, m.
     pub(super) arm: DVec3,
-    /// Whether it goes around the centre of mass when the body turns.
+    /// Whether it is a point of a body away from the centre of mass.
     pub(super) is_off_centre: bool,
 }
 
-/// What the points of the world belong to.
+/// The body to which points of the world belong.
 static WORLD: Member = Member {
     location: DVec3::ZERO,
     velocity: DVec3::ZERO,
@@ -172,8 +172,7 @@ impl<'a> End<'a> {
         self.member.angular_velocity
     }
 
-    /// ω × r, by which it moves faster than the centre of mass, m/s; and ω × (ω × r), the part of its acceleration that does not come
-    /// from accelerations of the body, m/s².
+    /// ω × r, its velocity relative to the centre of mass, m/s; and ω × (ω × r), its centripetal acceleration, m/s².
     #[inline(always)]
     pub(super) fn turning(&self) -> (DVec3, DVec3) {
         let omega = self.member.angular_velocity;
@@ -181,7 +180,7 @@ impl<'a> End<'a> {
         (turning, omega.cross(turning))
     }
 
-    /// How it moves, m/s; and ω × (ω × r).
+    /// Its velocity, m/s, and its centripetal acceleration, m/s².
     #[inline(always)]
     pub(super) fn motion(&self) -> (DVec3, DVec3) {
         if !self.is_off_centre {

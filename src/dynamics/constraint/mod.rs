@@ -55,13 +55,13 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// The bodies that it concerns, each once.
     fn bodies(&self) -> Vec<BodyId>;
 
-    /// The end on which its force and its torque are counted: the second one.
+    /// The end on which its force and torque are measured: the second one.
     fn second_end(&self) -> Anchor;
 
     /// The number of its equations.
     fn rows(&self) -> usize;
 
-    /// What one of its equations may do.
+    /// How one of its equations is kept.
     fn law(&self, _row: usize) -> Law {
         Law::Tie
     }
@@ -70,12 +70,12 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
 }
 
-/// What an equation may do.
+/// How an equation is kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
-    /// c = 0, whatever it takes.
+    /// c = 0, with any force.
     Tie,
-    /// c ≥ 0: it pushes only where c would become negative, and does not pull.
+    /// c ≥ 0. It pushes where c would become negative, and never pulls.
     Stop,
     /// Two rows of this law follow each other: c' = 0 of both, as far as multipliers can make it that are together at most
     /// `coefficient` times that of the first row of the constraint; where they cannot, they push as far as they can.
@@ -83,7 +83,7 @@ pub enum Law {
         /// Coulomb's coefficient, or, of turns, the coefficient of rolling friction, m; it is positive.
         coefficient: f64,
     },
-    /// c' = 0, as far as a multiplier from −`limit` to `limit` can make it.
+    /// c' = 0, unless that takes a multiplier outside of −`limit` … `limit`.
     Drive {
         /// The largest multiplier; it is positive.
         limit: f64,
@@ -93,13 +93,13 @@ pub enum Law {
 /// One equation of a constraint at one moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
-    /// c, in metres or without unit: by how much it does not hold.
+    /// c, in metres or without unit; it is 0 where the equation holds.
     pub violation: f64,
-    /// ∂c/∂t: the part of c' that does not come from velocities.
+    /// ∂c/∂t: the part of c' that does not depend on velocities.
     pub rate: f64,
-    /// The part of c'' that does not come from accelerations: J̇ v, and what time itself does.
+    /// The part of c'' that does not depend on accelerations: J̇ v, and the derivatives by time alone.
     pub bias: f64,
-    /// The size of the terms that c is a difference of: rounding makes an error of about this times 1e-16.
+    /// The size of the terms whose difference c is: the rounding error of c is about 1e-16 of this.
     pub scale: f64,
 }
 
@@ -110,7 +110,7 @@ pub struct Direction {
     pub linear: DVec3,
     /// ∂c/∂φ, world axes.
     pub angular: DVec3,
-    /// Its body, as a place among the members.
+    /// The index of its body among the members.
     member: usize,
 }
 
@@ -187,7 +187,7 @@ impl Equations<'_> {
     /// Writes a row; the directions that are not set are zero.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[row] = Row { violation, rate: 0.0, bias, scale };
-        // By index: most rows have one body or two, and the loop of an iterator is unrolled for many.
+        // By index: most rows have one or two bodies, and the compiler unrolls the loop of an iterator for many.
         let mut i = row * self.bodies;
         let end = i + self.bodies;
         while i != end {
@@ -197,7 +197,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Says how fast a row changes with time itself.
+    /// Sets ∂c/∂t of a row.
     pub(in crate::dynamics) fn moving(&mut self, row: usize, rate: f64) {
         self.rows[row].rate = rate;
     }

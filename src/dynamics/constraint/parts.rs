@@ -1,4 +1,4 @@
-//! The equations that joints are made of.
+//! The equations of which joints are composed.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::super::{Anchor, BodyId};
 use super::Equations;
 use super::member::End;
 
-/// The bodies of some ends, each once, in the order in which [`End::all`] takes them.
+/// The bodies of these ends, each once, in the order that [`End::all`] expects.
 pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
     let mut bodies = Vec::new();
     for body in ends.iter().filter_map(|end| end.body()) {
@@ -17,20 +17,21 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
     bodies
 }
 
-/// The way from one end to another: its length |d|, whose second derivative is u·d'' + (|d'|² − (u·d')²) / |d|, u = d / |d|.
+/// The vector d from one end to another. With u = d / |d|, its length has the second derivative
+/// u·d'' + (|d'|² − (u·d')²) / |d|.
 pub(super) struct Way<'a> {
     /// |d|, m.
     pub(super) length: f64,
     /// The part of |d|'' that does not come from accelerations of the bodies, m/s².
     pub(super) bias: f64,
-    /// The size of the coordinates that it is a difference of, m.
+    /// The size of the coordinates whose difference it is, m.
     pub(super) scale: f64,
     u: DVec3,
     ends: &'a [End<'a>; 2],
 }
 
 impl<'a> Way<'a> {
-    /// The way between two ends; `typical` is what its length is about, m.
+    /// The vector between two ends. `typical` is its usual length, m.
     #[inline(always)]
     pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> Way<'a> {
         let [a, b] = ends;
@@ -62,10 +63,10 @@ impl<'a> Way<'a> {
         (apart * inverse, inverse)
     }
 
-    /// The same where |d| is so small that 1/|d| has to be limited.
+    /// The same where |d| is tiny: 1/|d| is limited.
     #[cold]
     fn short(apart: DVec3, length: f64, shortest: f64) -> (DVec3, f64) {
-        // Two ends at the same point have no direction; any one leads them apart.
+        // Two ends at the same point have no direction: any will do.
         let u = if length > 0.0 { apart * length.recip() } else { DVec3::Y };
         (u, shortest.recip())
     }
@@ -93,8 +94,8 @@ pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Eq
     }
 }
 
-/// One row: `u`, which turns with the first end, is perpendicular to `w`, which turns with the second. Both are unit
-/// vectors in world axes.
+/// One row: the vectors `u` and `w` are perpendicular. `u` turns with the first end, `w` with the second. Both are unit vectors in
+/// world axes.
 pub(super) fn perpendicular(
     [a, b]: &[End<'_>; 2],
     u: DVec3,
@@ -110,8 +111,8 @@ pub(super) fn perpendicular(
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
 }
 
-/// Three rows: the second end is not turned against the first. `turned` are the axes of the first end's frame as they stand
-/// in that of the second where the rows hold.
+/// Three rows: the second end does not turn relative to the first. `turned` takes the axes of the first end to those of the
+/// second.
 pub(super) fn same_turn(
     ends: &[End<'_>; 2],
     turned: glam::DQuat,
@@ -126,7 +127,7 @@ pub(super) fn same_turn(
     }
 }
 
-/// One row: the way from the first end to the second is perpendicular to `u`, which turns with the first.
+/// One row: the vector from the first end to the second is perpendicular to `u`, which turns with the first.
 pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];

@@ -4,13 +4,13 @@ use super::super::{Anchor, BodyId};
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass and friction from one end over two points to the other end. It can be slack. An end that is drawn up to
-/// the point over which its rope runs stops there: a hundredth of the rope's length before it.
+/// A rope without mass and friction that runs from one end over two points to the other end. It can be slack. An end that is pulled
+/// up to its point stops a hundredth of the rope's length before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulley {
     /// The two ends of the rope.
     pub between: [Anchor; 2],
-    /// The points over which it runs: the first is that of the first end.
+    /// The points over which it runs: first that of the first end.
     pub over: [Anchor; 2],
     /// How much rope the first end gets for each metre of the second; it is positive.
     pub ratio: f64,
@@ -19,7 +19,7 @@ pub struct Pulley {
 }
 
 impl Pulley {
-    /// How near an end can come to the point over which its rope runs, as part of the rope's length.
+    /// The least distance of an end from its point, as a part of the rope's length.
     pub const NEAREST: f64 = 0.01;
 
     fn ends(&self) -> [Anchor; 4] {
@@ -44,7 +44,7 @@ impl Constraint for Pulley {
         Law::Stop
     }
 
-    /// c = ℓ − |d₁| − r |d₂| ≥ 0, with d the ways from the points to the ends, and |d| − ε ≥ 0 for both.
+    /// c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ lead from the points to the ends; and |d| − ε ≥ 0 for both.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let [a, b, c, d] = End::all(&self.ends(), members);
         let [first, second] = [[a, b], [c, d]];

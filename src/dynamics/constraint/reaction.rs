@@ -7,8 +7,8 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::{Law, Member};
 
-/// What a constraint does to its second end, in world axes; to the first it does the opposite. It is zero while a body of the
-/// constraint is away, and of equations that others imply: these bear it.
+/// The force and the torque of a constraint on its second end, in world axes; those on the first are opposite. They are zero while
+/// a body of the constraint is away. Redundant equations carry nothing: the others bear the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// The force on the second end, N.
@@ -18,7 +18,7 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// The same force and torque, which count about another point: `way` leads from there to the present one.
+    /// The same force and torque about another point. `way` leads from there to the present one.
     fn about(self, way: DVec3) -> Reaction {
         Reaction { torque: self.torque + way.cross(self.force), ..self }
     }
@@ -59,7 +59,7 @@ impl Solver {
                     let Some(body) = place.bodies.iter().position(is_it) else { continue };
                     on[body].about(-(member(body).orientation * at))
                 }
-                // What holds the others pulls at the world.
+                // The world bears the reaction to all of them.
                 Anchor::Point(point) => {
                     let mut sum = Reaction::default();
                     for (body, on) in on.into_iter().enumerate() {

@@ -26,7 +26,7 @@ impl Constraint for Rod {
         1
     }
 
-    /// c = |d| − ℓ, with d the way from one end to the other.
+    /// c = |d| − ℓ, where d leads from one end to the other.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

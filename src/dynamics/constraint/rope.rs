@@ -4,7 +4,7 @@ use super::super::{Anchor, BodyId};
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass. When it becomes taut, it takes what leads the ends apart, and does not spring back.
+/// A rope without mass. When it becomes taut, it stops the ends from moving apart, and does not spring back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rope {
     /// The two points.
@@ -30,7 +30,7 @@ impl Constraint for Rope {
         Law::Stop
     }
 
-    /// c = ℓ − |d| ≥ 0, with d the way from one end to the other.
+    /// c = ℓ − |d| ≥ 0, where d leads from one end to the other.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

@@ -1,4 +1,4 @@
-//! A servo: a spring and a damper that lead a joint to a value that is given at every time.
+//! A servo: a spring and a damper that pull a joint towards a value that is given as a function of time.
 
 use std::sync::Arc;
 
@@ -6,12 +6,12 @@ use super::super::{Force, Loads, Moment};
 use super::member::{End, Member};
 use super::{Coordinate, Members, Target, parts};
 
-/// A motor that is as strong as its stiffness: k (q₀(t) − q) + d (q₀'(t) − q').
+/// A motor that gives way: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q').
 #[derive(Clone, Debug)]
 pub struct Servo {
     /// What it drives.
     pub coordinate: Coordinate,
-    /// q₀: the value that is wanted.
+    /// q₀: the wanted value.
     pub target: Arc<dyn Target>,
     /// k, N m/rad or N/m.
     pub stiffness: f64,

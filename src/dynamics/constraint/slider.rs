@@ -6,7 +6,7 @@ use super::super::{Anchor, BodyId};
 use super::member::End;
 use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A slider, also called a prismatic joint. Its coordinate is the way from the first end to the second, along the axis.
+/// A slider, also called a prismatic joint. Its coordinate is the displacement of the second end from the first, along the axis.
 #[derive(Clone, Debug)]
 pub struct Slider {
     /// The two points; the second stays on the axis through the first.
@@ -20,7 +20,7 @@ pub struct Slider {
 }
 
 impl Slider {
-    /// The way.
+    /// Its displacement.
     #[must_use]
     pub fn coordinate(&self) -> Coordinate {
         Coordinate { between: self.between, axis: self.axis, zero: None }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Constraint, Direction};
 
-/// What does not change with time: the places of all rows and blocks.
+/// The places of all rows and blocks. They do not change with time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Structure {
     /// The constraints, in the order of their elimination.
@@ -39,7 +39,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Its directions, in which nothing is known but the bodies.
+    /// Its directions, with their bodies; the rest is zero.
     pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
         let rows = std::iter::repeat_n(&self.bodies, self.rows);
         rows.flatten().map(|&member| Direction { member, ..Direction::default() })
@@ -62,7 +62,7 @@ impl Structure {
         self.row_start[row]..self.row_start[row + 1]
     }
 
-    /// That of some constraints, of which those hold whose bodies are there. A body that no force can move connects nothing.
+    /// The structure of the constraints whose bodies are all there. A body that no force can move connects nothing.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
         is_there: impl Fn(usize) -> bool,
@@ -147,7 +147,7 @@ fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// A chain loses its ends first, so no elimination connects more than two.
+    /// A chain is eliminated from its ends, so that no elimination connects more than two.
     #[test]
     fn a_chain_and_a_star_are_eliminated_without_new_edges() {
         let chain = |n: usize| -> Vec<BTreeSet<usize>> {

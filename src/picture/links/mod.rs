@@ -1,6 +1,6 @@
 //! Springs and joints as they are drawn: coils, rods, ropes, pins and rails.
 //!
-//! What each of them is made of is planned once for a run (`plan`); where its parts are follows from the frame.
+//! Their parts are planned once for a run (`plan`). Each frame says where they are.
 
 mod plan;
 
@@ -158,10 +158,10 @@ enum Form {
     Pin { at: Anchor, radius: f64 },
     /// A coil from end to end.
     Coil { radius: f64, turns: u32 },
-    /// A rod; where it begins or ends in the centre of a body, it is seen from its surface on.
+    /// A rod. An end at the centre of a body is drawn from the surface of the body on.
     Rod { between: [Anchor; 2], radius: f64 },
-    /// A rod through a point. The direction, a unit vector, is in the axes of the point's body; `reach` says from where to where
-    /// it goes along it.
+    /// A rod through a point. The direction is a unit vector in the axes of the point's body; `reach` is where it begins and ends
+    /// along that direction.
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
     /// A rope of a length, which hangs where it is slack.
     Rope { between: [Anchor; 2], length: f64, radius: f64 },
@@ -222,7 +222,7 @@ impl Links {
         self.parts.iter().map(|part| self.link(part, frame))
     }
 
-    /// A part as it is in a frame; none where an end is away, and where bodies that touch leave no room for it.
+    /// A part as it is in a frame. `None` while an end is away, or where bodies that touch leave no room for it.
     fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Link<'a>> {
         // A point of the world is always there.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
@@ -267,7 +267,7 @@ impl Links {
         Course::new([from, first, second, to], wheel)
     }
 
-    /// Where an end is drawn, m: a point of a body that is drawn larger is farther from its centre.
+    /// Where an end is drawn, m. If the body is drawn larger than it is, its points are farther from its centre.
     fn place(&self, end: Anchor, frame: &Frame) -> DVec3 {
         let drawn = match end {
             Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },
@@ -279,8 +279,8 @@ impl Links {
         })
     }
 
-    /// From where to where something is seen that goes from one end to another, m: from surface to surface of what it is fastened
-    /// to in its centre; none where that leaves less than so much room.
+    /// The visible part of a straight line from one end to another, m. At a body that holds it by its centre, it begins at the
+    /// surface. `None` where less than `room` is left.
     fn span(&self, between: [Anchor; 2], frame: &Frame, room: f64) -> Option<[DVec3; 2]> {
         let [from, to] = between.map(|end| self.place(end, frame));
         let along = (to - from).normalize_or_zero();

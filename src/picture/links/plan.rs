@@ -1,4 +1,4 @@
-//! What springs and joints are made of, and how large their parts are.
+//! The parts of springs and joints, and their sizes.
 
 use glam::{DQuat, DVec3};
 
@@ -91,7 +91,7 @@ fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
     (radius, free)
 }
 
-/// A number of turns near to what would be usual.
+/// A usual number of turns.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
 fn usual_turns(usual: f64) -> u32 {
     usual.round().clamp(4.0, 24.0) as u32
@@ -207,8 +207,8 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     Form::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
 }
 
-/// The rail of a slider, as far as its limits, or else as what slides goes in the run. It is fastened to the end that moves less: to a point of
-/// the world, if one is. An arm joins them where the rail does not go through what slides.
+/// The rail of a slider. It reaches to the limits, or else as far as the slider moves in the run. It is fastened to a point of the world if
+/// an end is one, or else to the end that moves less. Where the rail does not pass through the moving body, an arm joins them.
 fn rail(
     scene: &Scene,
     slider: &Slider,

@@ -1,4 +1,4 @@
-//! Springs and joints stand where what they are fastened to is.
+//! Springs and joints are drawn where the bodies are that they are fastened to.
 
 use glam::DVec3;
 

@@ -8,13 +8,13 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Value};
 
-/// Whether a name has a formula for an index, if it is one of a copy.
+/// Whether a name is that of a copy, with a formula as an index.
 pub(super) fn is_formula(name: &str) -> bool {
     let is_plain = |part: &str| part == "*" || part.parse::<usize>().is_ok();
     split(name).is_some_and(|(_, inside)| parts(inside).any(|range| !is_plain(inside[range].trim())))
 }
 
-/// The formulas of the indices in a name that depend on `i`, with the name of the body that is repeated.
+/// The name of the repeated thing and the formulas of its indices, if one of them depends on `i`.
 pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
     let (original, inside) = split(name)?;
     let formulas: Vec<Formula> =
@@ -23,7 +23,7 @@ pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
     is_of_i.then_some((original, formulas))
 }
 
-/// The indices of a name, between commas that stand in no parentheses.
+/// The ranges of the indices in a list such as `mod(i, 3), j`. Commas within parentheses do not separate.
 fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
     let (mut depth, mut start) = (0usize, 0);
     let mut ends = inside.char_indices().chain([(inside.len(), ',')]);
@@ -45,8 +45,7 @@ fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
 }
 
 impl Expander<'_> {
-    /// Puts the numbers in the place of the formulas in the name of a copy. Whether there is such a copy, the validation
-    /// sees.
+    /// Replaces the formulas in the name of a copy by their values. The validation checks that there is such a copy.
     pub(super) fn index(&mut self, node: &mut Node) {
         let Value::String(name) = &node.value else { return };
         let name = name.clone();
@@ -65,7 +64,7 @@ impl Expander<'_> {
             let start = original.len() + 1 + range.start + part.len() - part.trim_start().len();
             let place = place::in_string(self.raw(node.span), &name, &(start..start + text.len()), node.span);
             if place == node.span {
-                // Several indices may have this place, so none of their formulas can be found by it.
+                // Several indices may share this place, so it identifies none of their formulas.
                 self.formulas.remove(&place);
             }
             let Some(value) = self.evaluate(text, place) else {

@@ -1,6 +1,6 @@
-//! Forces and joints that are many: with a `repeat`, or with ends that are named by `i`.
+//! Copies of forces and joints: by a `repeat`, or by ends whose names contain `i`.
 //!
-//! `between = ["hook[i]", "bob[i]"]` makes one for each `i` for which all of these copies exist.
+//! `between = ["hook[i]", "bob[i]"]` makes a copy for each `i` for which both bodies exist.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::scene::grammar::{Collection, Kind, MAX_COPIES, SCENE, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
 
 impl Expander<'_> {
-    /// Puts its copies in the place of every force and joint that is many.
+    /// Replaces each repeated force and joint by its copies.
     pub(super) fn repeat_links(&mut self, root: &mut Table) {
         for (key, what) in [("force", "forces"), ("joint", "joints")] {
             let Some(Kind::Named(spec)) = SCENE.key(key).map(|key| &key.kind) else { continue };
@@ -54,7 +54,7 @@ impl Expander<'_> {
                 (self.count_of_ends(&ends), span, span)
             }
         };
-        // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
+        // If the count is wrong, one copy is made, to find its other errors.
         let count = count.filter(|count| self.is_affordable(&[*count], what, &name, because)).unwrap_or(1);
         self.collisions(&[count], &name, letter);
         let (scope, before, first) = (self.scope.clone(), self.work, all.len());
@@ -76,7 +76,7 @@ impl Expander<'_> {
         self.scope = scope;
         self.formulas.clear();
         self.groups.add_link(&name);
-        // The validation still has to see it, once.
+        // The first copy keeps it for the validation.
         if let (Some(Entry { node: Node { value: Value::Table(table), .. }, .. }), Some(repeat)) =
             (all.get_mut(first), repeat)
         {
@@ -84,8 +84,8 @@ impl Expander<'_> {
         }
     }
 
-    /// For how many values of `i` there is a copy of each name; none after it has been said that pairs do not come out
-    /// even.
+    /// The number of values of `i`, from 0 on, for which all named bodies exist. `None` after an error: the bodies of a pair have
+    /// different numbers of copies.
     fn count_of_ends(&mut self, ends: &[&Node]) -> Option<usize> {
         let ends: Vec<(&Node, &str, Vec<Formula>)> = ends
             .iter()
@@ -113,7 +113,7 @@ impl Expander<'_> {
             !ends.iter().all(|(_, original, formulas)| self.has_copy(original, formulas))
         });
         self.scope = scope;
-        // Without any, what is wrong with the first is said of it.
+        // If there is none, the first copy gets the error.
         count.map(|count| count.max(1))
     }
 
@@ -128,7 +128,7 @@ impl Expander<'_> {
         formulas.len() == counts.len() && formulas.iter().zip(counts).all(is_in_range)
     }
 
-    /// Says that two bodies, each with the place of its name and the number of its copies, make no pairs.
+    /// Reports two bodies with different numbers of copies, each with the place of its name.
     fn uneven(&mut self, (here, one, many): (Span, &str, usize), (there, other, more): (Span, &str, usize)) {
         let message =
             format!("pairs take as many of each: `{one}` has {many} copies, and `{other}` has {more}");
@@ -137,7 +137,7 @@ impl Expander<'_> {
         self.diagnostics.push(error.at(here, format!("{many} copies")).help(help));
     }
 
-    /// Says where an end means several bodies although it can be one only.
+    /// Reports an end of a joint that names several bodies.
     pub(super) fn are_single(&mut self, list: &mut Node) {
         let Value::Array(items) = &list.value else { return };
         let is_several = |item: &&Node| self.groups.means_several(item);
@@ -161,7 +161,7 @@ impl Expander<'_> {
     }
 }
 
-/// A name that means several bodies as one that means them one after another: `bob` and `bob[*]` → `bob[i]`.
+/// Rewrites a name of several bodies as a name of one for each `i`: `bob` and `bob[*]` → `bob[i]`.
 fn by_index(name: &str) -> String {
     match split(name) {
         Some((original, inside)) => format!("{original}[{}]", inside.replacen('*', "i", 1)),
@@ -169,7 +169,7 @@ fn by_index(name: &str) -> String {
     }
 }
 
-/// Whether a force or joint stands for several.
+/// Whether a force or a joint is repeated.
 fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     let Some(table) = entry.node.as_table() else { return false };
     let mut ends = Vec::new();
@@ -203,7 +203,7 @@ fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<&'t
     }
 }
 
-/// The number of copies; none where it is wrong, which the validation says.
+/// The number of copies; `None` where it is wrong, which the validation reports.
 fn count_of(repeat: &Node) -> Option<usize> {
     match repeat.value {
         Value::Integer(count @ 1..=MAX_COPIES) => usize::try_from(count).ok(),

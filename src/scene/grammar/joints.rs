@@ -45,6 +45,9 @@ const fn between(meaning: &'static str) -> Key {
 const PAIR: &str =
     "The two that it joins: each the name of a body, a point of a body, or a point of the world";
 
+const POINTS: &str =
+    "Its two ends: each the name of a body (its centre), a point of a body, or a point of the world";
+
 const AT: Key = Key::new(
     "at",
     VECTOR,
@@ -134,9 +137,7 @@ static ROD: TableSpec = TableSpec {
     noun: "a rod",
     rule: Rule::Any,
     keys: &[
-        between(
-            "The two that it joins: each the name of a body (its centre), a point of a body, or a point of the world",
-        ),
+        between(POINTS),
         Key::new("length", POSITIVE, "The distance of its ends")
             .unit("m")
             .default("as at the start")
@@ -219,9 +220,7 @@ static ROPE: TableSpec = TableSpec {
     noun: "a rope",
     rule: Rule::Any,
     keys: &[
-        between(
-            "The two that it joins: each the name of a body (its centre), a point of a body, or a point of the world",
-        ),
+        between(POINTS),
         Key::new("length", POSITIVE, "Its length: the distance of its ends where it is taut")
             .unit("m")
             .default("their distance at the start")
@@ -236,9 +235,7 @@ static PULLEY: TableSpec = TableSpec {
     noun: "a pulley",
     rule: Rule::Any,
     keys: &[
-        between(
-            "The two ends of the rope: each the name of a body (its centre), a point of a body, or a point of the world",
-        ),
+        between(POINTS),
         Key::new(
             "over",
             List { of: &AN_END, min: 2, max: 2 },

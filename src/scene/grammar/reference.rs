@@ -155,8 +155,9 @@ between = [\"bob[i]\", \"bob[i+1]\"]
 stiffness = \"10 + i\"
 ```
 
-A force or a joint whose ends are named by `i` is as many: one for each `i` for which all of these copies exist. `repeat = 5` makes five
-instead. An index is a formula, so `bob[2*i+1]` are every second one, and `bob[count-1]` is the last one if `count` is a variable.
+Name the ends of a force or a joint with `i`, and it is repeated: `i` counts from 0 for as long as all named bodies exist.
+`repeat = 5` makes five copies instead. An index is a formula: `bob[2*i+1]` takes every second bob, and `bob[count-1]` the last one, if
+`count` is a variable.
 
 A copy has random numbers of its own, which another copy or another body does not change. Scattered copies are placed one
 after another, each at random until the ball around it overlaps none of those before it; other bodies are not looked at.

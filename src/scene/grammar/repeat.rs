@@ -17,7 +17,7 @@ pub(super) const LINKS: Key = Key::new(
     "So many copies, `rod[0]`, `rod[1]`, …, which formulas of `i` tell apart, also in the names of bodies: `bob[i]`, \
      `link[i+1]`",
 )
-.default("one; or, where names of bodies have an `i`, one for each `i` for which there are such bodies")
+.default("one; where names of bodies contain `i`, as many as there are such bodies")
 .also(&["copies", "times"]);
 
 /// The key that says how many copies there are.

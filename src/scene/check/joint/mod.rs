@@ -151,9 +151,8 @@ impl Reader<'_, '_> {
         let length = view.number("length").unwrap_or(distance);
         if distance == 0.0 {
             let message = format!("the ends of the rod `{}` are at the same place", self.name);
-            let error =
-                Diagnostic::error(Code::BadJoint, message).at(nodes[1].span, "where the other end is");
-            self.context.diagnostics.push(error.help("a joint without length is a `ball`"));
+            let help = "a joint without length is a `ball`";
+            self.refuse(message, nodes[1].span, "where the other end is", help);
             return None;
         }
         let missing = (distance - length).abs();
@@ -236,21 +235,22 @@ impl Reader<'_, '_> {
                 !body.start.fixed && body.motion.is_none()
             })
         };
-        let mut wrong = |span: Span, why: &str, help: &str| {
-            let message = format!("the joint `{}` cannot hold anything", self.name);
-            self.context
-                .diagnostics
-                .push(Diagnostic::error(Code::BadJoint, message).at(span, why).help(help));
+        let is_same = between[0].body().is_some() && between[0].body() == between[1].body();
+        let (span, why, help) = if is_same {
+            (second.span, "the same body as the end before it", "a joint has two different ends")
+        } else if !between.iter().any(moves) {
+            (first.span, "neither end can move", "one end at least must be a body that forces can move")
+        } else {
+            return Some((between, [first, second]));
         };
-        if between[0].body().is_some() && between[0].body() == between[1].body() {
-            wrong(second.span, "the same body as the end before it", "a joint has two different ends");
-            return None;
-        }
-        if !between.iter().any(moves) {
-            wrong(first.span, "neither end can move", "one end at least must be a body that forces can move");
-            return None;
-        }
-        Some((between, [first, second]))
+        self.refuse(format!("the joint `{}` cannot hold anything", self.name), span, why, help);
+        None
+    }
+
+    /// Says why a joint cannot be.
+    fn refuse(&mut self, message: String, span: Span, why: &str, help: &str) {
+        let error = Diagnostic::error(Code::BadJoint, message).at(span, why).help(help);
+        self.context.diagnostics.push(error);
     }
 
     /// The point of a body that is at a point of the world at the start.

@@ -20,9 +20,8 @@ impl Reader<'_, '_> {
         let length = view.number("length").unwrap_or(distance);
         if length == 0.0 {
             let message = format!("the rope `{}` has no length", self.name);
-            let error =
-                Diagnostic::error(Code::BadJoint, message).at(nodes[1].span, "where the other end is");
-            self.context.diagnostics.push(error.help("say how long it is: `length = 1`"));
+            let help = "say how long it is: `length = 1`";
+            self.refuse(message, nodes[1].span, "where the other end is", help);
             return None;
         }
         self.reaches(view, distance, "its ends are", "the rope");
@@ -45,8 +44,7 @@ impl Reader<'_, '_> {
                 let label = format!("an end is {} m from here", about(way));
                 let help =
                     format!("an end stops {} m before the point over which its rope runs", about(nearest));
-                let error = Diagnostic::error(Code::BadJoint, message).at(node.span, label);
-                self.context.diagnostics.push(error.help(help));
+                self.refuse(message, node.span, &label, &help);
                 return None;
             }
         }
@@ -87,7 +85,7 @@ impl Reader<'_, '_> {
                 None if !self.gears.contains(&&**name) => return None,
                 _ => None,
             };
-            let error = match coordinate {
+            let why = match coordinate {
                 Some(_) if names.contains(&&**name) => "the same joint as the one before it",
                 Some(coordinate) => {
                     coordinates.push(coordinate);
@@ -98,10 +96,7 @@ impl Reader<'_, '_> {
                 None => "neither a hinge nor a slider",
             };
             let message = format!("the gear `{}` cannot couple these joints", self.name);
-            let error = Diagnostic::error(Code::BadJoint, message).at(node.span, error);
-            self.context
-                .diagnostics
-                .push(error.help("a gear couples two hinges, two sliders, or one of each"));
+            self.refuse(message, node.span, why, "a gear couples two hinges, two sliders, or one of each");
             return None;
         }
         let [first, second] = *coordinates.as_slice() else { return None };
@@ -109,10 +104,8 @@ impl Reader<'_, '_> {
         if ratio == 0.0 {
             let message = format!("the gear `{}` has a ratio of 0", self.name);
             let span = view.span("ratio").unwrap_or(self.span);
-            let error = Diagnostic::error(Code::BadJoint, message).at(span, "the second would never move");
-            self.context
-                .diagnostics
-                .push(error.help("such as `ratio = -2`: the second turns twice as fast, the other way"));
+            let help = "such as `ratio = -2`: the second turns twice as fast, the other way";
+            self.refuse(message, span, "the second would never move", help);
             return None;
         }
         Some(Gear { joints: [first, second], ratio })
