@@ -261,3 +261,35 @@ fn copies_of_joints_and_forces_have_names_and_numbers_of_their_own() {
     assert_eq!(format!("{:?}", scene.joints), format!("{:?}", by_hand.joints));
     assert_eq!(format!("{:?}", scene.forces), format!("{:?}", by_hand.forces));
 }
+
+/// A train of wheels is one body, one hinge and one gear.
+#[test]
+fn gears_couple_copies_of_joints() {
+    let train = |gears: &str| {
+        Scene::parse(&format!(
+            r#"
+            [joint.mesh.gear]
+            joints = {gears}
+            ratio = -1
+            [body.wheel]
+            repeat = 4
+            shape.cylinder = {{ radius = 0.5, height = 0.1 }}
+            orientation = {{ axis = [1, 0, 0], angle = 90 }}
+            location = ["i", 0, 0]
+            [joint.axle.hinge]
+            between = [["i", 0, 0], "wheel[i]"]
+            axis = [0, 0, 1]
+            "#
+        ))
+    };
+    let names = |scene: Scene| -> Vec<String> {
+        let joints = scene.joints.into_iter().map(|joint| joint.name);
+        joints.filter(|name| name.starts_with("mesh")).collect()
+    };
+    let all = train(r#"["axle[i]", "axle[i+1]"]"#).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(names(all), ["mesh[0]", "mesh[1]", "mesh[2]"]);
+    let one = train(r#"["axle[0]", "axle[2*1+1]"]"#).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(names(one), ["mesh"]);
+    let wrong = train(r#"["axle", "axle[1]"]"#).unwrap_err().to_string();
+    assert!(wrong.contains("its copies are `axle[0]` to `axle[3]`"), "{wrong}");
+}

@@ -75,6 +75,12 @@ impl<'a> View<'a> {
         self.table?.get(name).map(|entry| entry.name.span)
     }
 
+    /// Whether a key is there that the description does not know.
+    pub(super) fn has_unknown(&self) -> bool {
+        let mut entries = self.table.iter().flat_map(|table| table.entries.iter());
+        entries.any(|entry| self.spec.key(&entry.name.text).is_none())
+    }
+
     /// Whether a key is there, whatever its value.
     pub(in crate::scene) fn has(&self, name: &str) -> bool {
         self.node(name).is_some()

@@ -10,6 +10,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
+use crate::scene::grammar::Collection;
 use crate::scene::{
     Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, JointMeasure, Label, LabelPlace, Measure,
     Piece, RunMeasure, ScaleBar, Side,
@@ -229,7 +230,7 @@ impl Reader<'_, '_, '_> {
                 let names = self.bodies.iter().map(|body| &*body.name);
                 let label = crate::diagnostic::nearest(body, names.take(1000));
                 let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-                let label = match self.context.groups.ends(body) {
+                let label = match self.context.groups.ends(Collection::Body, body) {
                     Some([first, last]) => format!("its copies are `{first}` to `{last}`"),
                     None => label,
                 };

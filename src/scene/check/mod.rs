@@ -184,7 +184,7 @@ impl Context<'_> {
             return;
         }
         let is_later = self.groups.original(name).is_some()
-            && self.groups.ends(name).is_some_and(|[first, _]| first != name);
+            && self.groups.ends(Collection::Body, name).is_some_and(|[first, _]| first != name);
         self.told.extend(said.iter().filter_map(|diagnostic| Some((diagnostic.code, diagnostic.span()?))));
         self.diagnostics.extend(said.into_iter().map(|diagnostic| match is_later {
             true => diagnostic.at(span, format!("in `{name}`")),

@@ -50,7 +50,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
         }
     }
     if let Some(kind) = &kind {
-        habits::mend_word(kind, table, before, context);
+        habits::mend_word(kind, table, at, before, context);
     }
     let is_whole = !context.is_partial;
     for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
@@ -113,7 +113,7 @@ fn rule(
                     Some(span) => error.at(span, format!("{path} says none of them")),
                     None => error,
                 };
-                context.diagnostics.push(habits::mend_kind(error, spec, at, path, context));
+                context.diagnostics.push(habits::mend_kind(error, table, spec, at, path, context));
             }
             entries => context.diagnostics.push(exclusive(entries, path)),
         },
@@ -357,7 +357,7 @@ fn reference(
         return;
     }
     let noun = collection.key();
-    let copies = if is_body { context.groups.ends(word) } else { None };
+    let copies = context.groups.ends(collection, word);
     let is_body_for_joint = collection == Collection::Joint && context.names.bodies.contains_key(word);
     let label = if is_body_for_joint {
         format!("`{word}` is a body; name the joint that holds it")

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::Expander;
 use super::repeat::{copy_name, indices};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
 /// So many names the lists of bodies have together, where a name that means several counts as all of them.
@@ -17,6 +18,8 @@ pub(in crate::scene) struct Groups {
     bodies: HashMap<String, Group>,
     /// The forces and joints: a body may have the same name.
     links: HashSet<String>,
+    /// The number of copies of each joint.
+    joints: HashMap<String, [usize; 1]>,
 }
 
 /// The copies of one body.
@@ -44,14 +47,17 @@ impl Groups {
         self.links.contains(original).then_some(original)
     }
 
-    /// Whether a body of this name is repeated.
-    pub(super) fn holds(&self, original: &str) -> bool {
-        self.bodies.contains_key(original)
+    pub(super) fn add_joint(&mut self, name: &str, count: usize) {
+        self.joints.insert(name.to_owned(), [count]);
     }
 
-    /// How many copies a body has in each direction.
-    pub(super) fn counts(&self, original: &str) -> Option<&[usize]> {
-        self.bodies.get(original).map(|group| group.counts.as_slice())
+    /// How many copies a body or a joint has in each direction; `None` if it is not repeated.
+    pub(super) fn counts(&self, of: Collection, original: &str) -> Option<&[usize]> {
+        match of {
+            Collection::Body => self.bodies.get(original).map(|group| group.counts.as_slice()),
+            Collection::Joint => self.joints.get(original).map(<[usize; 1]>::as_slice),
+            Collection::Material => None,
+        }
     }
 
     /// The name of the body that a copy is one of: `brick` for `brick[3,0]`.
@@ -66,10 +72,10 @@ impl Groups {
         self.bodies.get(original).is_some_and(|group| !group.is_known)
     }
 
-    /// The names of the first and the last copy of a body, or of the body that a name is of.
-    pub(in crate::scene) fn ends(&self, name: &str) -> Option<[String; 2]> {
+    /// The names of the first and the last copy of the body or joint that a name is of.
+    pub(in crate::scene) fn ends(&self, of: Collection, name: &str) -> Option<[String; 2]> {
         let original = split(name).map_or(name, |(original, _)| original);
-        let counts = &self.bodies.get(original)?.counts;
+        let counts = self.counts(of, original)?;
         let last: Vec<usize> = counts.iter().map(|count| count.saturating_sub(1)).collect();
         Some([copy_name(original, &vec![0; counts.len()]), copy_name(original, &last)])
     }

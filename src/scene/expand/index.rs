@@ -6,6 +6,7 @@ use super::groups::split;
 use super::{Expander, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::expression::Formula;
+use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
 /// Whether a name is that of a copy, with a formula as an index.
@@ -46,11 +47,11 @@ fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
 
 impl Expander<'_> {
     /// Replaces the formulas in the name of a copy by their values. The validation checks that there is such a copy.
-    pub(super) fn index(&mut self, node: &mut Node) {
+    pub(super) fn index(&mut self, node: &mut Node, of: Collection) {
         let Value::String(name) = &node.value else { return };
         let name = name.clone();
         let Some((original, inside)) = split(&name) else { return };
-        if self.is_default || !is_formula(&name) || !self.groups.holds(original) {
+        if self.is_default || !is_formula(&name) || self.groups.counts(of, original).is_none() {
             return;
         }
         let mut numbers = Vec::new();

@@ -24,14 +24,19 @@ impl Expander<'_> {
             if !tables.entries.iter().any(|entry| is_many(entry, spec)) {
                 continue;
             }
-            let mut all = Vec::new();
-            for entry in std::mem::take(&mut tables.entries) {
+            let entries: Vec<Entry> = std::mem::take(&mut tables.entries).into_iter().collect();
+            let mut copies: Vec<Vec<Entry>> = entries.iter().map(|_| Vec::new()).collect();
+            // Gears couple copies of other joints, so they come after these.
+            let (gears, others): (Vec<_>, Vec<_>) =
+                entries.into_iter().zip(&mut copies).partition(|(entry, _)| is_gear(entry));
+            for (entry, copies) in others.into_iter().chain(gears) {
                 if is_many(&entry, spec) {
-                    self.below(key, |this| this.copies_of_link(entry, what, spec, &mut all));
+                    self.below(key, |this| this.copies_of_link(entry, what, spec, copies));
                 } else {
-                    all.push(entry);
+                    copies.push(entry);
                 }
             }
+            let all: Vec<Entry> = copies.into_iter().flatten().collect();
             self.unique(&all, what);
             tables.entries = all.into();
         }
@@ -50,7 +55,7 @@ impl Expander<'_> {
             None => {
                 let mut ends = Vec::new();
                 ends_of_i(&table, spec, &mut ends);
-                let span = ends.first().map_or(named, |end| end.span);
+                let span = ends.first().map_or(named, |(end, _)| end.span);
                 (self.count_of_ends(&ends), span, span)
             }
         };
@@ -76,6 +81,9 @@ impl Expander<'_> {
         self.scope = scope;
         self.formulas.clear();
         self.groups.add_link(&name);
+        if what == "joints" {
+            self.groups.add_joint(&name, count);
+        }
         // The first copy keeps it for the validation.
         if let (Some(Entry { node: Node { value: Value::Table(table), .. }, .. }), Some(repeat)) =
             (all.get_mut(first), repeat)
@@ -86,18 +94,17 @@ impl Expander<'_> {
 
     /// The number of values of `i`, from 0 on, for which all named bodies exist. `None` after an error: the bodies of a pair have
     /// different numbers of copies.
-    fn count_of_ends(&mut self, ends: &[&Node]) -> Option<usize> {
-        let ends: Vec<(&Node, &str, Vec<Formula>)> = ends
+    fn count_of_ends(&mut self, ends: &[(&Node, Collection)]) -> Option<usize> {
+        let ends: Vec<(&Node, Collection, &str, Vec<Formula>)> = ends
             .iter()
-            .filter_map(|node| {
+            .filter_map(|(node, of)| {
                 let (original, formulas) = index::of_i(node.as_str()?)?;
-                Some((*node, original, formulas))
+                Some((*node, *of, original, formulas))
             })
             .collect();
-        let plain =
-            ends.iter().filter(|(_, _, formulas)| matches!(&formulas[..], [one] if one.text() == "i"));
-        let mut sizes = plain.filter_map(|(node, original, _)| {
-            Some((node.span, *original, self.groups.counts(original)?.iter().product::<usize>()))
+        let plain = ends.iter().filter(|(.., formulas)| matches!(&formulas[..], [one] if one.text() == "i"));
+        let mut sizes = plain.filter_map(|(node, of, original, _)| {
+            Some((node.span, *original, self.groups.counts(*of, original)?.iter().product::<usize>()))
         });
         if let Some(one) = sizes.next()
             && let Some(other) = sizes.find(|other| other.2 != one.2)
@@ -110,7 +117,7 @@ impl Expander<'_> {
         let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
         let count = (0..=most).find(|number| {
             self.count_as(&[*number]);
-            !ends.iter().all(|(_, original, formulas)| self.has_copy(original, formulas))
+            !ends.iter().all(|(_, of, original, formulas)| self.has_copy(*of, original, formulas))
         });
         self.scope = scope;
         // If there is none, the first copy gets the error.
@@ -118,8 +125,8 @@ impl Expander<'_> {
     }
 
     /// Whether there is a copy with these indices.
-    fn has_copy(&self, original: &str, formulas: &[Formula]) -> bool {
-        let Some(counts) = self.groups.counts(original) else { return false };
+    fn has_copy(&self, of: Collection, original: &str, formulas: &[Formula]) -> bool {
+        let Some(counts) = self.groups.counts(of, original) else { return false };
         let is_in_range = |(formula, count): (&Formula, &usize)| {
             let value = formula.resolve(&self.scope).ok().and_then(|resolved| resolved.value(&[]).ok());
             #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
@@ -177,14 +184,19 @@ fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     table.get("repeat").is_some() || !ends.is_empty()
 }
 
-/// The names of bodies in a table that depend on `i`.
-fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<&'t Node>) {
-    fn look<'t>(node: &'t Node, kind: &'static Kind, found: &mut Vec<&'t Node>) {
+/// Whether a force or joint couples joints.
+fn is_gear(entry: &Entry) -> bool {
+    entry.node.as_table().is_some_and(|table| table.get("gear").is_some())
+}
+
+/// The names of bodies and joints in a table that depend on `i`.
+fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<(&'t Node, Collection)>) {
+    fn look<'t>(node: &'t Node, kind: &'static Kind, found: &mut Vec<(&'t Node, Collection)>) {
         match (kind, &node.value) {
-            (Kind::Reference(Collection::Body), Value::String(name))
+            (Kind::Reference(of), Value::String(name))
                 if index::is_formula(name) && index::of_i(name).is_some() =>
             {
-                found.push(node);
+                found.push((node, *of));
             }
             (Kind::List { of, .. }, Value::Array(items)) => {
                 items.iter().for_each(|item| look(item, of, found));

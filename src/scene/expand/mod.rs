@@ -191,7 +191,7 @@ impl Expander<'_> {
                     }
                 }
             }
-            (Kind::Reference(Collection::Body), Value::String(_)) => self.index(node),
+            (Kind::Reference(of), Value::String(_)) => self.index(node, *of),
             (Kind::Table(spec), Value::Table(inner)) => self.table(inner, spec),
             (Kind::Partial(spec), Value::Table(inner)) => {
                 self.is_default = true;
@@ -431,7 +431,7 @@ fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {
         (Kind::Number(_) | Kind::Timed(_) | Kind::Integer(..), Value::String(_)) => false,
-        (Kind::Reference(Collection::Body), Value::String(text)) => !index::is_formula(text),
+        (Kind::Reference(_), Value::String(text)) => !index::is_formula(text),
         (
             Kind::TimedNumbers(..) | Kind::Numbers(..) | Kind::Direction(_) | Kind::Color,
             Value::Array(items),

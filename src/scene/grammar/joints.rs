@@ -264,7 +264,7 @@ static GEAR: TableSpec = TableSpec {
         Key::new(
             "joints",
             List { of: &A_JOINT, min: 2, max: 2 },
-            "The names of the two hinges or sliders that it couples",
+            "The names of the two hinges or sliders that it couples; `[\"axle[i]\", \"axle[i+1]\"]` couples copies in a row",
         )
         .required()
         .also(&["between", "hinges", "axles"]),

@@ -2,6 +2,7 @@
 
 use super::super::Context;
 use super::ends::is_end;
+use super::joint::kind_in_header;
 use super::key_of;
 use super::text::{removal, whole};
 use crate::diagnostic::{Diagnostic, Span};
@@ -129,10 +130,25 @@ pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
 pub(in crate::scene::check) fn mend_word(
     meant: &MeantKind,
     table: &Table,
+    at: Option<Span>,
     before: usize,
     context: &mut Context<'_>,
 ) {
     let Some(entry) = table.entries.iter().find(|entry| Some(entry.name.span) == meant.word) else { return };
+    if let [kind] = meant.way[..]
+        && let Some(found) = kind_in_header(entry, kind, meant.spec, table, at, context)
+    {
+        let mut said = context.diagnostics.split_off(before);
+        said.retain(|diagnostic| !diagnostic.span().is_some_and(|span| found.keys.contains(&span)));
+        for diagnostic in said.iter_mut().filter(|it| it.span() == Some(entry.name.span)) {
+            let error = Diagnostic { labels: Vec::new(), help: None, fix: None, ..diagnostic.clone() }
+                .at(entry.name.span, format!("the header says the kind, as `.{kind}`"));
+            *diagnostic =
+                found.edits.iter().cloned().fold(error, |error, (span, text)| error.fix(span, text));
+        }
+        context.diagnostics.append(&mut said);
+        return;
+    }
     let example = if meant.has_keys {
         removal(whole(entry), context).map(|line| (line, String::new()))
     } else {

@@ -2,9 +2,10 @@
 
 use super::super::Context;
 use super::text::{header_end, is_file};
-use super::{ends, key_of};
+use super::{ends, joint, key_of};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::source::Table;
 
 /// A key that is missing, with an example of it at its place.
 pub(in crate::scene::check) fn mend_missing(
@@ -31,11 +32,15 @@ pub(in crate::scene::check) fn mend_missing(
 /// A table that must be one of several kinds and is none, with an example of the kind that it is named after.
 pub(in crate::scene::check) fn mend_kind(
     error: Diagnostic,
+    table: &Table,
     spec: &'static TableSpec,
     at: Option<Span>,
     path: &str,
     context: &Context<'_>,
 ) -> Diagnostic {
+    if let Some(text) = joint::motor_value(table, spec) {
+        return inserted(error, Some(text), at, context);
+    }
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
     let Some(key) = key_of(name, spec) else { return error };
     let text = key.kind.table().and_then(|inner| example(&[key.name], inner, context));

@@ -1,6 +1,7 @@
 //! What should have been written in the place of a key or a value, as text that can be pasted.
 
 mod ends;
+mod joint;
 mod kind;
 mod launch;
 mod missing;

@@ -4,7 +4,7 @@ use super::super::Context;
 use super::kind::MeantKind;
 use super::launch::{ANGLES, SPEEDS, by_angle, find};
 use super::text::{operand, raw, removal, whole, whole_line};
-use super::{ends, key_of, quoted_and};
+use super::{ends, joint, key_of, quoted_and};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
@@ -31,13 +31,22 @@ pub(in crate::scene::check) fn together(
     let ends = ends::mend_ends(table, spec, meant, path, context);
     let launch = launch(table, spec, path, context);
     let drag = drag(table, spec, path, context);
+    let spring = joint::spring(table, spec, path, context);
     let parts = [("location", ["x", "y", "z"]), ("velocity", ["vx", "vy", "vz"])];
     let parts =
         parts.into_iter().filter_map(|(key, names)| components(table, spec, key, &names, path, context));
     let counted = counted(table, spec, path);
     let size = size(table, spec, path, context);
     let rates = rates(table, spec, path, context);
-    ends.into_iter().chain(size).chain(rates).chain(counted).chain(launch).chain(drag).chain(parts).collect()
+    ends.into_iter()
+        .chain(size)
+        .chain(rates)
+        .chain(counted)
+        .chain(launch)
+        .chain(drag)
+        .chain(spring)
+        .chain(parts)
+        .collect()
 }
 
 /// An error whose mending puts a line in the place of the first of some entries, and leaves the others out.

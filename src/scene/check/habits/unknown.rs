@@ -3,9 +3,9 @@
 use super::super::Context;
 use super::kind::MeantKind;
 use super::nameless::view;
-use super::not_built;
 use super::text::{header_end, raw, removal, whole, whole_line};
 use super::way::{elsewhere, way};
+use super::{joint, not_built};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
@@ -23,6 +23,10 @@ pub(in crate::scene::check) fn unknown(
 ) -> (Diagnostic, Option<&'static str>) {
     let word = &*entry.name.text;
     let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{word}` in {path}"));
+    if let Some((label, fix)) = joint::other_section(entry, table, spec, path, context) {
+        let error = error.at(entry.name.span, label);
+        return (fix.into_iter().fold(error, |error, (span, text)| error.fix(span, text)), None);
+    }
     if let Some(thing) = not_built(word, spec) {
         let label = if thing.comes_with.is_empty() {
             format!("not a key of {}", spec.noun)

@@ -2,7 +2,7 @@
 
 use super::super::Context;
 use super::text::{raw, whole};
-use super::{ends, table, vector};
+use super::{ends, joint, table, vector};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::Color;
 use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
@@ -19,6 +19,12 @@ pub(in crate::scene::check) fn mend_value(
 ) {
     for at in before..context.diagnostics.len() {
         let diagnostic = &context.diagnostics[at];
+        if diagnostic.span() == Some(node.span)
+            && let Some(error) = joint::world(diagnostic, node, kind)
+        {
+            context.diagnostics[at] = error;
+            continue;
+        }
         let is_of_it = matches!(diagnostic.code, Code::WrongType | Code::WrongLength)
             && diagnostic.span() == Some(node.span);
         if !is_of_it || diagnostic.fix.is_some() {
@@ -108,10 +114,13 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             }
             _ => None,
         },
+        (Kind::Direction(3), Value::String(text)) if vector::axis(text).is_some() => vector::axis(text),
         (Kind::Numbers(count, _) | Kind::TimedNumbers(count, _) | Kind::Direction(count), _) => {
             vector::list(node, key, unit_of_key(key).unwrap_or(""), *count, context)
         }
         (Kind::Table(spec), _) => table::as_table(spec, node, key, context),
+        (Kind::List { min: 2, .. }, _) if key == "limits" => joint::limits(node, context),
+        (Kind::List { min: 2, .. }, _) if key == "over" => joint::both_over(node, context),
         (Kind::List { min: 2, .. }, Value::Array(items)) if key == "between" && items.len() > 2 => None,
         (Kind::List { min: 2, .. }, _) if key == "between" => ends::with_other_end(node, context),
         (Kind::List { of: Kind::Integer(..), min, max }, Value::String(text)) if min == max => {

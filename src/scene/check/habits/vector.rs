@@ -44,6 +44,23 @@ pub(super) fn list(
     }
 }
 
+/// The direction that a letter or a word names: `z`, `-y`, `up`.
+pub(super) fn axis(text: &str) -> Option<String> {
+    let word = text.trim().to_lowercase();
+    let (sign, name) = match word.strip_prefix('-') {
+        Some(name) => ("-", name),
+        None => ("", word.strip_prefix('+').unwrap_or(&word)),
+    };
+    match name {
+        "x" | "right" => Some(format!("[{sign}1, 0, 0]")),
+        "y" | "up" => Some(format!("[0, {sign}1, 0]")),
+        "z" => Some(format!("[0, 0, {sign}1]")),
+        "down" if sign.is_empty() => Some("[0, -1, 0]".to_owned()),
+        "left" if sign.is_empty() => Some("[-1, 0, 0]".to_owned()),
+        _ => None,
+    }
+}
+
 /// A vector for a number that somebody has given in its place: along the axis that is most likely meant.
 pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     match key {

@@ -56,14 +56,14 @@ impl Reader<'_, '_> {
             self.begins_at_zero(&motor, &target, words);
             return (Freedom { limits, motor: Some(Motor::Value(target)) }, None);
         }
-        for key in ["stiffness", "damping"] {
+        let speed = motor.number("speed");
+        for key in ["stiffness", "damping"].into_iter().filter(|_| motor.has("speed")) {
             self.unused(
                 &motor,
                 key,
                 &format!("with `speed`, a motor is as strong as its `{}`", words.strength),
             );
         }
-        let speed = motor.number("speed");
         let limit = motor.number(words.strength);
         if let (Some(_), None, false) = (speed, limit, motor.has(words.strength)) {
             let message = format!("the motor of the joint `{}` does not say how strong it is", self.name);

@@ -178,6 +178,8 @@ impl Reader<'_, '_> {
             (Some(at), _) => at,
             (None, [true, _]) => places[0],
             (None, [false, true]) => places[1],
+            // It may be the place, and has got its error.
+            (None, [false, false]) if needs_place && view.has_unknown() => return None,
             (None, [false, false]) if needs_place => {
                 let [a, b] = places;
                 let message = format!("the joint `{}` does not say where it is", self.name);

@@ -1,0 +1,151 @@
+//! Joints as newcomers write them.
+
+use super::super::Context;
+use super::launch::find;
+use super::text::{header_end, raw, removal, whole};
+use super::together::{Together, joined};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::{Collection, Kind, SCENE, TableSpec};
+use crate::scene::source::{Entry, Node, Table, Value};
+
+/// What other programs call the world as an end.
+const WORLD: [&str; 10] =
+    ["world", "ground", "origin", "ceiling", "wall", "space", "fixed", "static", "anchor", "none"];
+
+/// `limits = 45` and `limits = { min = -45, max = 45 }` → `[-45, 45]`.
+pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
+    const LOWEST: [&str; 6] = ["min", "low", "lower", "minimum", "from", "lo"];
+    const HIGHEST: [&str; 6] = ["max", "high", "upper", "maximum", "to", "hi"];
+    let both = |one: &Node| {
+        let size = raw(one.span, context).trim_start_matches(['-', '+']);
+        one.as_number().map(|_| format!("[-{size}, {size}]"))
+    };
+    match &node.value {
+        Value::Array(items) => match items.as_slice() {
+            [only] => both(only),
+            _ => None,
+        },
+        // A table with a header of its own is not replaced where it stands.
+        Value::Table(table) if raw(node.span, context).starts_with('{') => {
+            let [low, high] = [find(table, &LOWEST)?, find(table, &HIGHEST)?];
+            Some(format!("[{}, {}]", raw(low.node.span, context), raw(high.node.span, context)))
+        }
+        _ => both(node),
+    }
+}
+
+/// One point over which both parts of a pulley's rope run, as the list of two that it has to be.
+pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
+    let point = match &node.value {
+        Value::Array(items) => match items.as_slice() {
+            [only] => only,
+            [_, _, _] if items.iter().all(|item| item.as_number().is_some()) => node,
+            _ => return None,
+        },
+        Value::String(_) => node,
+        _ => return None,
+    };
+    let point = raw(point.span, context);
+    Some(format!("[{point}, {point}]"))
+}
+
+/// A stiffness beside the keys of a hinge or a slider: its motor has one.
+pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+    let motor = spec.key("motor").filter(|motor| table.get(motor.name).is_none())?;
+    let [value, _] = values(motor.kind.table()?)?;
+    let is_value = |entry: &&Entry| entry.node.as_number().is_some();
+    let stiffness = find(table, &["stiffness", "spring", "spring_constant", "k"]).filter(is_value)?;
+    let damping = find(table, &["damping", "damper", "damping_constant", "d"]).filter(is_value);
+    let mut line = format!("motor = {{ {value} = 0, stiffness = {}", raw(stiffness.node.span, context));
+    if let Some(damping) = damping {
+        line += &format!(", damping = {}", raw(damping.node.span, context));
+    }
+    let mut entries: Vec<&Entry> = std::iter::once(stiffness).chain(damping).collect();
+    entries.sort_by_key(|entry| entry.name.span);
+    let label = format!("a spring at {} is a motor that gives way", spec.noun);
+    joined(&entries, motor.name, &label, line + " }", path, context)
+}
+
+/// What a motor keeps with a stiffness, and what it keeps with a strength.
+fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
+    let key = |name: &str| spec.key(name).map(|key| key.name);
+    Some([key("angle").or_else(|| key("position"))?, key("speed")?])
+}
+
+/// The line that a motor lacks, by what it has.
+pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
+    let [value, speed] = values(spec)?;
+    let has = |names: [&str; 2]| names.iter().any(|name| table.get(name).is_some());
+    if has(["stiffness", "damping"]) {
+        Some(format!("{value} = 0"))
+    } else {
+        has(["torque", "force"]).then(|| format!("{speed} = 1"))
+    }
+}
+
+/// The world as an end, which stands there as a point.
+pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diagnostic> {
+    let Kind::Either(kinds) = kind else { return None };
+    let is_point = |kind: &Kind| matches!(kind, Kind::Numbers(3, _));
+    let is_world = WORLD.contains(&node.as_str()?.to_lowercase().as_str());
+    let takes_points = kind.names(Collection::Body) && kinds.iter().any(is_point);
+    (is_world && takes_points && error.code == Code::UnknownName).then(|| {
+        Diagnostic { labels: Vec::new(), help: None, fix: None, ..error.clone() }
+            .at(node.span, "a point of the world is a list of its coordinates, in metres")
+            .fix(node.span, "[0, 0, 0]")
+    })
+}
+
+/// A joint among the forces, or a force among the joints: where it belongs, and the text that moves it there.
+pub(super) fn other_section(
+    entry: &Entry,
+    table: &Table,
+    spec: &TableSpec,
+    path: &str,
+    context: &Context<'_>,
+) -> Option<(String, Option<(Span, String)>)> {
+    let (own, other) = match spec.noun {
+        "a force" => ("force", "joint"),
+        "a joint" => ("joint", "force"),
+        _ => return None,
+    };
+    let Kind::Named(others) = SCENE.key(other)?.kind else { return None };
+    let kind = others.key(&entry.name.text).filter(|key| key.kind.table().is_some())?.name;
+    let name = path.strip_prefix(&format!("[{own}."))?.strip_suffix(']')?;
+    let label = format!("this is {}: `[{other}.{name}.{kind}]`", others.noun);
+    let text = &context.sources.get(entry.name.span.source).text;
+    let start = text[..entry.name.span.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let is_header = table.entries.len() == 1 && text[start..].starts_with(&format!("[{own}."));
+    let place = Span { start: start + 1, end: start + 1 + own.len(), ..entry.name.span };
+    Some((label, is_header.then(|| (place, other.to_owned()))))
+}
+
+/// `type = "hinge"` below `[joint.knee]`, with keys of the hinge only.
+pub(super) struct KindInHeader {
+    /// The pieces of text that put the kind into the header instead.
+    pub(super) edits: [(Span, String); 2],
+    /// The keys that are right then.
+    pub(super) keys: Vec<Span>,
+}
+
+/// Whether the kind that a word names can go into the header of the table.
+pub(super) fn kind_in_header(
+    word: &Entry,
+    kind: &str,
+    inner: &TableSpec,
+    table: &Table,
+    at: Option<Span>,
+    context: &Context<'_>,
+) -> Option<KindInHeader> {
+    let others: Vec<&Entry> =
+        table.entries.iter().filter(|entry| entry.name.span != word.name.span).collect();
+    if others.is_empty() || others.iter().any(|entry| inner.key(&entry.name.text).is_none()) {
+        return None;
+    }
+    let at = at?;
+    let rest = &context.sources.get(at.source).text[at.end..header_end(at, context)?];
+    let place = at.end + rest.find(']').filter(|place| rest[..*place].trim_matches('"').is_empty())?;
+    let header = (Span { start: place, end: place, ..at }, format!(".{kind}"));
+    let line = (removal(whole(word), context)?, String::new());
+    Some(KindInHeader { edits: [header, line], keys: others.iter().map(|entry| entry.name.span).collect() })
+}
