@@ -178,17 +178,21 @@ impl std::ops::Index<usize> for Members<'_> {
 
 /// Where a constraint writes its equations.
 pub struct Equations<'a> {
+    /// Those of all constraints.
     rows: &'a mut [Row],
     jacobian: &'a mut [Direction],
+    /// The first row and the first direction of the constraint that writes, and the number of its bodies.
+    row: usize,
+    direction: usize,
     bodies: usize,
 }
 
 impl Equations<'_> {
     /// Writes a row; the directions that are not set are zero.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
-        self.rows[row] = Row { violation, rate: 0.0, bias, scale };
+        self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
         // By index: most rows have one or two bodies, and the compiler unrolls the loop of an iterator for many.
-        let mut i = row * self.bodies;
+        let mut i = self.direction + row * self.bodies;
         let end = i + self.bodies;
         while i != end {
             let direction = &mut self.jacobian[i];
@@ -199,7 +203,28 @@ impl Equations<'_> {
 
     /// Sets ∂c/∂t of a row.
     pub(in crate::dynamics) fn moving(&mut self, row: usize, rate: f64) {
-        self.rows[row].rate = rate;
+        self.rows[self.row + row].rate = rate;
+    }
+
+    /// Writes the only row of a constraint of two ends: the part of c' of each end's body.
+    #[inline(always)]
+    fn only_row(&mut self, row: Row, ends: [(Option<usize>, DVec3, DVec3); 2]) {
+        self.rows[self.row] = row;
+        let [first, second] = ends;
+        if first.0 == second.0 {
+            self.direction_is((first.0, first.1 + second.1, first.2 + second.2));
+        } else {
+            self.direction_is(first);
+            self.direction_is(second);
+        }
+    }
+
+    #[inline(always)]
+    fn direction_is(&mut self, (body, linear, angular): (Option<usize>, DVec3, DVec3)) {
+        if let Some(body) = body {
+            let direction = &mut self.jacobian[self.direction + body];
+            (direction.linear, direction.angular) = (linear, angular);
+        }
     }
 
     /// Adds to the direction of one body in a row; a point of the world has none.
@@ -211,7 +236,7 @@ impl Equations<'_> {
         angular: DVec3,
     ) {
         if let Some(body) = body {
-            let direction = &mut self.jacobian[row * self.bodies + body];
+            let direction = &mut self.jacobian[self.direction + row * self.bodies + body];
             direction.linear += linear;
             direction.angular += angular;
         }

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::super::{Anchor, BodyId};
-use super::Equations;
 use super::member::End;
+use super::{Equations, Row};
 
 /// The bodies of these ends, each once, in the order that [`End::all`] expects.
 pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
@@ -72,13 +72,27 @@ impl<'a> Way<'a> {
     }
 
     /// Adds `factor` times the directions of its length to a row.
-    #[inline(always)]
     pub(super) fn write(&self, factor: f64, row: usize, equations: &mut Equations<'_>) {
-        for (end, sign) in self.ends.iter().zip([-factor, factor]) {
-            let linear = sign * self.u;
-            let angular = if end.is_off_centre { end.arm.cross(linear) } else { DVec3::ZERO };
-            equations.direction(row, end.body, linear, angular);
+        for (body, linear, angular) in self.directions(factor) {
+            equations.direction(row, body, linear, angular);
         }
+    }
+
+    /// Writes the only row of a constraint: c = `sign` (|d| − `length`).
+    #[inline(always)]
+    pub(super) fn write_only(&self, sign: f64, length: f64, equations: &mut Equations<'_>) {
+        let scale = if length > self.scale { length } else { self.scale };
+        let (violation, bias) = (sign * (self.length - length), sign * self.bias);
+        equations.only_row(Row { violation, rate: 0.0, bias, scale }, self.directions(sign));
+    }
+
+    #[inline(always)]
+    fn directions(&self, factor: f64) -> [(Option<usize>, DVec3, DVec3); 2] {
+        [(0, -factor), (1, factor)].map(|(i, factor): (usize, f64)| {
+            let (end, linear) = (&self.ends[i], factor * self.u);
+            let angular = if end.is_off_centre { end.arm.cross(linear) } else { DVec3::ZERO };
+            (end.body, linear, angular)
+        })
     }
 }
 

@@ -30,7 +30,6 @@ impl Constraint for Rod {
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);
-        equations.row(0, way.length - self.length, way.bias, way.scale.max(self.length));
-        way.write(1.0, 0, equations);
+        way.write_only(1.0, self.length, equations);
     }
 }

@@ -225,21 +225,13 @@ impl Solver {
         let Solver { structure: Some(structure), members, origin, rows, jacobian, all, .. } = self else {
             return;
         };
+        let mut equations = Equations { rows, jacobian, row: 0, direction: 0, bodies: 0 };
+        let mut members =
+            Members { all: members, of: &[], time: t, origin, begun: self.begun, is_aiming: self.is_aiming };
         for place in &structure.places {
-            let bodies = place.bodies.len();
-            let mut equations = Equations {
-                rows: &mut rows[place.row..place.row + place.rows],
-                jacobian: &mut jacobian[place.direction..place.direction + place.rows * bodies],
-                bodies,
-            };
-            let members = Members {
-                all: members,
-                of: &place.bodies,
-                time: t,
-                origin,
-                begun: self.begun,
-                is_aiming: self.is_aiming,
-            };
+            members.of = &place.bodies;
+            (equations.row, equations.direction) = (place.row, place.direction);
+            equations.bodies = place.bodies.len();
             all[place.constraint].measure(&members, &mut equations);
         }
         self.measured = t;
