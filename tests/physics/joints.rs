@@ -6,7 +6,7 @@ use jabuka::dynamics::{
     Presence, RigidBody, Rod, Shape, Slider, UniformGravity, World,
 };
 
-use crate::common::{assert_orders, ball, distance, method};
+use crate::common::{assert_orders, ball, method};
 
 const G: f64 = 9.81;
 
