@@ -80,6 +80,11 @@ impl Feature {
         (found.gap + radius).abs() <= tolerance && self.margin(found.on[1]) >= -tolerance
     }
 
+    /// Whether a place is on the feature, but for `tolerance`.
+    pub(super) fn holds(&self, place: DVec3, tolerance: f64) -> bool {
+        self.is_near(place, 0.0, tolerance)
+    }
+
     /// How far the feature of a part reaches along a unit direction.
     pub(super) fn highest(&self, direction: DVec3, part: &Part) -> f64 {
         match self.patch {

@@ -170,6 +170,10 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
         if better {
             best = Some((inside, found.gap, i));
         }
+        // Of a convex part, no other feature is nearer to a centre that is outside of it.
+        if inside == 0.0 && found.gap + ball.radius > 0.0 && part.surface.is_none() {
+            break;
+        }
     }
     let (inside, i) = best.map_or((edge, 0), |(inside, _, i)| (inside, i));
     let found = meet(patch, pose, &part.features[i].patch, at);
@@ -281,10 +285,18 @@ impl Search<'_> {
         }
     }
 
-    /// The best meeting, if it is certain: if the distance of its places is the distance along its normal.
+    /// The best meeting, if it is certain: if its places are on the parts, and as far apart as the parts are along its normal.
     fn answer(&self) -> Option<Nearest> {
         let (along, found) = self.best?;
-        ((found.gap - along).abs() <= 4.0 * self.digits()).then_some(Nearest { gap: along, ..found })
+        let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
+        let is_on = |(part, pose, place): (&Part, &Pose, DVec3)| {
+            let place = pose.local(place);
+            part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
+        };
+        // Within each other, they need not be.
+        let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
+        let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
+        (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
     }
 
     /// What rounding may do to a distance, m.
