@@ -195,6 +195,9 @@ pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3
 /// *Real-Time Collision Detection* (2005), 5.2). So the largest one over the normals of all pairs of features that may be the
 /// nearest ones is the gap, exact to rounding, and with its sign.
 fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
+    if let Some(found) = faces(a, pa, b, pb) {
+        return found;
+    }
     let mut search = Search { a, pa, b, pb, best: None };
     let all = |part: &Part| (0..part.features.len()).collect::<Vec<usize>>();
     if a.features.len() * b.features.len() > FEW
@@ -229,6 +232,29 @@ fn side(part: &Part, feature: &Feature) -> Patch {
         }
         patch => patch,
     }
+}
+
+/// Where two boxes with parallel edges are nearest, if that is between two faces.
+fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
+    let (of_a, of_b) = (a.half?, b.half?);
+    if pa.orientation != pb.orientation {
+        return None;
+    }
+    let apart = pa.orientation.conjugate() * (pb.location - pa.location) + b.centre - a.centre;
+    let gaps = apart.abs() - of_a - of_b;
+    let axis = (0..3).max_by(|&i, &j| gaps[i].total_cmp(&gaps[j]))?;
+    if (0..3).any(|other| other != axis && gaps[other] > 0.0) {
+        return None;
+    }
+    let sign = if apart[axis] < 0.0 { -1.0 } else { 1.0 };
+    // The middle of the area in which the faces lie on each other.
+    let mut place = 0.5 * ((-of_a).max(apart - of_b) + of_a.min(apart + of_b));
+    place[axis] = sign * of_a[axis];
+    let mut normal = DVec3::ZERO;
+    normal[axis] = sign;
+    let on = pa.point(a.centre + place);
+    let normal = pa.orientation * normal;
+    Some(Nearest { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
 }
 
 /// The search for the direction along which two parts are farthest apart.

@@ -24,6 +24,8 @@ pub(in crate::dynamics) struct Pose {
 /// What touches of a body.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Solid {
+    reach: f64,
+    size: f64,
     parts: Arc<[Part]>,
     /// Where the parts are, if they are many.
     tree: Option<Arc<Tree>>,
@@ -35,6 +37,8 @@ pub(in crate::dynamics) struct Solid {
 pub(super) struct Part {
     pub(super) core: Core,
     pub(super) radius: f64,
+    /// Half the size of a sharp box whose edges are along the axes of the body, m.
+    pub(super) half: Option<DVec3>,
     /// A ball that holds the part.
     pub(super) centre: DVec3,
     pub(super) bound: f64,
@@ -75,19 +79,21 @@ impl Solid {
         let is_surface = parts.iter().any(|part| part.surface.is_some());
         let body = Pose::IDENTITY;
         let tree = is_surface.then(|| Tree::new(parts.iter().map(|part| part.box_in(&body, &body))).into());
-        Some(Solid { parts: parts.into(), tree, is_surface })
+        let reach = parts.iter().map(Part::reach).fold(0.0, f64::max);
+        let size = parts.iter().map(Part::size).fold(f64::INFINITY, f64::min);
+        let size = if size.is_finite() { size } else { 1.0 };
+        Some(Solid { parts: parts.into(), tree, is_surface, reach, size })
     }
 
     /// The largest distance of a point of the core from the centre of mass, m: turning moves no place of the surface faster.
     /// 0 for a ball around its centre; infinite for a plane.
     pub(in crate::dynamics) fn reach(&self) -> f64 {
-        self.parts.iter().map(Part::reach).fold(0.0, f64::max)
+        self.reach
     }
 
     /// A typical size, m: the smallest thickness of a part. 1 for a plane.
     pub(in crate::dynamics) fn size(&self) -> f64 {
-        let size = self.parts.iter().map(Part::size).fold(f64::INFINITY, f64::min);
-        if size.is_finite() { size } else { 1.0 }
+        self.size
     }
 
     /// The box along the axes of the world that holds the body, by its lowest and its highest corner. It is infinite for a
@@ -132,7 +138,7 @@ impl Part {
             }
             Core::Ground { at, .. } => (*at, f64::INFINITY),
         };
-        Part { core, radius, centre, bound: bound + radius, features, surface: None }
+        Part { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
     }
 
     /// The place that is farthest in a direction of any length.
@@ -297,7 +303,9 @@ fn block(pose: &Pose, half: DVec3, radius: f64) -> Part {
         pose.point(half * DVec3::new(sign(0), sign(1), sign(2)))
     };
     let corners = (0..8).map(corner).collect();
-    Part::new(Core::Hull(corners), radius, features_of_box(pose, half, radius))
+    let part = Part::new(Core::Hull(corners), radius, features_of_box(pose, half, radius));
+    let is_upright = radius == 0.0 && pose.orientation == DQuat::IDENTITY;
+    Part { half: is_upright.then_some(half), ..part }
 }
 
 fn frustum(ends: [DVec3; 2], radii: [f64; 2]) -> Part {

@@ -22,6 +22,9 @@ const REST: f64 = 1e-8;
 /// Places that part with less than this part of the fastest approach may stay closed.
 const STILL: f64 = 1e-9;
 
+/// Rates are alike where they differ by less than this part.
+const ALIKE: f64 = 1e-13;
+
 /// So many impacts may follow each other in an instant, for each pair that touches.
 const ROUNDS: usize = 2_000;
 
@@ -143,8 +146,16 @@ impl Collider {
             restitution: if rests { 0.0 } else { pair.law.restitution },
             friction: pair.law.friction,
         };
-        let response = response(pair.bodies, places, model, state, joints.as_deref_mut());
-        let all = impulses(&vec![bounce; places.len()], &before, &response);
+        let context = (model, &*state);
+        let middle = middle(pair.bodies, places, &before, bounce, context, joints.as_deref_mut());
+        let (places, before, all) = match &middle {
+            Some((place, rate, impulse)) => (std::slice::from_ref(place), vec![*rate], vec![*impulse]),
+            None => {
+                let response = response(pair.bodies, places, context, joints.as_deref_mut());
+                let all = impulses(&vec![bounce; places.len()], &before, &response);
+                (places, before, all)
+            }
+        };
         let (mut impulse, mut place, mut normal, mut weight) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, 0.0);
         for (at, pushed) in places.iter().zip(&all) {
             let push = at.axes[0] * pushed.x + at.axes[1] * pushed.y + at.axes[2] * pushed.z;
@@ -177,12 +188,43 @@ impl Collider {
             .map(|((before, after), pushed)| 0.5 * pushed.dot(*before + after));
         let work: f64 = work.sum();
         state.accounts.impacts += work;
-        if speed > REST * self.fastest && weight > 0.0 {
+        if (pair.law.restitution == 1.0 || speed > REST * self.fastest) && weight > 0.0 {
             let (place, normal) = (place / weight, normal.normalize_or_zero());
             let energy = (-work).max(0.0);
             self.impacts.push(Impact { time, bodies: pair.bodies, place, normal, impulse, energy });
         }
     }
+}
+
+/// An impact at several places that makes nothing turn is one in their middle: that place, its rate before, and its impulse; none where
+/// something turns, so that the places behave differently.
+fn middle(
+    bodies: [usize; 2],
+    places: &[Place],
+    before: &[DVec3],
+    bounce: Bounce,
+    context: (&Model, &State),
+    joints: Option<&mut Solver>,
+) -> Option<(Place, DVec3, DVec3)> {
+    let [first, .., _] = places else { return None };
+    let rate = before[0];
+    let speed = rate.length();
+    let is_same = |place: &Place| place.axes[0].dot(first.axes[0]) > 1.0 - 1e-14;
+    let is_alike = |other: &DVec3| (*other - rate).length() <= ALIKE * speed;
+    if !(places.iter().all(is_same) && before.iter().all(is_alike)) {
+        return None;
+    }
+    let mean = |i: usize| places.iter().map(|place| place.arms[i]).sum::<DVec3>() / places.len() as f64;
+    let place = Place { arms: [mean(0), mean(1)], ..*first };
+    let all: Vec<Place> = std::iter::once(place).chain(places.iter().copied()).collect();
+    let n = 3 * all.len();
+    let response = response_to(bodies, &all, 1, context, joints);
+    let own: Vec<f64> = (0..9).map(|i| response[i / 3 * 3 + i % 3]).collect();
+    let impulse = impulses(&[bounce], &[rate], &own)[0];
+    let changed = |row: usize| (0..3).map(|column| response[row * 3 + column] * impulse[column]).sum::<f64>();
+    let after = |at: usize| DVec3::new(changed(3 * at), changed(3 * at + 1), changed(3 * at + 2));
+    let is_turned = (1..n / 3).any(|at| (after(at) - after(0)).length() > ALIKE * speed);
+    (!is_turned).then_some((place, rate, impulse))
 }
 
 fn motion(body: usize, model: &Model, state: &State) -> Motion {
@@ -193,12 +235,22 @@ fn motion(body: usize, model: &Model, state: &State) -> Motion {
 fn response(
     bodies: [usize; 2],
     places: &[Place],
-    model: &Model,
-    state: &State,
+    (model, state): (&Model, &State),
+    joints: Option<&mut Solver>,
+) -> Vec<f64> {
+    response_to(bodies, places, places.len(), (model, state), joints)
+}
+
+/// The columns of the same that belong to the first places.
+fn response_to(
+    bodies: [usize; 2],
+    places: &[Place],
+    pushed: usize,
+    (model, state): (&Model, &State),
     mut joints: Option<&mut Solver>,
 ) -> Vec<f64> {
-    let n = 3 * places.len();
-    let mut response = vec![0.0; n * n];
+    let n = 3 * pushed;
+    let mut response = vec![0.0; 3 * places.len() * n];
     for column in 0..n {
         let place = &places[column / 3];
         let push = place.axes[column % 3];
