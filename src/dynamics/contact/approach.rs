@@ -69,7 +69,7 @@ impl Approach<'_> {
     fn safe(&self, near: &Nearest, moving: &[super::path::Moving; 2], is_touched: bool, rate: f64) -> f64 {
         let mut shrink = -near.normal.dot(moving[1].velocity - moving[0].velocity);
         let mut bend = self.paths[0].bend(self.paths[1]);
-        for i in 0..2 {
+        for (i, body) in moving.iter().enumerate() {
             let turning = self.paths[i].turning;
             if turning.length_squared() > 0.0 {
                 // A body without end turns about a place that can be far away.
@@ -77,7 +77,7 @@ impl Approach<'_> {
                 let reach = if reach.is_finite() {
                     reach
                 } else {
-                    2.0 * (near.on[i] - moving[i].pose.location).length() + self.solids[1 - i].reach()
+                    2.0 * (near.on[i] - body.pose.location).length() + self.solids[1 - i].reach()
                 };
                 shrink += turning.cross(near.normal).length() * reach;
                 bend += turning.length_squared() * reach;

@@ -116,8 +116,7 @@ impl Collider {
             let size = self.size(pair.bodies);
             for (touch, place) in pair.touches.iter().zip(places) {
                 if place.rate(motions).x <= STILL * self.fastest {
-                    let touch = touch.clone();
-                    closed.push(Arc::new(Closed { bodies: pair.bodies, touch, law: pair.law, size }));
+                    closed.push(Arc::new(Closed { bodies: pair.bodies, touch: *touch, law: pair.law, size }));
                 }
             }
         }
