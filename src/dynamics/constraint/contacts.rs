@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::super::contact::Closed;
 use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
+use super::friction::Grip;
 use super::jacobian::{move_members, products};
 use super::modes::Mode;
 use super::solver::Solver;
@@ -22,8 +23,9 @@ impl Solver {
         &self.contacts
     }
 
-    /// Sets the places where bodies stay in touch. What the rows do is to be [decided](Self::decide) then.
-    pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) {
+    /// Sets the places where bodies stay in touch. Returns whether they are others than before: what the rows do is to be
+    /// [decided](Self::decide) then.
+    pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
         let is_same =
             |(a, b): (&Arc<Closed>, &Arc<Closed>)| a.bodies == b.bodies && a.touch.patches == b.touch.patches;
         let are_same =
@@ -32,11 +34,33 @@ impl Solver {
             self.contacts = contacts;
             self.forget();
         }
+        !are_same
+    }
+
+    /// Whether something holds one of some bodies that can move.
+    pub(in crate::dynamics) fn concerns(&self, bodies: &[usize]) -> bool {
+        let Some(structure) = &self.structure else { return true };
+        let holds = |body: &usize| {
+            let member = structure.bodies.binary_search(body);
+            member.is_ok_and(|member| self.members[member].inverse_mass != 0.0)
+        };
+        bodies.iter().any(holds)
     }
 
     /// The next step is so long, s.
     pub(in crate::dynamics) fn set_span(&mut self, span: f64) {
         self.span = span;
+        self.is_unsolved = false;
+    }
+
+    /// Notes, after a step, where no forces of friction fit what is asked for, as in Painlevé's paradox.
+    pub(in crate::dynamics) fn blame_friction(&mut self, model: &Model, time: f64) {
+        let Some(structure) = self.structure.as_ref().filter(|_| self.is_unsolved) else { return };
+        let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
+        let Some(normal) = self.grips.iter().find(slides).map(|grip| grip.normal) else { return };
+        if let Some(place) = structure.places.iter().find(|place| place.row == normal) {
+            self.fail(self.broken(model, place.constraint, time, 0.0));
+        }
     }
 
     /// Notes that the run cannot go on.

@@ -229,17 +229,20 @@ impl Factor {
         self.soft.iter().any(Option::is_some)
     }
 
-    /// The sum of the sizes of the entries of a row of A, of those in which `counts` says so.
-    pub(super) fn row_size(&self, row: usize, counts: impl Fn(usize) -> bool) -> f64 {
-        let mut size = 0.0;
+    /// For each row, the sum of the sizes of the entries of A between it and those rows that count.
+    pub(super) fn row_sizes(&self, counts: impl Fn(usize) -> bool) -> Vec<f64> {
+        let mut sizes = vec![0.0; self.lines.len()];
         for (k, line) in self.lines.iter().enumerate() {
             for entry in &self.matrix[line.column.clone()] {
-                if (k == row && counts(entry.row)) || (entry.row == row && k != row && counts(k)) {
-                    size += entry.value.abs();
+                if counts(entry.row) {
+                    sizes[k] += entry.value.abs();
+                }
+                if entry.row != k && counts(k) {
+                    sizes[entry.row] += entry.value.abs();
                 }
             }
         }
-        size
+        sizes
     }
 
     /// Whether a row is soft.

@@ -14,6 +14,9 @@ use super::{Law, jacobian};
 /// So many rounds find the normal forces of contacts that slide.
 const ROUNDS: usize = 200;
 
+/// Normal forces have been found where they change by no more than this part of themselves any more.
+const FOUND: f64 = 1e-6;
+
 /// What slides slower than so many times what friction changes in a step slides slowly.
 const SLOWLY: f64 = 2.0;
 
@@ -43,6 +46,9 @@ pub(super) struct Grip {
     pub(super) is_beginning: bool,
     /// Whether the two bodies touch at other places as well.
     pub(super) is_shared: bool,
+    /// How much all pairs of rows change each other at most: the largest sum of the sizes of the entries of A between one of its rows
+    /// and all of friction.
+    pub(super) stiffness: f64,
     /// By how much friction could change slips, m/s² or rad/s², when it was decided last.
     pub(super) strength: f64,
 }
@@ -69,6 +75,7 @@ impl Grip {
                             .filter(|other| other.bodies == place.bodies)
                             .count()
                             > 1,
+                        stiffness: 0.0,
                         strength: 0.0,
                     });
                     row += 1;
@@ -163,15 +170,18 @@ impl Solver {
                 size = size.max(normal * grip.coefficient);
                 (pushes[grip.row], pushes[grip.row + 1]) = (push.x, push.y);
             }
-            let is_done =
-                change <= 1e-15 * size || (round > 20 && change <= 1e-12 * size && change >= before);
+            let is_exact = change <= 1e-15 * size;
+            let goes_on = round < 20 || (change > 1e-12 * size && round + 1 < ROUNDS) || change < before;
             before = change;
-            if is_done {
-                self.write_pushes(&pushes);
-                return true;
+            if is_exact || !goes_on || round + 1 == ROUNDS {
+                for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+                    for row in [grip.row, grip.row + 1] {
+                        self.unknown[row] = pushes[row];
+                    }
+                }
+                return change <= FOUND * size;
             }
         }
-        self.write_pushes(&pushes);
         false
     }
 
@@ -228,11 +238,6 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// The sum of the sizes of the entries of A between a row of friction and all others: it bounds how much they change each other.
-    fn stiffness(&self, row: usize) -> f64 {
-        self.factor.row_size(row, |other| matches!(self.laws[other], Law::Friction { .. }))
-    }
-
     /// Lets places where bodies press harder take more of what friction has to hold: all reach their limits together. The normal forces
     /// are those that were found last.
     pub(super) fn share_load(&mut self) {
@@ -244,13 +249,21 @@ impl Solver {
         self.factor.weigh(weights);
     }
 
+    /// Notes how much pairs of rows change each other.
+    pub(super) fn see_stiffness(&mut self) {
+        let sizes = self.factor.row_sizes(|row| matches!(self.laws[row], Law::Friction { .. }));
+        for grip in &mut self.grips {
+            grip.stiffness = sizes[grip.row].max(sizes[grip.row + 1]);
+        }
+    }
+
     /// Notes how strong friction is.
     pub(super) fn see_strength(&mut self) {
         for i in 0..self.grips.len() {
             let Grip { row, normal, coefficient, .. } = self.grips[i];
             if self.modes[row] == Mode::Slid {
-                let stiffness = self.stiffness(row).max(self.stiffness(row + 1));
-                self.grips[i].strength = coefficient * self.unknown[normal].max(0.0) * stiffness;
+                let grip = &mut self.grips[i];
+                grip.strength = coefficient * self.unknown[normal].max(0.0) * grip.stiffness;
             }
         }
     }
@@ -266,7 +279,7 @@ impl Solver {
             if slips || self.modes[normal] != Mode::Held {
                 continue;
             }
-            let weight = self.stiffness(row).max(self.stiffness(row + 1));
+            let weight = self.grips[i].stiffness;
             let most = coefficient * self.unknown[normal].max(0.0);
             let grip = &mut self.grips[i];
             let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;
@@ -283,13 +296,5 @@ impl Solver {
             (self.modes[row], self.modes[row + 1]) = (mode, mode);
         }
         has_changed
-    }
-
-    fn write_pushes(&mut self, pushes: &[f64]) {
-        for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
-            for row in [grip.row, grip.row + 1] {
-                self.unknown[row] = pushes[row];
-            }
-        }
     }
 }

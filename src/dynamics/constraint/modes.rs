@@ -220,9 +220,15 @@ impl Solver {
             self.hold();
             self.see_accelerations(model, t, state, loads, members);
             self.share_load();
+            self.see_stiffness();
         }
+        let mut held_before = Vec::new();
         for round in 0..rounds(n) {
-            self.hold();
+            // Where only directions of friction have changed, the factors are still right.
+            if held_before != self.modes {
+                self.hold();
+                held_before.clone_from(&self.modes);
+            }
             if is_free {
                 return;
             }

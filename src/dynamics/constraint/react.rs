@@ -49,7 +49,8 @@ impl Solver {
             *value = -(*value + row.bias);
         }
         if self.has_modes && self.slides() {
-            self.solve_sliding();
+            let is_found = self.solve_sliding();
+            self.is_unsolved |= !is_found;
         } else {
             self.solve();
         }

@@ -37,6 +37,8 @@ pub(in crate::dynamics) struct Solver {
     begun: f64,
     /// How long the present step is, s.
     pub(super) span: f64,
+    /// Whether forces of friction have not been found in the present step.
+    pub(super) is_unsolved: bool,
     /// Whether a step is aimed at its end.
     pub(super) is_aiming: bool,
     /// The motions of members that are given.

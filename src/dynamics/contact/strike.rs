@@ -36,6 +36,14 @@ struct Place {
     arms: [DVec3; 2],
 }
 
+/// What became of bodies that touch.
+pub(in crate::dynamics) struct Strike {
+    /// The places at which bodies may stay in touch.
+    pub(in crate::dynamics) closed: Vec<Arc<Closed>>,
+    /// The bodies that were struck.
+    pub(in crate::dynamics) struck: Vec<usize>,
+}
+
 /// The velocity and the angular velocity of a body.
 type Motion = (DVec3, DVec3);
 
@@ -54,14 +62,14 @@ impl Place {
 }
 
 impl Collider {
-    /// Strikes the bodies that touch and come nearer, until none do. Gives the places at which bodies may stay in touch.
+    /// Strikes the bodies that touch and come nearer, until none do.
     pub(in crate::dynamics) fn strike(
         &mut self,
         model: &Model,
         time: f64,
         state: &mut State,
         solver: &mut Solver,
-    ) -> Result<Vec<Arc<Closed>>, Breakdown> {
+    ) -> Result<Strike, Breakdown> {
         let touching = self.touching(model, state);
         let places: Vec<Vec<Place>> = touching
             .iter()
@@ -86,6 +94,7 @@ impl Collider {
             self.fastest = speeds.fold(self.fastest, f64::max);
         }
         let mut speeds: Vec<f64> = (0..touching.len()).map(|i| approach(i, state)).collect();
+        let mut struck = Vec::new();
         for round in 0.. {
             let fastest =
                 (0..touching.len()).max_by(|&i, &j| speeds[i].total_cmp(&speeds[j]).then(j.cmp(&i)));
@@ -103,6 +112,7 @@ impl Collider {
             }
             let joints = if jointed[i] { Some(&mut *solver) } else { None };
             self.strike_pair(&touching[i], &places[i], speeds[i], (model, time, state), joints);
+            struck.extend(touching[i].bodies);
             for (j, speed) in speeds.iter_mut().enumerate() {
                 let shares = |body: &usize| touching[j].bodies.contains(body);
                 if jointed[j] || touching[i].bodies.iter().any(shares) {
@@ -120,7 +130,7 @@ impl Collider {
                 }
             }
         }
-        Ok(closed)
+        Ok(Strike { closed, struck })
     }
 
     /// A typical length of the smaller of two bodies, m.

@@ -36,6 +36,7 @@ impl World {
                 self.before.clone_from(&self.state);
             }
             let (duration, event) = self.make_piece(now, length);
+            self.solver.blame_friction(&self.model, now + duration);
             let Some(event) = event else {
                 self.look_within(now, duration, left, see);
                 return;
@@ -45,7 +46,7 @@ impl World {
             self.look_within(now, duration, within, see);
             now += duration;
             length = t + dt - now;
-            self.pass(now);
+            self.pass(event, now);
             self.integrator.discontinuity();
             if counts.are_too_many(event) || self.solver.has_failed() {
                 self.give_up(event, now);

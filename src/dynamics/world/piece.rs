@@ -72,7 +72,7 @@ impl World {
         let Self { model, state, before, solver, collider, .. } = self;
         let (mut length, bodies) =
             collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
-        for _ in 0..TOUCHES {
+        for trial in 1..=TOUCHES {
             if length > 0.0 {
                 self.try_step(t, length);
             } else {
@@ -80,7 +80,7 @@ impl World {
             }
             let left = self.collider.as_ref()?.time_left(&self.model, &self.state, bodies);
             let next = left.map_or(length, |left| (length + left).clamp(0.0, dt));
-            if next == length {
+            if next == length || trial == TOUCHES {
                 break;
             }
             length = next;
@@ -89,9 +89,9 @@ impl World {
     }
 
     /// An event: takes its impulses, and finds out which constraints push from then on.
-    pub(super) fn pass(&mut self, t: f64) {
+    pub(super) fn pass(&mut self, event: Event, t: f64) {
         if self.collider.is_some() {
-            self.meet(t);
+            self.meet(t, matches!(event, Event::Touch(_)));
         } else {
             let mut system = System::new(&self.model, &mut self.solver);
             system.decide(t, &mut self.state, &mut self.loads);
@@ -99,16 +99,20 @@ impl World {
     }
 
     /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch.
-    fn meet(&mut self, t: f64) {
+    fn meet(&mut self, t: f64, is_touch: bool) {
         let Some(collider) = &mut self.collider else { return };
-        let closed = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {
-            Ok(closed) => closed,
+        let strike = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {
+            Ok(strike) => strike,
             Err(breakdown) => {
                 self.solver.fail(breakdown);
                 return;
             }
         };
-        self.solver.take_contacts(closed);
+        let have_changed = self.solver.take_contacts(strike.closed);
+        if is_touch && !have_changed && !self.solver.concerns(&strike.struck) {
+            // What holds bodies has nothing to do with it.
+            return;
+        }
         while !self.solver.is_idle(&self.model) {
             let mut system = System::new(&self.model, &mut self.solver);
             system.decide(t, &mut self.state, &mut self.loads);
@@ -126,7 +130,7 @@ impl World {
             self.solver.fail(breakdown);
             return;
         }
-        self.meet(self.time);
+        self.meet(self.time, false);
     }
 
     /// Notes that a run cannot go on, since something happens again and again.
@@ -204,6 +208,8 @@ impl World {
     fn try_step(&mut self, t: f64, dt: f64) {
         self.state.clone_from(&self.before);
         self.integrator.discontinuity();
+        // What went wrong in a step that was too long does not count.
+        self.solver.take_failure();
         self.make_step(t, dt);
     }
 }
