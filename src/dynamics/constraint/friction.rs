@@ -1,7 +1,7 @@
 //! Coulomb friction: pairs of rows that hold as far as the normal force lets them.
 //!
 //! A pair sticks, with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip. λₙ depends on what slides, so both
-//! are found in turn. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8.
+//! are found together. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8.
 
 use glam::DVec2;
 
@@ -10,12 +10,6 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};
-
-/// So many rounds find the normal forces of contacts that slide.
-const ROUNDS: usize = 200;
-
-/// Normal forces have been found where they change by no more than this part of themselves any more.
-const FOUND: f64 = 1e-6;
 
 /// What slides slower than so many times what friction changes in a step slides slowly.
 const SLOWLY: f64 = 2.0;
@@ -151,38 +145,47 @@ impl Solver {
         }
     }
 
-    /// Solves A λ = b in `unknown` for the rows that hold, with the pushes of what slides, which depend on λ themselves.
-    /// Returns whether they have been found.
+    /// Solves A λ = b in `unknown` for the rows that hold, with the pushes of what slides. These depend on λ themselves: the normal
+    /// forces n of contacts that slide are an affine function of their pushes, n = c + K n, which a small dense system solves.
+    /// Returns whether there is a solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
-        let right = self.unknown.clone();
-        let mut pushes = vec![0.0; right.len()];
-        let mut before = f64::INFINITY;
-        for round in 0..ROUNDS {
-            // What the pushes do to the rows that hold.
-            self.unknown.clone_from(&right);
-            self.factor.subtract_product(&pushes, &mut self.unknown);
-            self.solve();
-            let (mut change, mut size) = (0.0_f64, 0.0_f64);
-            for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
-                let normal = self.unknown[grip.normal].max(0.0);
-                let push = grip.coefficient * normal * grip.push;
-                change = change.max((push - grip.of(&pushes)).abs().max_element());
-                size = size.max(normal * grip.coefficient);
-                (pushes[grip.row], pushes[grip.row + 1]) = (push.x, push.y);
-            }
-            let is_exact = change <= 1e-15 * size;
-            let goes_on = round < 20 || (change > 1e-12 * size && round + 1 < ROUNDS) || change < before;
-            before = change;
-            if is_exact || !goes_on || round + 1 == ROUNDS {
-                for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
-                    for row in [grip.row, grip.row + 1] {
-                        self.unknown[row] = pushes[row];
-                    }
-                }
-                return change <= FOUND * size;
+        let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
+        let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();
+        normals.dedup();
+        let mut pushes: Vec<Vec<(usize, f64)>> = vec![Vec::new(); normals.len()];
+        for grip in self.grips.iter().filter(slides) {
+            if let Ok(at) = normals.binary_search(&grip.normal) {
+                let push = grip.coefficient * grip.push;
+                pushes[at].extend([(grip.row, push.x), (grip.row + 1, push.y)]);
             }
         }
-        false
+        self.solve();
+        let base = self.unknown.clone();
+        // λ for a normal force of 1 at each contact that slides.
+        let mut columns = Vec::with_capacity(normals.len());
+        for pushed in &pushes {
+            let mut push = vec![0.0; base.len()];
+            pushed.iter().for_each(|&(row, value)| push[row] = value);
+            self.unknown.fill(0.0);
+            self.factor.subtract_product(&push, &mut self.unknown);
+            self.solve();
+            columns.push(self.unknown.clone());
+        }
+        let n = normals.len();
+        let mut matrix = vec![0.0; n * n];
+        for (i, &normal) in normals.iter().enumerate() {
+            for (j, column) in columns.iter().enumerate() {
+                matrix[i * n + j] = f64::from(u8::from(i == j)) - column[normal];
+            }
+        }
+        let mut loads: Vec<f64> = normals.iter().map(|&normal| base[normal]).collect();
+        let is_solved = eliminate(&mut matrix, &mut loads);
+        self.unknown.clone_from(&base);
+        for ((load, column), pushed) in loads.iter().zip(&columns).zip(&pushes) {
+            self.unknown.iter_mut().zip(column).for_each(|(value, change)| *value += load * change);
+            pushed.iter().for_each(|&(row, push)| self.unknown[row] += load * push);
+        }
+        is_solved
     }
 
     /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
@@ -296,5 +299,46 @@ impl Solver {
             (self.modes[row], self.modes[row + 1]) = (mode, mode);
         }
         has_changed
+    }
+}
+
+/// Solves a dense system by elimination with partial pivoting, row by row in `matrix`; `right` becomes the solution. Returns whether
+/// there is one.
+fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
+    let n = right.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&i, &j| matrix[i * n + k].abs().total_cmp(&matrix[j * n + k].abs()));
+        let Some(pivot) = pivot.filter(|&row| matrix[row * n + k] != 0.0) else { return false };
+        for column in 0..n {
+            matrix.swap(k * n + column, pivot * n + column);
+        }
+        right.swap(k, pivot);
+        for row in k + 1..n {
+            let factor = matrix[row * n + k] / matrix[k * n + k];
+            for column in k..n {
+                matrix[row * n + column] -= factor * matrix[k * n + column];
+            }
+            right[row] -= factor * right[k];
+        }
+    }
+    for k in (0..n).rev() {
+        for column in k + 1..n {
+            right[k] -= matrix[k * n + column] * right[column];
+        }
+        right[k] /= matrix[k * n + k];
+    }
+    right.iter().all(|value| value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elimination_swaps_rows_where_it_must() {
+        let mut right = [5.0, 4.0, 5.0];
+        assert!(eliminate(&mut [0.0, 2.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 3.0], &mut right));
+        assert_eq!(right, [1.0, 2.0, 1.0]);
+        assert!(!eliminate(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
     }
 }
