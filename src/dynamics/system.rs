@@ -66,9 +66,15 @@ impl<'a> System<'a> {
         self.solver.aim(self.model, t, dt, state);
     }
 
-    /// To be called before a step from this state at time `t`.
+    /// To be called before the forces at this state at time `t` are evaluated.
     pub(super) fn begin(&mut self, t: f64, state: &State) {
         self.solver.begin(self.model, t, state);
+    }
+
+    /// To be called before a step of `dt` from this state at time `t`.
+    pub(super) fn set_out(&mut self, t: f64, dt: f64, state: &State) {
+        self.solver.begin(self.model, t, state);
+        self.solver.set_out(dt);
     }
 
     /// After changes by hand: brings the bodies to where the constraints hold, and finds out which of these push. `loads` is

@@ -26,10 +26,9 @@ impl Solver {
     /// Sets the places where bodies stay in touch. Returns whether they are others than before: what the rows do is to be
     /// [decided](Self::decide) then.
     pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
-        let is_same =
-            |(a, b): (&Arc<Closed>, &Arc<Closed>)| a.bodies == b.bodies && a.touch.patches == b.touch.patches;
+        let is_same = |(old, new): (&Arc<Closed>, &Arc<Closed>)| old.is(new);
         let are_same =
-            contacts.len() == self.contacts.len() && contacts.iter().zip(&self.contacts).all(is_same);
+            contacts.len() == self.contacts.len() && self.contacts.iter().zip(&contacts).all(is_same);
         if !are_same {
             self.contacts = contacts;
             self.forget();
@@ -47,10 +46,11 @@ impl Solver {
         bodies.iter().any(holds)
     }
 
-    /// The next step is so long, s.
-    pub(in crate::dynamics) fn set_span(&mut self, span: f64) {
+    /// Sets out on a step of `span` seconds, after [`begin`](Self::begin). Whoever only looks at a state does not.
+    pub(in crate::dynamics) fn set_out(&mut self, span: f64) {
         self.span = span;
         self.is_unsolved = false;
+        self.head();
     }
 
     /// Notes, after a step, where no forces of friction fit what is asked for, as in Painlevé's paradox.

@@ -6,6 +6,7 @@
 use glam::DVec2;
 
 use super::super::Loads;
+use super::events::PASSED;
 use super::modes::Mode;
 use super::solver::Solver;
 use super::structure::Structure;
@@ -205,6 +206,13 @@ impl Solver {
             Mode::Slid
         };
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
+    }
+
+    /// Whether some pair of rows sticks that still slips by more than an event tolerates: the slip is to be taken out then, or what
+    /// begins to slide would go the wrong way.
+    pub(super) fn still_slips(&self, rates: &[f64]) -> bool {
+        let slips = |grip: &Grip| grip.of(rates).length() > PASSED * self.largest_rate;
+        self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Held && slips(grip))
     }
 
     fn grip_at(&self, row: usize) -> Option<&Grip> {

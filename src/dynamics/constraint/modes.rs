@@ -98,7 +98,7 @@ impl Solver {
         if let Some(structure) = &self.structure {
             jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
         }
-        let members = self.members.clone();
+        let mut members = self.members.clone();
         self.hold();
         self.see_accelerations(model, t, state, loads, &members);
         let mut can_hold = vec![false; self.rows.len()];
@@ -119,6 +119,13 @@ impl Solver {
         }
         for grip in 0..self.grips.len() {
             self.take_grip(grip, &rates);
+        }
+        if self.still_slips(&rates) {
+            self.members.copy_from_slice(&members);
+            self.hold();
+            self.settle_velocities(model, state);
+            self.measure(t, state);
+            members.copy_from_slice(&self.members);
         }
         self.go_on(model, t, state, loads, (&members, &can_hold, &rates));
         self.see_strength();

@@ -99,7 +99,6 @@ impl Solver {
         self.begun = t;
         // Some rows are measured from the beginning of the step.
         self.measured = f64::NAN;
-        self.head();
         self.hold();
         self.is_ready = true;
     }

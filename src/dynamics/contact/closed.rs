@@ -21,12 +21,43 @@ pub(in crate::dynamics) struct Closed {
     pub(in crate::dynamics) law: Meeting,
     /// A typical length of the smaller body, m.
     pub(in crate::dynamics) size: f64,
+    /// The axis of the world along which the first tangent lies, as far as the normal lets it: tangents must not jump while bodies
+    /// stay in touch.
+    pub(in crate::dynamics) heading: DVec3,
+}
+
+/// Tangents are chosen anew where the normal has turned to the axis that they go by: the cosine of the angle at which they must be,
+/// and of that from which on they are when something else happens.
+const TURNED: [f64; 2] = [0.95, 0.9];
+
+/// The axis of the world that is the farthest from a normal.
+pub(super) fn heading(normal: DVec3) -> DVec3 {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let nearness = |axis: &DVec3| axis.dot(normal).abs();
+    axes.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(DVec3::X)
 }
 
 impl Closed {
     /// The pairs of rows of friction and of rolling friction, as far as there are any.
     fn pairs(&self) -> [bool; 2] {
         [self.law.friction > 0.0, self.law.rolling_friction > 0.0]
+    }
+
+    /// Whether this is the same place as another one that has just been found.
+    pub(in crate::dynamics) fn is(&self, new: &Closed) -> bool {
+        let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
+        is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
+    }
+
+    /// How far the normal is from the axis that the tangents go by; tangents are to be chosen anew where this is negative.
+    pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
+        TURNED[0] - self.heading.dot(self.meet(poses).normal).abs()
+    }
+
+    /// Two unit vectors across the normal, which depend on it smoothly.
+    fn tangents(&self, normal: DVec3) -> [DVec3; 2] {
+        let first = self.heading.reject_from_normalized(normal).normalize();
+        [first, normal.cross(first)]
     }
 
     fn meet(&self, poses: [Pose; 2]) -> Nearest {
@@ -87,7 +118,7 @@ impl Constraint for Closed {
             equations.direction(row, Some(1), linear, arms[1].cross(linear));
         };
         write(0, gap, normal.dot(drift) + change.normal.dot(slipping), normal);
-        let (u, w) = normal.any_orthonormal_pair();
+        let [u, w] = self.tangents(normal);
         let [slides, rolls] = self.pairs();
         // For methods that aim at the end of the step: the way that has been slipped, as the trapezoidal rule has it.
         let slipped = members.aimed().map_or(DVec3::ZERO, |origin| {

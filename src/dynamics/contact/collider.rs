@@ -115,25 +115,25 @@ impl Collider {
         first
     }
 
-    /// How long it takes two bodies to touch at their present velocities, s: negative where they are within each other; none where
-    /// they touch as nearly as matters, or do not approach.
-    pub(in crate::dynamics) fn time_left(
+    /// The gap of two bodies, m, which is 0 where they touch as nearly as matters and negative where they are within each other; and
+    /// its rate, m/s.
+    pub(in crate::dynamics) fn gap(
         &self,
         model: &Model,
         state: &State,
         bodies: [usize; 2],
-    ) -> Option<f64> {
+    ) -> Option<(f64, f64)> {
         let [a, b] = bodies;
         let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { return None };
         let poses = bodies.map(|i| pose(i, model, state));
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-        let scale = scale(bodies, [x, y], state);
+        let touch = TOUCH * scale(bodies, [x, y], state);
         let at = |i: usize| {
             let arm = near.on[i] - state.location[bodies[i]];
             state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)
         };
-        let rate = near.normal.dot(at(1) - at(0));
-        (near.gap.abs() > TOUCH * scale && rate < 0.0).then(|| near.gap / -rate)
+        let gap = if near.gap.abs() > touch { near.gap } else { 0.0 };
+        Some((gap, near.normal.dot(at(1) - at(0))))
     }
 
     /// How far bodies that touch are from touching at further places, or from leaving the edge or the face on which they do, in units of
@@ -147,6 +147,7 @@ impl Collider {
             let [p, q] = [a, b].map(|i| pose(i, model, state));
             let tolerated = PASSED * scale(contact.bodies, [x, y], state);
             margin = margin.min(inside(&contact.touch, x, &p, y, &q) / tolerated);
+            margin = margin.min(contact.left([p, q]) / PASSED);
             if last == Some(contact.bodies) {
                 continue;
             }

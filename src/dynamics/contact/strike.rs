@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::super::constraint::Solver;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
-use super::closed::Closed;
+use super::closed::{Closed, heading};
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
 use super::nearest::Nearest;
@@ -126,7 +126,14 @@ impl Collider {
             let size = self.size(pair.bodies);
             for (touch, place) in pair.touches.iter().zip(places) {
                 if place.rate(motions).x <= STILL * self.fastest {
-                    closed.push(Arc::new(Closed { bodies: pair.bodies, touch: *touch, law: pair.law, size }));
+                    let (touch, heading) = (*touch, heading(touch.meeting.normal));
+                    closed.push(Arc::new(Closed {
+                        bodies: pair.bodies,
+                        touch,
+                        law: pair.law,
+                        size,
+                        heading,
+                    }));
                 }
             }
         }

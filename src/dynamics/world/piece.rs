@@ -70,22 +70,35 @@ impl World {
     /// Makes a step that has just been made anew where bodies touch within it, so that it ends there.
     fn find_touch(&mut self, t: f64, dt: f64) -> Option<(f64, [usize; 2])> {
         let Self { model, state, before, solver, collider, .. } = self;
-        let (mut length, bodies) =
+        let (first, bodies) =
             collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
-        for trial in 1..=TOUCHES {
-            if length > 0.0 {
-                self.try_step(t, length);
+        // They part until `early` or later, and come nearer at `late`: a rebound can be lower than a rounding of the gap.
+        let (mut early, mut late, mut length) = (0.0, first, first);
+        for _ in 0..TOUCHES {
+            self.try_step(t, length);
+            let Some((gap, rate)) = self.gap(bodies) else { break };
+            let next = if rate < 0.0 {
+                late = length;
+                let next = (length + gap / -rate).min(dt);
+                if next > early { next } else { 0.5 * (early + late) }
+            } else if length < late {
+                early = length;
+                0.5 * (early + late)
             } else {
-                self.state.clone_from(&self.before);
-            }
-            let left = self.collider.as_ref()?.time_left(&self.model, &self.state, bodies);
-            let next = left.map_or(length, |left| (length + left).clamp(0.0, dt));
-            if next == length || trial == TOUCHES {
-                break;
+                length
+            };
+            if next == length {
+                return Some((length, bodies));
             }
             length = next;
         }
-        Some((length, bodies))
+        self.try_step(t, late);
+        Some((late, bodies))
+    }
+
+    /// The gap of two bodies and its rate, as [`Collider::gap`](crate::dynamics::contact::Collider::gap) has them.
+    fn gap(&self, bodies: [usize; 2]) -> Option<(f64, f64)> {
+        self.collider.as_ref()?.gap(&self.model, &self.state, bodies)
     }
 
     /// An event: takes its impulses, and finds out which constraints push from then on.
@@ -144,9 +157,8 @@ impl World {
     }
 
     fn make_step(&mut self, t: f64, dt: f64) {
-        self.solver.set_span(dt);
         let mut system = System::new(&self.model, &mut self.solver);
-        system.begin(t, &self.state);
+        system.set_out(t, dt, &self.state);
         self.integrator.advance(&mut system, t, dt, &mut self.state);
         system.settle(t + dt, &mut self.state);
         self.steps += 1;
@@ -207,6 +219,9 @@ impl World {
     /// The state `dt` after the beginning of the piece, made by one step.
     fn try_step(&mut self, t: f64, dt: f64) {
         self.state.clone_from(&self.before);
+        if dt == 0.0 {
+            return;
+        }
         self.integrator.discontinuity();
         // What went wrong in a step that was too long does not count.
         self.solver.take_failure();
