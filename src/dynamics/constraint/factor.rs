@@ -187,14 +187,17 @@ impl Factor {
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
         let Factor { lines, matrix, crossings, lower, inverse, soft, weights, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
-            for entry in &matrix[line.column.clone()] {
+            // A column ends with its entry on the diagonal.
+            let Some((diagonal, before)) = matrix[line.column.clone()].split_last() else { continue };
+            for entry in before {
                 work[entry.row] = entry.value;
             }
-            let diagonal = std::mem::take(&mut work[k]);
+            let (diagonal, mut pivot) = (diagonal.value, diagonal.value);
             let partner = soft.get(k).copied().flatten();
-            let is_soft = partner.is_some();
-            let give = partner.map_or(0.0, |row| 0.5 * (diagonal + matrix[lines[row].column.end - 1].value));
-            let mut pivot = diagonal + SOFT * give * weights.get(k).unwrap_or(&1.0);
+            if let Some(partner) = partner {
+                let give = 0.5 * (diagonal + matrix[lines[partner].column.end - 1].value);
+                pivot += SOFT * give * weights[k];
+            }
             for &Crossing { column, first, at } in &crossings[line.crossings.clone()] {
                 let value = std::mem::take(&mut work[column]);
                 for entry in &lower[first..at] {
@@ -204,7 +207,7 @@ impl Factor {
                 pivot -= scaled * value;
                 lower[at].value = scaled;
             }
-            if choose && !is_soft && pivot <= IMPLIED * diagonal {
+            if choose && partner.is_none() && pivot <= IMPLIED * diagonal {
                 *held = false;
             }
             // A pivot that rounding has made negative would turn a force around.
@@ -263,6 +266,7 @@ impl Factor {
     }
 
     /// Solves A x = b for the rows that take part; the other entries of x are 0.
+    #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         for (i, line) in self.lines.iter().enumerate() {
             let value = x[i];

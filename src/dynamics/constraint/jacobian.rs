@@ -1,5 +1,7 @@
 //! Products with the Jacobian: rates and accelerations of rows, impulses and forces on bodies.
 
+use glam::DVec3;
+
 use super::super::{Model, State};
 use super::member::Member;
 use super::structure::Structure;
@@ -43,38 +45,48 @@ pub(super) fn rates(
     rows: &[Row],
     out: &mut [f64],
 ) -> f64 {
-    let mut largest = products(structure, jacobian, members, out);
-    for (rate, row) in out.iter_mut().zip(rows) {
-        *rate += row.rate;
-        largest = largest.max(row.rate.abs());
+    let mut largest = 0.0;
+    for ((i, out), row) in out.iter_mut().enumerate().zip(rows) {
+        let (sum, size) = product(structure, jacobian, members, i);
+        *out = sum + row.rate;
+        for size in [size, row.rate.abs()] {
+            if size > largest {
+                largest = size;
+            }
+        }
     }
     largest
 }
 
-/// J v for the velocities of the members, or J a where accelerations stand in their place; the largest sum of the sizes of its
-/// terms.
-pub(super) fn products(
+/// J v for the velocities of the members, or J a where accelerations stand in their place.
+pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &[Member], out: &mut [f64]) {
+    for (row, out) in out.iter_mut().enumerate() {
+        *out = product(structure, jacobian, members, row).0;
+    }
+}
+
+/// One row of [`products`], and the sum of the sizes of its terms.
+#[inline(always)]
+pub(super) fn product(
     structure: &Structure,
     jacobian: &[Direction],
     members: &[Member],
-    out: &mut [f64],
-) -> f64 {
-    let mut largest = 0.0_f64;
-    for (row, out) in out.iter_mut().enumerate() {
-        let (mut sum, mut size) = (0.0, 0.0);
-        for direction in &jacobian[structure.directions_of(row)] {
-            let member = &members[direction.member];
-            let moving = direction.linear.dot(member.velocity);
-            let turning = direction.angular.dot(member.angular_velocity);
-            sum += moving + turning;
-            size += moving.abs() + turning.abs();
-        }
-        *out = sum;
-        if size > largest {
-            largest = size;
-        }
+    row: usize,
+) -> (f64, f64) {
+    let (mut sum, mut size) = (0.0, 0.0);
+    for direction in &jacobian[structure.directions_of(row)] {
+        let member = &members[direction.member];
+        let moving = direction.linear.dot(member.velocity);
+        // A rod between centres of mass turns nothing, and such rods are many.
+        let turning = if direction.angular == DVec3::ZERO {
+            0.0
+        } else {
+            direction.angular.dot(member.angular_velocity)
+        };
+        sum += moving + turning;
+        size += moving.abs() + turning.abs();
     }
-    largest
+    (sum, size)
 }
 
 /// Books the work of the impulses Λ of rows that move with time: Λ J v, since J v + ∂c/∂t = 0.

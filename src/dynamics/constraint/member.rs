@@ -138,23 +138,24 @@ impl<'a> End<'a> {
     /// The ends of a constraint; `members` are its bodies, each once, in the order of the ends.
     #[inline(always)]
     pub(super) fn all<const N: usize>(anchors: &[Anchor; N], members: &'a Members<'_>) -> [End<'a>; N] {
-        let mut next = 0;
-        let mut slots = [None; N];
-        std::array::from_fn(|i| match anchors[i] {
-            Anchor::Point(arm) => End { body: None, member: &WORLD, arm, is_off_centre: false },
-            Anchor::Body { id, at } => {
-                let known = anchors[..i].iter().position(|other| other.body() == Some(id));
-                let slot = known.and_then(|other| slots[other]).unwrap_or_else(|| {
-                    next += 1;
-                    next - 1
-                });
-                slots[i] = Some(slot);
-                let member = &members[slot];
-                let is_off_centre = at != DVec3::ZERO;
-                let arm = if is_off_centre { member.orientation * at } else { at };
-                End { body: Some(slot), member, arm, is_off_centre }
-            }
-        })
+        let world = End { body: None, member: &WORLD, arm: DVec3::ZERO, is_off_centre: false };
+        let (mut ends, mut bodies) = ([world; N], 0);
+        // A loop, and not `from_fn`: its closure would be called for each end, which rods feel.
+        for (i, &anchor) in anchors.iter().enumerate() {
+            ends[i] = match anchor {
+                Anchor::Point(arm) => End { arm, ..world },
+                Anchor::Body { id, at } => {
+                    let same = (0..i).find(|&other| anchors[other].body() == Some(id));
+                    let body = same.and_then(|same| ends[same].body).unwrap_or(bodies);
+                    bodies = bodies.max(body + 1);
+                    let member = &members[body];
+                    let is_off_centre = at != DVec3::ZERO;
+                    let arm = if is_off_centre { member.orientation * at } else { at };
+                    End { body: Some(body), member, arm, is_off_centre }
+                }
+            };
+        }
+        ends
     }
 
     /// Where it is, m.

@@ -117,7 +117,8 @@ pub struct Direction {
 impl Direction {
     /// The sum of the products of all components.
     fn dot(&self, other: &Direction) -> f64 {
-        self.linear.dot(other.linear) + self.angular.dot(other.angular)
+        let linear = self.linear.dot(other.linear);
+        if other.angular == DVec3::ZERO { linear } else { linear + self.angular.dot(other.angular) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::Law;
-use super::jacobian::{for_each_direction, move_members, products};
+use super::jacobian::{for_each_direction, move_members, product, products};
 use super::modes::Mode;
 use super::solver::Solver;
 
@@ -39,14 +39,12 @@ impl Solver {
     }
 
     /// Finds the multipliers at a state that has been measured and factorised. The accelerations without them take the place of
-    /// velocities, which are not needed any more. Gives the largest size of the terms of c''.
-    fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
-        let mut size = self.see_free_accelerations(t, state, loads);
-        for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
-            if row.bias.abs() > size {
-                size = row.bias.abs();
-            }
-            *value = -(*value + row.bias);
+    /// velocities, which are not needed any more.
+    fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
+        self.see_free_accelerations(t, state, loads);
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else { return };
+        for ((i, value), row) in unknown.iter_mut().enumerate().zip(rows) {
+            *value = -(product(structure, jacobian, members, i).0 + row.bias);
         }
         if self.has_modes && self.slides() {
             let is_found = self.solve_sliding();
@@ -54,15 +52,11 @@ impl Solver {
         } else {
             self.solve();
         }
-        size
     }
 
-    /// Puts the accelerations without constraints in the place of velocities, and J times them into `unknown`. Gives the largest
-    /// size of their terms.
-    fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) -> f64 {
-        let Solver { structure: Some(structure), members, motions, jacobian, unknown, .. } = self else {
-            return 0.0;
-        };
+    /// Puts the accelerations without constraints in the place of velocities.
+    fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
+        let Solver { structure: Some(structure), members, motions, .. } = self else { return };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
             if let Some(motion) = motion {
                 member.velocity = motion.at(t).acceleration;
@@ -73,7 +67,6 @@ impl Solver {
                 member.angular_velocity = member.turn(loads.torque[i] - gyroscopic);
             }
         }
-        products(structure, jacobian, members, unknown)
     }
 
     /// Finds the multipliers as [`react`](Self::react) does, adds nothing but what drives push, and gives c'' of each row
@@ -88,10 +81,14 @@ impl Solver {
         self.is_ready = false;
         self.push_drives(loads);
         self.see_slips();
-        let size = self.solve_forces(t, state, loads);
+        self.solve_forces(t, state, loads);
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
-            return size;
+            return 0.0;
         };
+        let mut size = 0.0_f64;
+        for (i, row) in rows.iter().enumerate() {
+            size = size.max(product(structure, jacobian, members, i).1).max(row.bias.abs());
+        }
         move_members(structure, jacobian, unknown, members);
         products(structure, jacobian, members, accelerations);
         for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {

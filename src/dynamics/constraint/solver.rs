@@ -222,6 +222,7 @@ impl Solver {
         }
     }
 
+    #[inline(always)]
     fn measure_members(&mut self, t: f64) {
         let Solver { structure: Some(structure), members, origin, rows, jacobian, all, .. } = self else {
             return;
