@@ -9,7 +9,7 @@
 //! | all that changes with time | [`State`] |
 //! | all that does not: masses, inertia, forces | [`Model`] |
 //! | what acts at one moment | [`Force`], [`Loads`] |
-//! | motion that is given | [`Motion`], its [`Pose`] |
+//! | motion that is given | [`Motion`], its [`Kinematics`] |
 //! | when a body is there | [`Presence`] |
 //! | what holds bodies together | [`Constraint`], one type for each kind of joint |
 //! | what happens where bodies touch | [`Contacts`], [`Impact`] |
@@ -98,7 +98,7 @@ pub use force::*;
 pub use integrator::{DenseOutput, Integrator, METHODS, Method, Step};
 pub use loads::Loads;
 pub use model::Model;
-pub use motion::{Motion, Pose};
+pub use motion::{Kinematics, Motion};
 pub use presence::Presence;
 pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;

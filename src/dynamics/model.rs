@@ -7,7 +7,9 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use self::away::Away;
-use super::{Accounts, Constraint, Effort, Force, Loads, Moment, Motion, Pose, RigidBody, Shape, State};
+use super::{
+    Accounts, Constraint, Effort, Force, Kinematics, Loads, Moment, Motion, RigidBody, Shape, State,
+};
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
 /// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -224,12 +226,12 @@ impl Model {
         self.guided().for_each(|(i, motion)| self.place_body(i, &motion.at(t), state));
     }
 
-    /// Puts one body where a pose says.
-    pub(super) fn place_body(&self, i: usize, pose: &Pose, state: &mut State) {
-        let orientation = (pose.orientation * self.principal_axes.get(i)).normalize();
-        let in_body = orientation.conjugate() * pose.angular_velocity;
-        state.location[i] = pose.location;
-        state.velocity[i] = pose.velocity;
+    /// Gives one body the place and the motion of `given`.
+    pub(super) fn place_body(&self, i: usize, given: &Kinematics, state: &mut State) {
+        let orientation = (given.orientation * self.principal_axes.get(i)).normalize();
+        let in_body = orientation.conjugate() * given.angular_velocity;
+        state.location[i] = given.location;
+        state.velocity[i] = given.velocity;
         state.orientation[i] = orientation;
         state.angular_momentum[i] = orientation * (self.inertia[i] * in_body);
     }

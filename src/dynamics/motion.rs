@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 /// Where a body is at one moment, and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
+pub struct Kinematics {
     /// The location of the centre of mass, m.
     pub location: DVec3,
     /// Its velocity, m/s.
@@ -19,8 +19,8 @@ pub struct Pose {
 
 /// A motion that is given: where a body is at any time, whatever acts on it.
 pub trait Motion: Send + Sync {
-    /// The pose at time `t`, s; its velocities and its acceleration must be the derivatives of its place.
-    fn at(&self, t: f64) -> Pose;
+    /// Where the body is at time `t`, s, and how it moves. Velocities and acceleration must be the derivatives of the place.
+    fn at(&self, t: f64) -> Kinematics;
 
     /// The angular acceleration at time `t`, world axes, rad/s²: the derivative of the angular velocity.
     fn angular_acceleration(&self, t: f64) -> DVec3;

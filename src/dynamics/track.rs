@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Motion, Pose};
+use super::{Kinematics, Motion};
 
 /// How the motion goes from one known place to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,9 +109,9 @@ fn spin(omega: DVec3) -> DQuat {
 }
 
 impl Motion for Track {
-    fn at(&self, t: f64) -> Pose {
+    fn at(&self, t: f64) -> Kinematics {
         let after = self.keys.partition_point(|key| key.time <= t);
-        let rest = |key: &Key| Pose {
+        let rest = |key: &Key| Kinematics {
             location: key.location,
             velocity: DVec3::ZERO,
             acceleration: DVec3::ZERO,
@@ -124,7 +124,7 @@ impl Motion for Track {
             return match end {
                 Some(last) if after > 1 && last.time == t => self.between(after - 2, t),
                 Some(key) => rest(key),
-                None => Pose {
+                None => Kinematics {
                     location: DVec3::ZERO,
                     velocity: DVec3::ZERO,
                     acceleration: DVec3::ZERO,
@@ -166,14 +166,14 @@ impl Turning {
 
 impl Track {
     /// The pose between a key and the next.
-    fn between(&self, i: usize, t: f64) -> Pose {
+    fn between(&self, i: usize, t: f64) -> Kinematics {
         let (a, b) = (&self.keys[i], &self.keys[i + 1]);
         let duration = b.time - a.time;
         let s = (t - a.time) / duration;
         if self.interpolation == Interpolation::Linear {
             let turn = b.orientation * a.orientation.conjugate();
             let turn = if turn.w < 0.0 { -turn } else { turn }.to_scaled_axis();
-            return Pose {
+            return Kinematics {
                 location: a.location.lerp(b.location, s),
                 velocity: (b.location - a.location) / duration,
                 acceleration: DVec3::ZERO,
@@ -191,7 +191,7 @@ impl Track {
         let orientation = quaternion * (1.0 / length);
         // The part of the rate that turns; the rest lengthens, which the division by the length undoes.
         let turning = rate * (1.0 / length) * orientation.conjugate();
-        Pose {
+        Kinematics {
             location: a.location * h00 + m0 * h10 + b.location * h01 + m1 * h11,
             velocity: a.location * d00 + m0 * d10 + b.location * d01 + m1 * d11,
             acceleration: a.location * c00 + m0 * c10 + b.location * c01 + m1 * c11,

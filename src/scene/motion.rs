@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::timed::{Timed, TimedVector};
-use crate::dynamics::{Motion, Pose, Track};
+use crate::dynamics::{Kinematics, Motion, Track};
 
 /// A motion that is given.
 #[derive(Clone, Debug)]
@@ -35,12 +35,12 @@ impl BodyMotion {
 }
 
 impl Motion for BodyMotion {
-    fn at(&self, t: f64) -> Pose {
+    fn at(&self, t: f64) -> Kinematics {
         match self {
             BodyMotion::Track(track) => track.at(t),
             BodyMotion::Formula { location, orientation } => {
                 let (orientation, angular_velocity) = orientation.at(t);
-                Pose {
+                Kinematics {
                     location: location.at(t),
                     velocity: location.rate(t),
                     acceleration: location.curvature(t),

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, BodyId, Coulomb, Drag, Dynamics, Gravitation, METHODS, Method, Motion, Pose, Presence, RigidBody,
-    Snapshot, Spring, UniformGravity, World,
+    Anchor, BodyId, Coulomb, Drag, Dynamics, Gravitation, Kinematics, METHODS, Method, Motion, Presence,
+    RigidBody, Snapshot, Spring, UniformGravity, World,
 };
 
 use crate::common::{ball, method};
@@ -154,8 +154,8 @@ fn nothing_acts_on_what_is_not_there_and_nothing_comes_from_it() {
 struct Rolling;
 
 impl Motion for Rolling {
-    fn at(&self, t: f64) -> Pose {
-        Pose {
+    fn at(&self, t: f64) -> Kinematics {
+        Kinematics {
             location: DVec3::X * t,
             velocity: DVec3::X,
             acceleration: DVec3::ZERO,

@@ -4,8 +4,8 @@
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, Dynamics, METHODS, Method, Motion, Pose, RigidBody, Shape, Snapshot, Spring, UniformGravity,
-    World,
+    Anchor, Dynamics, Kinematics, METHODS, Method, Motion, RigidBody, Shape, Snapshot, Spring,
+    UniformGravity, World,
 };
 
 /// A ball on a spring, and a brick that tumbles under a torque.
@@ -105,8 +105,8 @@ fn to_look_within_steps_changes_nothing() {
 fn guided_bodies_are_exact_within_steps() {
     struct Circle;
     impl Motion for Circle {
-        fn at(&self, t: f64) -> Pose {
-            Pose {
+        fn at(&self, t: f64) -> Kinematics {
+            Kinematics {
                 location: DVec3::new(libm::cos(t), libm::sin(t), 0.0),
                 velocity: DVec3::new(-libm::sin(t), libm::cos(t), 0.0),
                 acceleration: DVec3::new(-libm::cos(t), -libm::sin(t), 0.0),

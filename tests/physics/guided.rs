@@ -1,7 +1,9 @@
 //! Bodies whose motion is given, and what they do to others.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Anchor, BodyId, METHODS, Method, Motion, Pose, Shape, Spring, UniformGravity, World};
+use jabuka::dynamics::{
+    Anchor, BodyId, Kinematics, METHODS, Method, Motion, Shape, Spring, UniformGravity, World,
+};
 
 use crate::common::ball;
 
@@ -9,9 +11,9 @@ use crate::common::ball;
 struct Shaken;
 
 impl Motion for Shaken {
-    fn at(&self, t: f64) -> Pose {
+    fn at(&self, t: f64) -> Kinematics {
         let (sin, cos) = libm::sincos(3.0 * t);
-        Pose {
+        Kinematics {
             location: DVec3::X * sin,
             velocity: DVec3::X * (3.0 * cos),
             acceleration: DVec3::X * (-9.0 * sin),

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Freedom, Hinge, METHODS, Method, Motion, Pose,
+    Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Freedom, Hinge, Kinematics, METHODS, Method, Motion,
     Presence, RigidBody, Rod, Shape, Slider, UniformGravity, World,
 };
 
@@ -171,9 +171,9 @@ fn order_on_a_hinge_under_torque() {
 struct Crank;
 
 impl Motion for Crank {
-    fn at(&self, t: f64) -> Pose {
+    fn at(&self, t: f64) -> Kinematics {
         let (sin, cos) = libm::sincos(3.0 * t);
-        Pose {
+        Kinematics {
             location: DVec3::X * sin,
             velocity: DVec3::X * (3.0 * cos),
             acceleration: DVec3::X * (-9.0 * sin),
