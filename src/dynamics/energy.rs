@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Accounts, Model, State};
 
 /// The conserved quantities at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Balance {
     /// Kinetic energy of translation and rotation, Σ ½ m v² + ½ L·ω, J.
     pub kinetic: f64,

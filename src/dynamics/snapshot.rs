@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::{Balance, BodyId, ContactSnapshot, Reaction};
 
 /// All bodies at one moment of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
     /// The time, s.
     pub time: f64,
@@ -20,7 +20,7 @@ pub struct Snapshot {
 }
 
 /// A body at one moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodySnapshot {
     /// The number of the body in the world.
     pub id: usize,

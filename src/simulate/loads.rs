@@ -73,10 +73,8 @@ pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
 
 #[cfg(test)]
 mod tests {
-    use glam::DQuat;
-
     use super::*;
-    use crate::dynamics::{Accounts, Balance, BodySnapshot, ContactSnapshot, Snapshot};
+    use crate::dynamics::{BodySnapshot, ContactSnapshot, Snapshot};
 
     #[test]
     fn several_places_of_one_contact_make_one_arrow_at_the_centre_of_pressure() {
@@ -95,22 +93,10 @@ mod tests {
         let at = |id: usize| BodySnapshot {
             id,
             location: scene.bodies[id].start.location,
-            orientation: DQuat::IDENTITY,
-            velocity: DVec3::ZERO,
-            angular_velocity: DVec3::ZERO,
-            force: DVec3::ZERO,
-        };
-        let balance = Balance {
-            kinetic: 0.0,
-            potential: 0.0,
-            accounts: Accounts::default(),
-            total: 0.0,
-            linear_momentum: DVec3::ZERO,
-            angular_momentum: DVec3::ZERO,
-            drift: 0.0,
+            ..BodySnapshot::default()
         };
         let (bodies, contacts) = (vec![at(0), at(1)], vec![contact(-1.0, 10.0), contact(1.0, 20.0)]);
-        let frame = Frame::of(0, Snapshot { time: 0.0, bodies, reactions: Vec::new(), contacts, balance });
+        let frame = Frame::of(0, Snapshot { bodies, contacts, ..Snapshot::default() });
         let loads = loads(&scene, &frame);
         let found: Vec<_> = loads.iter().map(|load| (load.quantity, load.root, load.vector)).collect();
         let third = DVec3::X * (10.0 / 30.0);

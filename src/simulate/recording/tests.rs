@@ -1,38 +1,15 @@
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::*;
-use crate::dynamics::{Accounts, Balance};
 use crate::simulate::ImpactCounts;
 
 /// More than two pages of frames, in which body 0 moves and body 1 rests.
 const FRAMES: usize = 2 * MOMENTS + 5;
 
 fn push(recording: &Recording, frame: usize) {
-    let body = |id, x| BodySnapshot {
-        id,
-        location: DVec3::new(x, 0.0, 0.0),
-        orientation: DQuat::IDENTITY,
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
-        force: DVec3::ZERO,
-    };
+    let body = |id, x| BodySnapshot { id, location: DVec3::X * x, ..BodySnapshot::default() };
     let x = f64::from(u32_of(frame));
-    let balance = Balance {
-        kinetic: 0.0,
-        potential: 0.0,
-        accounts: Accounts::default(),
-        total: 0.0,
-        linear_momentum: DVec3::ZERO,
-        angular_momentum: DVec3::ZERO,
-        drift: 0.0,
-    };
-    let snapshot = Snapshot {
-        time: x,
-        bodies: vec![body(0, x), body(1, 7.0)],
-        reactions: Vec::new(),
-        contacts: Vec::new(),
-        balance,
-    };
+    let snapshot = Snapshot { time: x, bodies: vec![body(0, x), body(1, 7.0)], ..Snapshot::default() };
     let (impacts, counts) = (Vec::new(), ImpactCounts::default());
     recording.push(&Entry { frame: Some(frame), snapshot, impacts, counts }).unwrap();
 }
