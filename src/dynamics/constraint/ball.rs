@@ -1,6 +1,6 @@
 //! A ball joint: two points stay together, and every turn is free.
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
@@ -12,12 +12,8 @@ pub struct Ball {
 }
 
 impl Constraint for Ball {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.between)
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.between.to_vec()
     }
 
     fn rows(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use glam::DQuat;
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
@@ -16,12 +16,8 @@ pub struct Fixed {
 }
 
 impl Constraint for Fixed {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.between)
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.between.to_vec()
     }
 
     fn rows(&self) -> usize {

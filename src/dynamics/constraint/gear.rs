@@ -1,8 +1,9 @@
 //! A gear: two joints move together.
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::coordinate::{Coordinate, CoordinateRow};
-use super::{Constraint, Equations, Members, parts};
+use super::member::End;
+use super::{Constraint, Equations, Members};
 
 /// Couples the coordinates of two joints: the angle of a hinge or the displacement of a slider, at a fixed ratio.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,19 +15,15 @@ pub struct Gear {
 }
 
 impl Gear {
-    fn ends(&self) -> [Anchor; 4] {
+    fn anchors(&self) -> [Anchor; 4] {
         let [[a, b], [c, d]] = self.joints.map(|joint| joint.between);
         [a, b, c, d]
     }
 }
 
 impl Constraint for Gear {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.ends())
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.joints[1].between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.anchors().to_vec()
     }
 
     fn rows(&self) -> usize {
@@ -36,7 +33,7 @@ impl Constraint for Gear {
     /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step. So nobody has to count turns.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let measure = |members: &Members<'_>| {
-            let [a, b, c, d] = super::member::End::all(&self.ends(), members);
+            let [a, b, c, d] = End::all(&self.anchors(), members);
             [self.joints[0].measure(&[a, b]), self.joints[1].measure(&[c, d])]
         };
         let (now, before) = (measure(members), measure(&members.at_origin()));

@@ -52,11 +52,13 @@ use super::{Anchor, BodyId};
 ///
 /// A new kind is one type with this trait; the solver does not know which kinds there are.
 pub trait Constraint: std::fmt::Debug + Send + Sync {
-    /// The bodies that it concerns, each once.
-    fn bodies(&self) -> Vec<BodyId>;
+    /// Its ends. Its force and torque are measured on the last one.
+    fn ends(&self) -> Vec<Anchor>;
 
-    /// The end on which its force and torque are measured: the second one.
-    fn second_end(&self) -> Anchor;
+    /// The bodies that it concerns, each once, in the order of the ends.
+    fn bodies(&self) -> Vec<BodyId> {
+        parts::bodies(&self.ends())
+    }
 
     /// The number of its equations.
     fn rows(&self) -> usize;

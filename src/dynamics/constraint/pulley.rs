@@ -1,6 +1,6 @@
 //! A pulley: a rope that runs over two points.
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
@@ -22,18 +22,14 @@ impl Pulley {
     /// The least distance of an end from its point, as a part of the rope's length.
     pub const NEAREST: f64 = 0.01;
 
-    fn ends(&self) -> [Anchor; 4] {
+    fn anchors(&self) -> [Anchor; 4] {
         [self.over[0], self.between[0], self.over[1], self.between[1]]
     }
 }
 
 impl Constraint for Pulley {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.ends())
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.anchors().to_vec()
     }
 
     fn rows(&self) -> usize {
@@ -46,7 +42,7 @@ impl Constraint for Pulley {
 
     /// c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ lead from the points to the ends; and |d| − ε ≥ 0 for both.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
-        let [a, b, c, d] = End::all(&self.ends(), members);
+        let [a, b, c, d] = End::all(&self.anchors(), members);
         let [first, second] = [[a, b], [c, d]];
         let ways = [(&first, 1.0), (&second, self.ratio)];
         let ways = ways.map(|(ends, factor)| (parts::Way::new(ends, self.length), factor));

@@ -53,7 +53,9 @@ impl Solver {
                 }
             }
             let member = |body: usize| -> &Member { &self.members[place.bodies[body]] };
-            all[place.constraint] = match model.constraints()[place.constraint].second_end() {
+            let ends = model.constraints()[place.constraint].ends();
+            let Some(&second_end) = ends.last() else { continue };
+            all[place.constraint] = match second_end {
                 Anchor::Body { id, at } => {
                     let is_it = |member: &usize| structure.bodies[*member] == id.index();
                     let Some(body) = place.bodies.iter().position(is_it) else { continue };

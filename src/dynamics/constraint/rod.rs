@@ -1,6 +1,6 @@
 //! A rod: two points keep their distance.
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
@@ -14,12 +14,8 @@ pub struct Rod {
 }
 
 impl Constraint for Rod {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.between)
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.between.to_vec()
     }
 
     fn rows(&self) -> usize {

@@ -1,6 +1,6 @@
 //! A rope: the distance of two points does not grow beyond its length.
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
@@ -14,12 +14,8 @@ pub struct Rope {
 }
 
 impl Constraint for Rope {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.between)
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.between.to_vec()
     }
 
     fn rows(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::super::{Anchor, BodyId};
+use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
@@ -28,12 +28,8 @@ impl Slider {
 }
 
 impl Constraint for Slider {
-    fn bodies(&self) -> Vec<BodyId> {
-        parts::bodies(&self.between)
-    }
-
-    fn second_end(&self) -> Anchor {
-        self.between[1]
+    fn ends(&self) -> Vec<Anchor> {
+        self.between.to_vec()
     }
 
     fn rows(&self) -> usize {

@@ -79,12 +79,8 @@ fn slip(meeting: &Nearest, members: [&Member; 2]) -> DVec3 {
 }
 
 impl Constraint for Closed {
-    fn bodies(&self) -> Vec<BodyId> {
-        self.bodies.map(BodyId::new).to_vec()
-    }
-
-    fn second_end(&self) -> Anchor {
-        Anchor::Body { id: BodyId::new(self.bodies[1]), at: DVec3::ZERO }
+    fn ends(&self) -> Vec<Anchor> {
+        self.bodies.map(|body| Anchor::centre(BodyId::new(body))).to_vec()
     }
 
     fn rows(&self) -> usize {
