@@ -1,5 +1,6 @@
 //! `[label.NAME]`, `[scale_bar]` and `[grid]`.
 
+mod dotted;
 mod words;
 
 use std::ops::Range;
@@ -10,10 +11,9 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
-use crate::scene::grammar::Collection;
 use crate::scene::{
-    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, JointMeasure, Label, LabelPlace, Measure,
-    Piece, RunMeasure, ScaleBar, Side,
+    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
+    ScaleBar, Side,
 };
 
 /// The longest text of a label, bytes: what POV-Ray's strings hold, less what values may need.
@@ -185,189 +185,6 @@ impl Reader<'_, '_, '_> {
         Some(Piece::Value { formula, inputs, format })
     }
 
-    /// A formula in which `ball.speed` is one name, and what those names stand for. The formulas know no dots; another
-    /// letter takes their place, so that no other letter moves.
-    fn without_dots(&mut self, formula: &str, start: usize) -> Option<(String, Vec<(String, Measure)>)> {
-        let variables: Vec<&str> = self.variables().map(|(name, _)| name).collect();
-        let joint = std::iter::once('_').chain('A'..='Z').find(|joint| {
-            let joined = formula.replace('.', &joint.to_string());
-            !variables.iter().any(|name| name.contains(*joint) && joined.contains(name))
-        });
-        let joint = joint.unwrap_or('_').to_string();
-        let mut plain = formula.to_owned();
-        let mut dotted = Vec::new();
-        let mut taken = 0;
-        for (at, _) in formula.match_indices('.') {
-            let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-            if at < taken {
-                continue;
-            }
-            if let Some(name) =
-                formula[..at].ends_with("joint").then(|| joint_name(&formula[at + 1..])).flatten()
-                && !formula[..at - "joint".len()].ends_with(is_part)
-            {
-                let begin = at - "joint".len();
-                let behind = at + 1 + name.len() + 1;
-                let rest = &formula[behind..];
-                taken = behind + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
-                let measure = self.of_joint(name, start + at + 1, &formula[behind..taken])?;
-                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
-                plain.replace_range(begin..taken, &joined);
-                self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
-                continue;
-            }
-            // The name of a copy ends with its indices: `ball[0]`, `brick[3,1]`.
-            let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
-            let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
-            let rest = &formula[at + 1..];
-            let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
-            let (body, measure) = (&formula[begin..at], &formula[at + 1..end]);
-            let letter = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            if !letter(body) || !letter(measure) {
-                continue;
-            }
-            let Some(number) = self.context.names.bodies.get(body).copied() else {
-                let names = self.bodies.iter().map(|body| &*body.name);
-                let label = crate::diagnostic::nearest(body, names.take(1000));
-                let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-                let label = match self.context.groups.ends(Collection::Body, body) {
-                    Some([first, last]) => format!("its copies are `{first}` to `{last}`"),
-                    None => label,
-                };
-                let message = format!("there is no body `{body}`");
-                self.report(Diagnostic::error(Code::UnknownName, message), start + begin..start + at, &label);
-                return None;
-            };
-            let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
-                let names = BodyMeasure::ALL.map(|(name, ..)| name);
-                let message = format!("a body has no `{measure}` that a label could show");
-                let rest = formula[end..].strip_prefix('.');
-                let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
-                let other = words::of_body(measure, axis);
-                let end = match (&other, axis) {
-                    (Some(_), Some(axis @ ("x" | "y" | "z"))) => end + 1 + axis.len(),
-                    _ => end,
-                };
-                let here = self.at(&(start + at + 1..start + end));
-                let error = Diagnostic::error(Code::UnknownName, message);
-                let known = format!("there are {}", crate::scene::grammar::quoted(&names));
-                let near = || crate::diagnostic::nearest(measure, names).map(str::to_owned);
-                self.context.diagnostics.push(match other.or_else(near) {
-                    Some(near) => {
-                        let error = error.at(here, format!("did you mean `{near}`?")).help(known);
-                        self.mended(error, here, &near, end - at - 1)
-                    }
-                    None => error.at(here, "").help(known),
-                });
-                return None;
-            };
-            let mut measure = Measure::Body(number, known);
-            let mut end = end;
-            if known == BodyMeasure::Impacts {
-                self.needs_contacts(start + begin..start + end)?;
-                if let Some(other) = formula[end..].strip_prefix('.').and_then(body_name) {
-                    let begin_of_other = end + 1;
-                    end = begin_of_other + other.len();
-                    measure = self.of_pair(number, other, start + begin_of_other)?;
-                    taken = end;
-                }
-            }
-            let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
-            plain.replace_range(begin..end, &joined);
-            self.note(&mut dotted, joined, measure, &formula[begin..end], start + begin)?;
-        }
-        Some((plain, dotted))
-    }
-
-    /// Notes what a name stands for, as it is joined, unless another name of the formula looks the same then.
-    fn note(
-        &mut self,
-        dotted: &mut Vec<(String, Measure)>,
-        joined: String,
-        measure: Measure,
-        name: &str,
-        begin: usize,
-    ) -> Option<()> {
-        if dotted.iter().any(|(other, another)| *other == joined && *another != measure) {
-            let message = format!("`{name}` looks like another name in this formula");
-            let label = "write the two in `${…}` of their own";
-            self.report(Diagnostic::error(Code::LabelSyntax, message), begin..begin + name.len(), label);
-            return None;
-        }
-        dotted.push((joined, measure));
-        Some(())
-    }
-
-    /// Says it where impacts are asked for, and nothing finds them.
-    fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
-        if self.root.table("simulation").has("contacts") {
-            return Some(());
-        }
-        let error = Diagnostic::error(Code::NoContacts, "`impacts` needs `simulation.contacts`")
-            .help("write `contacts = \"event-driven\"` in [simulation]");
-        self.report(error, range, "without it, bodies pass through each other");
-        None
-    }
-
-    /// The impacts of a body with another, whose name begins at a place of the text; `ground` is the ground, unless a body is called so.
-    fn of_pair(&mut self, body: usize, other: &str, begin: usize) -> Option<Measure> {
-        let named = self.context.names.bodies.get(other).copied();
-        let Some(other) = named.or_else(|| (other == "ground").then_some(self.bodies.len())) else {
-            let names = self.bodies.iter().map(|body| &*body.name);
-            let near = crate::diagnostic::nearest(other, names.take(1000));
-            let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            let error = Diagnostic::error(Code::UnknownName, format!("there is no body `{other}`"));
-            self.report(error, begin..begin + other.len(), &label);
-            return None;
-        };
-        let pair = [body.min(other), body.max(other)];
-        let pairs = &mut self.context.pairs;
-        let known = pairs.iter().position(|known| *known == pair);
-        Some(Measure::Impacts(known.unwrap_or_else(|| {
-            pairs.push(pair);
-            pairs.len() - 1
-        })))
-    }
-
-    /// A measure of a joint whose name begins at a place of the text.
-    fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
-        let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
-        let Some((number, joint)) = found else {
-            let names = self.joints.iter().map(|joint| joint.name.as_str());
-            let near = crate::diagnostic::nearest(name, names.take(1000));
-            let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            let error = Diagnostic::error(Code::UnknownName, format!("there is no joint `{name}`"));
-            self.report(error, begin..begin + name.len(), &label);
-            return None;
-        };
-        let its = || JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
-        if let Some((_, known)) = its().find(|(known, _)| *known == measure) {
-            return Some(Measure::Joint(number, known));
-        }
-        let names: Vec<&str> = its().map(|(name, _)| name).collect();
-        let behind = begin + name.len() + 1;
-        let here = self.at(&(behind..behind + measure.len()));
-        let error = Diagnostic::error(
-            Code::UnknownName,
-            format!("this joint has no `{measure}` that a label could show"),
-        );
-        let known = format!("there are {}", crate::scene::grammar::quoted(&names));
-        let near = words::of_joint(measure).or_else(|| crate::diagnostic::nearest(measure, names));
-        self.context.diagnostics.push(match near {
-            Some(near) => {
-                let error = error.at(here, format!("did you mean `{near}`?")).help(known);
-                self.mended(error, here, near, measure.len())
-            }
-            None => error.at(here, "").help(known),
-        });
-        None
-    }
-
-    /// An error with the word that belongs at its place, unless that is all of an escaped text.
-    fn mended(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
-        if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
-    }
-
     /// The variables of the scene that have values.
     fn variables(&self) -> impl Iterator<Item = (&str, f64)> {
         self.root.variables()
@@ -442,30 +259,6 @@ impl Reader<'_, '_, '_> {
         }
         None
     }
-}
-
-/// The name of the joint in `knee.force` or `string[3].force`: what stands before the point behind it.
-fn joint_name(text: &str) -> Option<&str> {
-    let letters = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?;
-    let indices = match text[letters..].strip_prefix('[') {
-        Some(rest) => rest.find(']')? + 2,
-        None => 0,
-    };
-    let name = &text[..letters + indices];
-    let measure = text[name.len()..].strip_prefix('.')?;
-    let is_name = !name.is_empty() && measure.starts_with(|c: char| c.is_ascii_alphabetic());
-    is_name.then_some(name)
-}
-
-/// The name of a body at the beginning of a text, with the indices of a copy.
-fn body_name(text: &str) -> Option<&str> {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
-    let indices = match text[end..].strip_prefix('[') {
-        Some(rest) => rest.find(']')? + 2,
-        None => 0,
-    };
-    text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_').then(|| &text[..end + indices])
 }
 
 /// A letter as POV-Ray's font has it; none: it has none. Dashes stand in for the minus sign, a raised point for its like.

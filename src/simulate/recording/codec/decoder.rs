@@ -1,0 +1,259 @@
+//! Bytes become moments again. They come from a file, so nothing in them is trusted.
+
+use std::io;
+
+use glam::{DQuat, DVec3};
+
+use super::super::super::ImpactCounts;
+use super::super::super::simulation::Entry;
+use super::super::events::{CONTACT_NUMBERS, IMPACT_NUMBERS, contact_of, impact_of};
+use super::{
+    ABSENT, AT_REST, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS,
+    damaged,
+};
+use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
+
+/// Reads a page from its beginning on.
+#[derive(Default)]
+pub(in super::super) struct Decoder {
+    last: Vec<[f64; NUMBERS]>,
+    joints: Vec<[f64; JOINT_NUMBERS]>,
+    impacts: Vec<f64>,
+    at: usize,
+}
+
+impl Decoder {
+    /// For so many bodies and joints, at the beginning of a page.
+    pub(in super::super) fn new(Counts { bodies, joints, impacts }: Counts) -> Decoder {
+        Decoder {
+            last: vec![AT_REST; bodies],
+            joints: vec![[0.0; JOINT_NUMBERS]; joints],
+            impacts: vec![0.0; impacts],
+            at: 0,
+        }
+    }
+
+    /// Goes back to the beginning of a page, of this or another recording of so many.
+    pub(in super::super) fn begin_page(&mut self) {
+        self.last.fill(AT_REST);
+        self.joints.fill([0.0; JOINT_NUMBERS]);
+        self.impacts.fill(0.0);
+        self.at = 0;
+    }
+
+    /// The next moment.
+    pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
+        let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts } =
+            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
+        let mut bodies = Vec::with_capacity(self.last.len());
+        let mut id = 0;
+        for (mask, count) in runs {
+            let ids = id..id + count;
+            id += count;
+            if mask == ABSENT {
+                continue;
+            }
+            for (id, last) in ids.clone().zip(self.last.get_mut(ids).ok_or_else(damaged)?) {
+                values = take_changed(values, mask, &COLUMNS, last)?;
+                bodies.push(body_of(id, last));
+            }
+        }
+        let (runs, mut values) = joints;
+        let mut next = 0;
+        for (mask, count) in runs {
+            let them = self.joints.get_mut(next..next + count).ok_or_else(damaged)?;
+            next += count;
+            for last in them {
+                values = take_changed(values, mask, &JOINT_COLUMNS, last)?;
+            }
+        }
+        let (runs, mut values) = counts;
+        let mut next = 0;
+        for (mask, count) in runs {
+            for last in self.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
+                values = take_changed(values, mask, &COUNT_COLUMNS, std::slice::from_mut(last))?;
+            }
+            next += count;
+        }
+        let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
+            force: DVec3::new(n[0], n[1], n[2]),
+            torque: DVec3::new(n[3], n[4], n[5]),
+        };
+        let mut entry = head.entry(bodies, self.joints.iter().map(reaction).collect());
+        entry.snapshot.contacts = numbers_in(contacts, contact_of)?;
+        entry.impacts = numbers_in(impacts, impact_of)?;
+        entry.counts = ImpactCounts(self.impacts.clone());
+        Ok(entry)
+    }
+
+    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others, of joints and
+    /// of contacts is lost.
+    pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
+        let Parts { head, bodies: (runs, mut values), .. } =
+            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
+        let (mut id, mut found) = (0, false);
+        for (mask, count) in runs {
+            if mask != ABSENT && (id..id + count).contains(&wanted) {
+                let skipped = values.get(8 * width(mask, &COLUMNS) * (wanted - id)..).ok_or_else(damaged)?;
+                let last = self.last.get_mut(wanted).ok_or_else(damaged)?;
+                take_changed(skipped, mask, &COLUMNS, last)?;
+                found = true;
+                break;
+            }
+            values = values.get(8 * width(mask, &COLUMNS) * count..).ok_or_else(damaged)?;
+            id += count;
+        }
+        let body = if found { vec![body_of(wanted, &self.last[wanted])] } else { Vec::new() };
+        Ok((head.entry(body, Vec::new()), found))
+    }
+}
+
+/// What stands before the bodies of a moment.
+struct Head {
+    frame: Option<usize>,
+    numbers: [f64; HEAD],
+}
+
+impl Head {
+    fn entry(self, bodies: Vec<BodySnapshot>, reactions: Vec<Reaction>) -> Entry {
+        let n = &self.numbers;
+        let balance = Balance {
+            kinetic: n[1],
+            potential: n[2],
+            total: n[3],
+            drift: n[4],
+            linear_momentum: DVec3::new(n[5], n[6], n[7]),
+            angular_momentum: DVec3::new(n[8], n[9], n[10]),
+            accounts: Accounts::from_array(std::array::from_fn(|i| n[11 + i])),
+        };
+        Entry {
+            frame: self.frame,
+            snapshot: Snapshot { time: n[0], bodies, reactions, contacts: Vec::new(), balance },
+            impacts: Vec::new(),
+            counts: ImpactCounts::default(),
+        }
+    }
+}
+
+/// A mask, and for how many bodies it holds.
+type Run = (u8, usize);
+
+/// A moment in a page: of bodies, joints and counts of impacts, the runs and the bytes of the values; of contacts and impacts,
+/// the bytes.
+struct Parts<'a> {
+    head: Head,
+    bodies: (Vec<Run>, &'a [u8]),
+    joints: (Vec<Run>, &'a [u8]),
+    counts: (Vec<Run>, &'a [u8]),
+    contacts: &'a [u8],
+    impacts: &'a [u8],
+}
+
+/// The parts of the moment at a place of a page of a run with so many joints and counts of impacts. The place becomes that of the
+/// moment after it.
+fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
+    let rest = page.get(*at..).ok_or_else(damaged)?;
+    let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let number = u32::from_le_bytes(*number);
+    let mut numbers = [0.0; HEAD];
+    let rest = take(rest, &mut numbers)?;
+    let (bodies, mut rest) = runs_of(rest, &COLUMNS)?;
+    let mut of_joints = (Vec::new(), &rest[..0]);
+    if joints > 0 {
+        (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
+    }
+    let mut of_counts = (Vec::new(), &rest[..0]);
+    let [mut contacts, mut impacts] = [&rest[..0]; 2];
+    if counts > 0 {
+        (of_counts, rest) = runs_of(rest, &COUNT_COLUMNS)?;
+        (contacts, rest) = list(rest, CONTACT_NUMBERS)?;
+        (impacts, rest) = list(rest, IMPACT_NUMBERS)?;
+    }
+    *at = page.len() - rest.len();
+    let frame = (number != NO_FRAME).then_some(number as usize);
+    let head = Head { frame, numbers };
+    Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
+}
+
+/// The bytes of a list of things of so many numbers each, and what is behind them.
+fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
+    let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let count = u32::from_le_bytes(*count) as usize;
+    rest.split_at_checked(count.saturating_mul(8 * numbers)).ok_or_else(damaged)
+}
+
+/// The things of a list, each of so many numbers.
+fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> io::Result<Vec<T>> {
+    let thing = |bytes: &[u8]| {
+        let mut numbers = [0.0; N];
+        take(bytes, &mut numbers)?;
+        Ok(of(&numbers))
+    };
+    bytes.chunks(8 * N).map(thing).collect()
+}
+
+/// Runs, the bytes of their values, and what is behind them.
+type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
+
+/// Reads runs of masks that name columns.
+fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
+    let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
+    let count = u32::from_le_bytes(*count) as usize;
+    let (runs, values) = rest.split_at_checked(count.saturating_mul(5)).ok_or_else(damaged)?;
+    let run =
+        |bytes: &[u8]| (bytes[0], u32::from_le_bytes([bytes[1], bytes[2], bytes[3], bytes[4]]) as usize);
+    let runs: Vec<Run> = runs.chunks_exact(5).map(run).collect();
+    let numbers = runs
+        .iter()
+        .fold(0usize, |sum, (mask, count)| sum.saturating_add(width(*mask, columns).saturating_mul(*count)));
+    let (values, rest) = values.split_at_checked(numbers.saturating_mul(8)).ok_or_else(damaged)?;
+    Ok(((runs, values), rest))
+}
+
+/// How many numbers there are with this mask.
+fn width(mask: u8, columns: &[usize]) -> usize {
+    if mask == ABSENT {
+        return 0;
+    }
+    columns
+        .windows(2)
+        .enumerate()
+        .filter(|(column, _)| mask & (1 << column) != 0)
+        .map(|(_, r)| r[1] - r[0])
+        .sum()
+}
+
+/// Reads the columns that a mask names, and gives what is behind them.
+fn take_changed<'a>(
+    mut values: &'a [u8],
+    mask: u8,
+    columns: &[usize],
+    last: &mut [f64],
+) -> io::Result<&'a [u8]> {
+    for (column, range) in columns.windows(2).enumerate() {
+        if mask & (1 << column) != 0 {
+            values = take(values, &mut last[range[0]..range[1]])?;
+        }
+    }
+    Ok(values)
+}
+
+/// Reads numbers, and gives what is behind them.
+fn take<'a>(bytes: &'a [u8], numbers: &mut [f64]) -> io::Result<&'a [u8]> {
+    let (mine, rest) = bytes.split_at_checked(8 * numbers.len()).ok_or_else(damaged)?;
+    for (number, chunk) in numbers.iter_mut().zip(mine.as_chunks::<8>().0) {
+        *number = f64::from_le_bytes(*chunk);
+    }
+    Ok(rest)
+}
+
+fn body_of(id: usize, n: &[f64; NUMBERS]) -> BodySnapshot {
+    BodySnapshot {
+        id,
+        location: DVec3::new(n[0], n[1], n[2]),
+        orientation: DQuat::from_xyzw(n[3], n[4], n[5], n[6]),
+        velocity: DVec3::new(n[7], n[8], n[9]),
+        angular_velocity: DVec3::new(n[10], n[11], n[12]),
+        force: DVec3::new(n[13], n[14], n[15]),
+    }
+}

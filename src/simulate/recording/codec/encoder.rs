@@ -1,0 +1,145 @@
+//! Moments become bytes.
+
+use super::super::super::simulation::Entry;
+use super::super::events::{contact_numbers, impact_numbers};
+use super::{
+    ABSENT, AT_REST, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS,
+};
+use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
+
+/// Turns moments into bytes, one after another.
+pub(in super::super) struct Encoder {
+    last: Vec<[f64; NUMBERS]>,
+    joints: Vec<[f64; JOINT_NUMBERS]>,
+    impacts: Vec<f64>,
+    masks: Vec<u8>,
+}
+
+impl Encoder {
+    /// For so many bodies and joints.
+    pub(in super::super) fn new(Counts { bodies, joints, impacts }: Counts) -> Encoder {
+        Encoder {
+            last: vec![AT_REST; bodies],
+            joints: vec![[0.0; JOINT_NUMBERS]; joints],
+            impacts: vec![0.0; impacts],
+            masks: Vec::new(),
+        }
+    }
+
+    /// A new page begins: it can be read without those before it.
+    pub(in super::super) fn begin_page(&mut self) {
+        self.last.fill(AT_REST);
+        self.joints.fill([0.0; JOINT_NUMBERS]);
+        self.impacts.fill(0.0);
+    }
+
+    /// Appends a moment.
+    pub(in super::super) fn encode(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
+        let Self { last, joints, masks, .. } = self;
+        let Entry { frame, snapshot, .. } = entry;
+        let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
+        bytes.extend_from_slice(&number.to_le_bytes());
+        put(bytes, &[snapshot.time]);
+        let Balance { kinetic, potential, total, drift, linear_momentum, angular_momentum, accounts } =
+            snapshot.balance;
+        put(bytes, &[kinetic, potential, total, drift]);
+        put(bytes, &linear_momentum.to_array());
+        put(bytes, &angular_momentum.to_array());
+        put(bytes, &accounts.to_array());
+
+        masks.clear();
+        masks.resize(last.len(), ABSENT);
+        let start = bytes.len();
+        for body in &snapshot.bodies {
+            let numbers = numbers_of(body);
+            let last = &mut last[body.id];
+            masks[body.id] = put_changed(bytes, &COLUMNS, &numbers, last);
+            *last = numbers;
+        }
+        put_runs(bytes, start, masks);
+        if !joints.is_empty() {
+            self.encode_joints(snapshot, bytes);
+        }
+        if !self.impacts.is_empty() {
+            self.encode_contacts(entry, bytes);
+        }
+    }
+
+    fn encode_joints(&mut self, snapshot: &Snapshot, bytes: &mut Vec<u8>) {
+        let Self { joints, masks, .. } = self;
+        masks.clear();
+        let start = bytes.len();
+        // What has no reaction does nothing.
+        let reactions = snapshot.reactions.iter().copied().chain(std::iter::repeat(Reaction::default()));
+        for (last, Reaction { force, torque }) in joints.iter_mut().zip(reactions) {
+            let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+            masks.push(put_changed(bytes, &JOINT_COLUMNS, &numbers, last));
+            *last = numbers;
+        }
+        put_runs(bytes, start, masks);
+    }
+
+    /// The counts of impacts, the contacts of the moment, and the impacts since the one before.
+    fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
+        let Self { impacts, masks, .. } = self;
+        masks.clear();
+        let start = bytes.len();
+        let counts = entry.counts.0.iter().copied().chain(std::iter::repeat(0.0));
+        for (last, count) in impacts.iter_mut().zip(counts) {
+            masks.push(put_changed(bytes, &COUNT_COLUMNS, &[count], &[*last]));
+            *last = count;
+        }
+        put_runs(bytes, start, masks);
+        let contacts = &entry.snapshot.contacts;
+        bytes.extend_from_slice(&u32_of(contacts.len()).to_le_bytes());
+        contacts.iter().for_each(|contact| put(bytes, &contact_numbers(contact)));
+        bytes.extend_from_slice(&u32_of(entry.impacts.len()).to_le_bytes());
+        entry.impacts.iter().for_each(|impact| put(bytes, &impact_numbers(impact)));
+    }
+}
+
+/// Appends the columns of some numbers that have changed; a mask that names them.
+fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[f64]) -> u8 {
+    let mut mask = 0;
+    for (column, range) in columns.windows(2).enumerate() {
+        let (new, old) = (&numbers[range[0]..range[1]], &last[range[0]..range[1]]);
+        // By their bits: -0 is not 0.
+        if new.iter().zip(old).any(|(new, old)| new.to_bits() != old.to_bits()) {
+            mask |= 1 << column;
+            put(bytes, new);
+        }
+    }
+    mask
+}
+
+/// Puts the runs of some masks at a place.
+fn put_runs(bytes: &mut Vec<u8>, start: usize, masks: &[u8]) {
+    let mut runs = Vec::new();
+    for run in masks.chunk_by(|a, b| a == b) {
+        runs.push(run[0]);
+        runs.extend_from_slice(&u32_of(run.len()).to_le_bytes());
+    }
+    let count = u32_of(runs.len() / 5).to_le_bytes();
+    bytes.splice(start..start, count.into_iter().chain(runs));
+}
+
+fn put(bytes: &mut Vec<u8>, numbers: &[f64]) {
+    for number in numbers {
+        bytes.extend_from_slice(&number.to_le_bytes());
+    }
+}
+
+fn numbers_of(body: &BodySnapshot) -> [f64; NUMBERS] {
+    let mut numbers = [0.0; NUMBERS];
+    numbers[0..3].copy_from_slice(&body.location.to_array());
+    numbers[3..7].copy_from_slice(&body.orientation.to_array());
+    numbers[7..10].copy_from_slice(&body.velocity.to_array());
+    numbers[10..13].copy_from_slice(&body.angular_velocity.to_array());
+    numbers[13..16].copy_from_slice(&body.force.to_array());
+    numbers
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "the check of a scene limits the number of bodies")]
+fn u32_of(count: usize) -> u32 {
+    count as u32
+}

@@ -1,0 +1,50 @@
+//! Bodies that start otherwise than the scene says.
+
+use glam::DVec3;
+
+use super::super::Frame;
+use crate::dynamics::BodySnapshot;
+use crate::scene::Scene;
+
+/// That a body starts otherwise than the scene says, since joints hold it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corrected {
+    /// Its name.
+    pub body: String,
+    /// The velocity that it starts with, m/s.
+    pub velocity: DVec3,
+    /// The angular velocity that it starts with, rad/s.
+    pub angular_velocity: DVec3,
+    /// How many other bodies do so.
+    pub others: usize,
+}
+
+impl Corrected {
+    /// Compares the first frame with the scene.
+    pub(super) fn find(scene: &Scene, frame: &Frame) -> Option<Corrected> {
+        // Rounding is far smaller, and what is larger may be seen.
+        const NOTICEABLE: f64 = 1e-6;
+        if scene.joints.is_empty() {
+            return None;
+        }
+        let differs = |now: DVec3, given: DVec3| now.distance(given) > NOTICEABLE * given.length().max(1e-3);
+        let is_other = |&&BodySnapshot { id, velocity, angular_velocity, .. }: &&BodySnapshot| {
+            let body = &scene.bodies[id];
+            let is_free = !body.start.fixed && body.motion.is_none();
+            let start = &body.start;
+            // One that is given none is set in motion by what guides or drives it.
+            let is_given = start.velocity != DVec3::ZERO || start.angular_velocity != DVec3::ZERO;
+            is_free
+                && is_given
+                && (differs(velocity, start.velocity) || differs(angular_velocity, start.angular_velocity))
+        };
+        let mut others = frame.bodies.iter().filter(is_other);
+        let first = others.next()?;
+        Some(Corrected {
+            body: scene.bodies[first.id].name.to_string(),
+            velocity: first.velocity,
+            angular_velocity: first.angular_velocity,
+            others: others.count(),
+        })
+    }
+}

@@ -1,0 +1,143 @@
+//! Planes that bodies go through, since nothing keeps them from it.
+
+use glam::DVec3;
+
+use super::super::Frame;
+use crate::dynamics::{BodySnapshot, RigidBody, Shape};
+use crate::scene::{Body, Scene};
+
+/// That bodies go through a plane, since nothing keeps them from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
+    /// The name of the plane; none for the ground of the environment.
+    pub plane: Option<String>,
+    /// The name of the first body that goes through it.
+    pub body: String,
+    /// The time of the first frame in which it is seen to, s.
+    pub time: f64,
+    /// How many other bodies go through the plane later.
+    pub others: usize,
+}
+
+/// The bodies that forces move: only these can go through a plane. A scene of many planes has few of them.
+pub(super) fn free(scene: &Scene) -> impl Iterator<Item = usize> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies.filter(|(_, body)| !body.start.fixed && body.motion.is_none()).map(|(id, _)| id)
+}
+
+/// A plane that is watched for bodies that go through it.
+pub(super) struct Watched {
+    name: Option<String>,
+    /// The body that it is, if it is one.
+    body: Option<usize>,
+    /// Whether it was there in the frame before.
+    is_there: bool,
+    point: DVec3,
+    normal: DVec3,
+    /// The bodies that may still go through it, by their numbers, and the side on which each began.
+    bodies: Vec<(usize, f64)>,
+    crossing: Option<Crossing>,
+}
+
+/// The planes of a scene in which bodies can go through them.
+pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
+    if scene.simulation.contacts.is_some() {
+        return Vec::new();
+    }
+    let watched = |name: Option<String>, body: Option<usize>, point: DVec3, normal: DVec3| Watched {
+        name,
+        body,
+        is_there: false,
+        point,
+        normal,
+        bodies: Vec::new(),
+        crossing: None,
+    };
+    let plane = |(id, body): (usize, &Body)| match body.shape {
+        Shape::Plane { normal } => {
+            let RigidBody { location, orientation, .. } = body.start;
+            Some(watched(Some(body.name.to_string()), Some(id), location, orientation * normal))
+        }
+        _ => None,
+    };
+    let height = scene.environment.ground.as_ref().and_then(|ground| ground.height);
+    let ground = height.map(|height| watched(None, None, DVec3::Y * height, DVec3::Y));
+    scene.bodies.iter().enumerate().filter_map(plane).chain(ground).collect()
+}
+
+impl Watched {
+    /// Looks at a frame in which some bodies have come.
+    pub(super) fn see(
+        &mut self,
+        scene: &Scene,
+        frame: &Frame,
+        (free, come): (&[usize], &[&BodySnapshot]),
+        crossed: &mut [bool],
+    ) {
+        let was_there =
+            std::mem::replace(&mut self.is_there, self.body.is_none_or(|id| frame.body(id).is_some()));
+        match (was_there, self.is_there) {
+            (_, false) => return self.bodies.clear(),
+            (true, true) => self.begin(scene, come.iter().copied()),
+            // It comes itself: now all begin.
+            (false, true) => self.begin(scene, free.iter().filter_map(|id| frame.body(*id))),
+        }
+        self.watch(scene, frame, crossed);
+    }
+
+    /// Notes those of some bodies that do not touch the plane as they come.
+    fn begin<'a>(&mut self, scene: &Scene, come: impl Iterator<Item = &'a BodySnapshot>) {
+        for body in come {
+            self.bodies.extend(self.beginner(scene, body).map(|side| (body.id, side)));
+        }
+    }
+
+    /// Looks for bodies that have gone through the plane, and marks them in `crossed`.
+    fn watch(&mut self, scene: &Scene, frame: &Frame, crossed: &mut [bool]) {
+        let mut gone = Vec::new();
+        let mut bodies = std::mem::take(&mut self.bodies);
+        bodies.retain(|&(id, side)| {
+            let Some(body) = frame.body(id) else { return true };
+            let is_through = self.gap(&scene.bodies[id].shape, body, side) < -self.tolerance(body);
+            if is_through {
+                gone.push(id);
+            }
+            !is_through
+        });
+        self.bodies = bodies;
+        for id in gone {
+            crossed[id] = true;
+            match &mut self.crossing {
+                Some(crossing) => crossing.others += 1,
+                None => {
+                    let (plane, body) = (self.name.clone(), scene.bodies[id].name.to_string());
+                    self.crossing = Some(Crossing { plane, body, time: frame.time, others: 0 });
+                }
+            }
+        }
+    }
+
+    /// The side on which a body begins, if it does not touch the plane then.
+    fn beginner(&self, scene: &Scene, body: &BodySnapshot) -> Option<f64> {
+        let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
+        let shape = &scene.bodies[body.id].shape;
+        (self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
+    }
+
+    /// The distance between the plane and the nearest point of a body that should be on the given side, m.
+    fn gap(&self, shape: &Shape, body: &BodySnapshot, side: f64) -> f64 {
+        let towards_plane = -side * self.normal;
+        let reach = shape.support(body.orientation, towards_plane).unwrap_or(0.0);
+        side * (body.location - self.point).dot(self.normal) - reach
+    }
+
+    /// What rounding may make of a body that just touches, m.
+    fn tolerance(&self, body: &BodySnapshot) -> f64 {
+        1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
+    }
+
+    /// What has gone through it.
+    pub(super) fn finish(self) -> Option<Crossing> {
+        self.crossing
+    }
+}

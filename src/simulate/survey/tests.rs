@@ -1,0 +1,139 @@
+use glam::DVec3;
+
+use super::*;
+
+fn surveyed(text: &str) -> Survey {
+    survey(&Scene::parse(text).unwrap(), |_| {}).unwrap()
+}
+
+#[test]
+fn bounds_hold_the_whole_motion() {
+    let survey = surveyed(
+        "
+        [simulation]
+        duration = 2
+        [body.ball]
+        shape.sphere.radius = 0.5
+        velocity = [3, 0, 0]
+        [body.box]
+        shape.box.size = [2, 2, 2]
+        orientation = [0, 0, 45]
+        location = [0, 4, 0]
+        [body.floor]
+        shape.plane = {}
+        location = [0, -9, 0]
+        ",
+    );
+    let Bounds { min, max } = survey.bounds().unwrap();
+    assert!((min - DVec3::new(-2f64.sqrt(), -0.5, -1.0)).length() < 1e-12, "{min}");
+    assert!((max - DVec3::new(6.5, 4.0 + 2f64.sqrt(), 1.0)).length() < 1e-12, "{max}");
+}
+
+#[test]
+fn bounds_hold_what_is_drawn_and_planes_are_crossed_by_what_is_there() {
+    let survey = surveyed(
+        "
+        [body.earth]
+        shape.sphere.radius = 0.5
+        look.scale = 10
+        velocity = [1, 0, 0]
+        [environment]
+        ground.height = -3
+        ",
+    );
+    let Bounds { min, max } = survey.bounds().unwrap();
+    assert!((min - DVec3::splat(-5.0)).length() < 1e-12, "{min}");
+    assert!((max - DVec3::new(15.0, 5.0, 5.0)).length() < 1e-12, "{max}");
+    assert_eq!(survey.crossings, []);
+}
+
+#[test]
+fn the_drift_is_relative_to_the_whole_run() {
+    let survey = surveyed(
+        "
+        [simulation]
+        duration = 10
+        step = 0.01
+        gravity = [0, -10, 0]
+        [body.ball]
+        shape.sphere.radius = 1
+        ",
+    );
+    // Per kilogram: Euler–Cromer falls ½ g t dt too far, so its energy is g × that too small, 5 J at the end of 10 s;
+    // and ½ (g t)² is 5000 J. At the first frame, relative to what was kinetic by then, it would be a quarter.
+    assert!((survey.drift + 1e-3).abs() < 1e-9, "{}", survey.drift);
+}
+
+#[test]
+fn a_scene_of_nothing_but_planes_has_no_bounds() {
+    assert_eq!(surveyed("[body.floor]\nshape.plane = {}").bounds(), None);
+    assert_eq!(surveyed("").bounds(), None);
+}
+
+#[test]
+fn the_first_body_through_a_plane_is_named_with_its_time() {
+    let survey = surveyed(
+        "
+        [simulation]
+        duration = 2
+        frame_rate = 10
+        gravity = [0, -2, 0]
+        [body.floor]
+        shape.plane = {}
+        [body.slow]
+        shape.sphere.radius = 0.5
+        location = [0, 1.5, 0]
+        [body.fast]
+        shape.sphere.radius = 0.5
+        location = [2, 1.5, 0]
+        velocity = [0, -3, 0]
+        [body.below]                # already through, and on its way out
+        shape.sphere.radius = 0.5
+        location = [4, -3, 0]
+        velocity = [0, -1, 0]
+        [body.lying]                # touches from the start
+        shape.sphere.radius = 0.5
+        location = [6, 0.5, 0]
+        fixed = true
+        [environment]
+        ground.height = -100
+        ",
+    );
+    // 3 t + t² reaches the gap of 1 m at t = 0.303 s, so the frame at 0.4 s is the first to see it.
+    let expected =
+        Crossing { plane: Some("floor".to_owned()), body: "fast".to_owned(), time: 0.4, others: 1 };
+    assert_eq!(survey.crossings, [expected]);
+}
+
+#[test]
+fn what_has_gone_through_a_plane_is_not_followed() {
+    let survey = surveyed(
+        "
+        [simulation]
+        duration = 10
+        gravity = [0, -9.81, 0]
+        [body.floor]
+        shape.plane = {}
+        [body.ball]
+        shape.sphere.radius = 0.5
+        location = [0, 2, 0]
+        ",
+    );
+    let bounds = survey.bounds().unwrap();
+    assert!(bounds.min.y > -0.2 && bounds.max.y == 2.5, "{bounds:?}");
+}
+
+#[test]
+fn the_given_ground_counts_and_the_default_one_does_not() {
+    let fall = "
+        [simulation]
+        gravity = [0, -9.81, 0]
+        [body.ball]
+        shape.sphere.radius = 1
+        location = [0, 5, 0]
+        ";
+    assert_eq!(surveyed(fall).crossings, []);
+    let survey = surveyed(&format!("{fall}\n[environment]\nground.height = 0"));
+    assert_eq!(survey.crossings.len(), 1);
+    assert_eq!(survey.crossings[0].plane, None);
+}
