@@ -1,15 +1,15 @@
 //! The sparse factorisation A = L D Lᵀ of a symmetric matrix, row by row.
 //!
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. It is our
-//! own, and not that of a crate, since rows must be left out while it runs (those that others imply, and those that do not
-//! hold at present), and since the order of its sums must not depend on the processor.
+//! own, not that of a crate, for two reasons. Some rows are left out while it runs: those that others imply, and those that do
+//! not hold at present. And the order of its sums must not depend on the processor.
 
 use std::ops::Range;
 
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// A row whose pivot is below this part of its diagonal is implied by other rows: the rest is rounding.
+/// A row whose pivot is below this part of its diagonal is implied by other rows. Such a pivot is rounding only.
 const IMPLIED: f64 = 1e-11;
 
 /// A matrix and its factors; both keep their patterns.
@@ -21,22 +21,22 @@ pub(super) struct Factor {
     /// Where the couplings of each direction of the Jacobian begin in `couplings`; one more for the end.
     coupling_start: Vec<usize>,
     couplings: Vec<Coupling>,
-    /// The entries of L, row by row; in a row, those on which others depend come first.
+    /// The entries of L, row by row. Within a row, entries that others need come first.
     crossings: Vec<Crossing>,
     /// L, column by column.
     lower: Vec<Entry>,
-    /// 1/D; 0 for a row that is left out.
+    /// 1/D; 0 for rows that are left out.
     inverse: Vec<f64>,
-    /// Of rows that give way a little, so that those that others imply share the load, the row with which each does so alike: itself,
-    /// or the other tangent of a contact, so that it does not matter how tangents are turned. See [`SOFT`].
+    /// The soft rows; see [`SOFT`]. Each names the row that is softened by the same amount: the other tangent of its contact, so
+    /// that the directions of the tangents do not matter, or itself.
     soft: Vec<Option<usize>>,
-    /// How much more than others each soft row gives way.
+    /// The weight of each row: a soft row with weight 2 gives way twice as much.
     weights: Vec<f64>,
-    /// Room to work in; all zero between two calls.
+    /// Room to work in. All entries are zero between two calls.
     work: Vec<f64>,
 }
 
-/// Where what belongs to a row stands.
+/// Where the entries of a row are.
 #[derive(Clone, Debug)]
 struct Line {
     /// The column of the matrix.
@@ -54,27 +54,28 @@ struct Entry {
     value: f64,
 }
 
-/// A product of two directions of a body: that of the row of a column, and that of a row before it.
+/// A product of two directions of one body, from the row of a column and from an earlier row.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
-    /// The entry of the matrix to which it belongs.
+    /// The entry of the matrix to which it is added.
     entry: usize,
-    /// The direction in the row before.
+    /// The direction in the earlier row.
     other: usize,
 }
 
-/// An entry of L, as a row sees it.
+/// An entry of L in a row.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
     column: usize,
     /// Where the column begins in `lower`.
     first: usize,
-    /// Its place in `lower`.
+    /// The entry's place in `lower`.
     at: usize,
 }
 
-/// By this part of its diagonal, or of the mean of two, a soft row gives way. Refining the solution takes it out again, but for how loads are shared: rows
-/// that imply each other get those with the smallest sum of squares.
+/// The diagonal of a soft row is enlarged by this part of itself, or of the mean of its own and its partner's. So rows that imply
+/// each other can all take part, and share the load with the smallest sum of squares. Refining the solution takes out the rest of
+/// what this changes.
 const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
@@ -113,10 +114,10 @@ impl Factor {
         factor
     }
 
-    /// Finds the pattern of L. A row has an entry wherever a way up the elimination tree leads from an entry of the matrix.
+    /// Finds the pattern of L: from each entry of the matrix, a row gets entries all the way up the elimination tree.
     fn plan(&mut self, columns: Vec<Range<usize>>) {
         let n = columns.len();
-        // The first later row in which a column of L has an entry: the elimination tree.
+        // The elimination tree: the first later row in which a column of L has an entry.
         let mut parent = vec![NONE; n];
         let mut mark = vec![NONE; n];
         let mut count = vec![0; n];
@@ -182,8 +183,7 @@ impl Factor {
         self.matrix[self.lines[row].column.end - 1].value
     }
 
-    /// Factorises the matrix. `held` says which rows take part; where `choose` is set, those that others imply are taken out
-    /// of it.
+    /// Factorises the matrix. `held` says which rows take part. With `choose`, rows that others imply are taken out of it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
         let Factor { lines, matrix, crossings, lower, inverse, soft, weights, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
@@ -210,18 +210,18 @@ impl Factor {
             if choose && partner.is_none() && pivot <= IMPLIED * diagonal {
                 *held = false;
             }
-            // A pivot that rounding has made negative would turn a force around.
+            // Rounding can make a pivot negative, which would reverse a force.
             inverse[k] = if *held && pivot > 0.0 { 1.0 / pivot } else { 0.0 };
         }
     }
 
-    /// Sets which rows are soft, and with which other row; by default none is.
+    /// Sets the soft rows, each with the row that is softened by the same amount. By default, no row is soft.
     pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
         self.weights = vec![1.0; soft.len()];
         self.soft = soft;
     }
 
-    /// Sets how much more than others each soft row gives way.
+    /// Sets the weights of soft rows. Those of all others become 1.
     pub(super) fn weigh(&mut self, weights: impl IntoIterator<Item = (usize, f64)>) {
         self.weights.fill(1.0);
         weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
@@ -232,7 +232,7 @@ impl Factor {
         self.soft.iter().any(Option::is_some)
     }
 
-    /// For each row, the sum of the sizes of the entries of A between it and those rows that count.
+    /// For each row, the sum of the sizes of its entries in the columns that count.
     pub(super) fn row_sizes(&self, counts: impl Fn(usize) -> bool) -> Vec<f64> {
         let mut sizes = vec![0.0; self.lines.len()];
         for (k, line) in self.lines.iter().enumerate() {
@@ -279,7 +279,7 @@ impl Factor {
             for entry in &self.lower[line.below.clone()] {
                 value -= entry.value * x[entry.row];
             }
-            // Of a row that is left out, the column of L is zero, and so is what stands here.
+            // A row that is left out has a zero column in L, so its value is zero too.
             x[i] = value;
         }
     }

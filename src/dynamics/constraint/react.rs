@@ -42,7 +42,9 @@ impl Solver {
     /// velocities, which are not needed any more.
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
         self.see_free_accelerations(t, state, loads);
-        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else { return };
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
+            return;
+        };
         for ((i, value), row) in unknown.iter_mut().enumerate().zip(rows) {
             *value = -(product(structure, jacobian, members, i).0 + row.bias);
         }

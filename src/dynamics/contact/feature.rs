@@ -1,59 +1,60 @@
-//! The corners, edges and faces of a convex part, and where each of them ends.
+//! The corners, edges and faces of a convex part, and the borders of each.
 
 use glam::DVec3;
 
 use super::patch::{Patch, meet_placed};
 use super::solid::{Part, Pose};
 
-/// A corner, an edge, a face, a rim or a side, in the axes of the body.
+/// A corner, an edge, a face, a rim or a round side. All is in the axes of the body.
 #[derive(Clone, Debug)]
 pub(super) struct Feature {
     pub(super) patch: Patch,
     pub(super) outline: Outline,
     pub(super) normals: Normals,
-    /// Whether it is inside a surface of triangles, so that nothing touches there: a face is nearer.
+    /// Whether it is an edge or a corner between triangles that stick out nowhere. Nothing touches it: a face is always nearer.
     pub(super) is_seam: bool,
 }
 
-/// Where the places of a feature are.
+/// The part of its patch that a feature covers.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
-    /// Wherever the patch is.
+    /// The whole patch.
     All,
-    /// No farther than `half` from the middle, along a unit direction.
+    /// At most `half` from the middle `at`, measured along the unit direction `along`.
     Length { at: DVec3, along: DVec3, half: f64 },
-    /// On the inner side of each of these edges: a place on it, and the unit direction into the face.
+    /// Inside all of these edges. Each is a point on the edge and the unit direction from there into the face.
     Edges(Vec<[DVec3; 2]>),
     /// Within a disc.
     Disc { centre: DVec3, radius: f64 },
 }
 
-/// Which directions are normals of the body at a feature.
+/// The directions in which the body can be touched at a feature.
 #[derive(Clone, Debug)]
 pub(super) enum Normals {
-    /// All that the patch has.
+    /// All normals of the patch.
     All,
-    /// Those that point away from each of these unit directions, which go along the surface.
+    /// The normals that make at least a right angle with all of these unit directions, which lie in the surface.
     Away(Vec<DVec3>),
-    /// At a rim: those that point away from the axis and from the side, whose unit direction has these components out from the
-    /// axis and along it.
+    /// The normals at a rim. They point away from the axis, and at least at a right angle to the side. `side` is the unit
+    /// direction of the side: its component out from the axis, and that along the axis.
     Rim { centre: DVec3, axis: DVec3, side: [f64; 2] },
-    /// At the tip of a cone, whose axis points to it, with this cosine and sine of half its opening angle.
+    /// The normals at the tip of a cone. `axis` points from the base to the tip; `half_angle` is the cosine and the sine of
+    /// half the opening angle.
     Tip { axis: DVec3, half_angle: [f64; 2] },
 }
 
 impl Feature {
-    /// A patch with where it ends, and its normals.
+    /// A feature that is no seam.
     pub(super) fn new(patch: Patch, outline: Outline, normals: Normals) -> Feature {
         Feature { patch, outline, normals, is_seam: false }
     }
 
-    /// A patch that has no end.
+    /// A feature that covers its whole patch.
     pub(super) fn all(patch: Patch) -> Feature {
         Feature::new(patch, Outline::All, Normals::All)
     }
 
-    /// How far a place on the patch is from where the feature ends, m; negative beyond it.
+    /// How far a place on the patch is inside the borders of the feature, m; negative outside of them.
     pub(super) fn margin(&self, place: DVec3) -> f64 {
         match &self.outline {
             Outline::All => f64::INFINITY,
@@ -73,19 +74,19 @@ impl Feature {
         }
     }
 
-    /// Whether a place of the core is within `tolerance` of the feature of a part with this rounding.
+    /// Whether a place of the core is as far below the feature as the rounding `radius` of the part, within `tolerance`.
     pub(super) fn is_near(&self, place: DVec3, radius: f64, tolerance: f64) -> bool {
         let point = Patch::Point { at: place, radius: 0.0 };
         let found = meet_placed(&point, &self.patch);
         (found.gap + radius).abs() <= tolerance && self.margin(found.on[1]) >= -tolerance
     }
 
-    /// Whether a place is on the feature, but for `tolerance`.
+    /// Whether a place is on the feature, within `tolerance`.
     pub(super) fn holds(&self, place: DVec3, tolerance: f64) -> bool {
         self.is_near(place, 0.0, tolerance)
     }
 
-    /// How far the feature of a part reaches along a unit direction.
+    /// How far the feature reaches along a unit direction, or more. `part` is the part that has it.
     pub(super) fn highest(&self, direction: DVec3, part: &Part) -> f64 {
         match self.patch {
             Patch::Point { at, radius } => at.dot(direction) + radius,
@@ -95,7 +96,7 @@ impl Feature {
             Patch::Circle { centre, axis, radius } => {
                 centre.dot(direction) + radius * axis.cross(direction).length()
             }
-            // Corners and rims bound what is left.
+            // A face goes on as far as its part. Of a face that looks down, corners and rims reach farther.
             Patch::Plane { at, normal } => {
                 let tilt = normal.cross(direction).length();
                 if normal.dot(direction) > 0.0 {
@@ -108,7 +109,8 @@ impl Feature {
         }
     }
 
-    /// By how much a unit direction is within the normals at a place of the feature: a sine, negative for one that is none.
+    /// The sine of the angle between a unit direction and the nearest border of the normals at a place of the feature. It is
+    /// negative for a direction that is not among the normals.
     pub(super) fn slack(&self, place: DVec3, normal: DVec3) -> f64 {
         match &self.normals {
             Normals::All => f64::INFINITY,
@@ -204,7 +206,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
 pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Vec<Feature> {
     let height = ends[0].distance(ends[1]);
     let slant = libm::hypot(height, radii[1] - radii[0]);
-    // The direction of the side from the first end to the second: out from the axis, and along it.
+    // The unit direction of the side from the first end to the second: its component out from the axis, and that along it.
     let side = [(radii[1] - radii[0]) / slant, height / slant];
     let at = 0.5 * (ends[0] + ends[1]);
     let middle = 0.5 * (radii[0] + radii[1]);

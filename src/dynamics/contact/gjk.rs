@@ -1,4 +1,5 @@
-//! The border to parry: its tree of boxes, and the first guess of where two convex parts are nearest, to some eight digits.
+//! All that is used of the crate parry: its tree of boxes, and its GJK. That says to about eight digits where two convex parts are
+//! nearest, which is a first guess only.
 
 use glam::DVec3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -9,7 +10,7 @@ use parry3d_f64::shape::SupportMap;
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// The core of a part, with its centre near the origin and its size near 1: parry's tolerances are absolute.
+/// The core of a part, moved to the origin and scaled to about 1, since parry's tolerances are absolute.
 struct Placed<'a> {
     part: &'a Part,
     pose: Pose,
@@ -24,7 +25,7 @@ impl SupportMap for Placed<'_> {
     }
 }
 
-/// Where the cores of two parts are nearest. `None` where parry finds nothing.
+/// Where the cores of two parts are nearest, by GJK. `None` where it fails.
 pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let origin = pa.point(a.centre);
     let unit = a.bound.max(b.bound);
@@ -54,13 +55,13 @@ impl std::fmt::Debug for Tree {
 }
 
 impl Tree {
-    /// That of boxes, each by its lowest and highest corner.
+    /// The tree of boxes. Each is given by its lowest and its highest corner.
     pub(super) fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Tree {
         let boxes: Vec<Aabb> = boxes.map(|[low, high]| Aabb::new(low, high)).collect();
         Tree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
     }
 
-    /// The numbers of the boxes, of so many, that are within a distance of a box, in rising order.
+    /// The numbers of the boxes that are at most `within` from a box, in rising order. `count` is the number of all boxes.
     pub(super) fn near(&self, [low, high]: [DVec3; 2], within: f64, count: usize) -> Vec<usize> {
         if !(low.is_finite() && high.is_finite() && within.is_finite()) {
             return (0..count).collect();

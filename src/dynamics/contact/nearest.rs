@@ -7,21 +7,22 @@ use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// Features count as near a place within so many sizes of a part: parry's places are less wrong, but for round parts that overlap.
+/// A feature is near a guessed place if it is closer than this part of the size. GJK's guesses are better than that, but for
+/// round parts that overlap.
 const NEAR: f64 = 1e-3;
-/// A place counts as on a feature up to so many sizes beyond its end. What that changes of a gap is the square of it.
+/// A place up to this part of the size outside of a feature counts as on it. The gap changes by the square of this only.
 pub(super) const EDGE: f64 = 1e-9;
-/// The same for the edges of a triangle, beyond which there may be another one that is a little bent.
+/// The same for a triangle: the next one may be bent a little against it, which leaves a crack between them.
 const SEAM: f64 = 1e-7;
-/// The search among triangles begins within so many sizes.
+/// The search among triangles begins within this part of the size.
 const START: f64 = 0.25;
-/// Parts with no more features than that are compared feature by feature.
+/// Two parts with at most so many pairs of features are compared pair by pair, without a guess.
 const FEW: usize = 16;
 
 /// Where two solids are nearest to each other.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Nearest {
-    /// The distance, m; where they overlap, minus the depth.
+    /// The distance, m; negative where they overlap, by the depth.
     pub gap: f64,
     /// The unit normal there, from the first to the second.
     pub normal: DVec3,
@@ -41,10 +42,9 @@ impl Nearest {
     }
 }
 
-/// Where two solids are nearest to each other; `None` where they are farther apart than `beyond`, m.
+/// Where two solids are nearest to each other. `None` where they are farther apart than `beyond`, m.
 ///
-/// The gap is exact to rounding where it is small, and never larger than the true one. The parts of one body are not compared
-/// with each other.
+/// A small gap is exact to rounding. No gap is larger than the true one.
 pub(in crate::dynamics) fn nearest(
     a: &Solid,
     pa: &Pose,
@@ -64,7 +64,7 @@ pub(in crate::dynamics) fn nearest(
                 }
             }
         });
-        // Among the triangles that are within reach, the nearest one is the nearest of all if its gap is no larger.
+        // Triangles outside of this reach are farther away than it.
         if best.is_some_and(|best| best.gap <= within) || within >= beyond || !within.is_finite() {
             return best.filter(|best| best.gap.is_finite());
         }
@@ -72,7 +72,7 @@ pub(in crate::dynamics) fn nearest(
     }
 }
 
-/// Calls `look` with the numbers of all parts that may be nearer to each other than `within`, in rising order.
+/// Calls `look` with the numbers of all pairs of parts that may be nearer to each other than `within`, in rising order.
 pub(super) fn for_pairs(
     a: &Solid,
     pa: &Pose,
@@ -105,7 +105,7 @@ pub(super) fn for_pairs(
     }
 }
 
-/// A distance that is not larger than that of two parts, m.
+/// A lower bound of the distance of two parts, m: that of the balls around them.
 pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
     match (&a.core, &b.core) {
         (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
@@ -133,10 +133,10 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
-/// Ground is the first.
+/// Where ground and a part are nearest. The ground comes first.
 fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
     let normal = ground.orientation * normal;
-    // Near the ground's origin, so that digits are not lost far from that of the world.
+    // Relative to the ground, so that no digits are lost far from the world's origin.
     let shift = pose.location - ground.location;
     let lowest = pose.orientation * part.support(-(pose.orientation.conjugate() * normal));
     let gap = (shift + lowest - ground.orientation * at).dot(normal);
@@ -144,25 +144,25 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
     Nearest { gap, normal, on: [place - gap * normal, place] }
 }
 
-/// How far beyond the end of a feature of a part a place counts as on it, m; of what touches it, whether it is round.
+/// How far outside of a feature of a part a place still counts as on it, m. `round` says whether what touches it is round.
 pub(super) fn edge(part: &Part, round: bool) -> f64 {
     part.bound * if round && part.surface.is_some() { SEAM } else { EDGE }
 }
 
-/// Where a ball and a convex part are nearest, and the feature of the part.
+/// Where a ball and a convex part are nearest, and the number of the feature of the part.
 pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
     let patch = &ball.features[0].patch;
     // In the axes of the part, so that its features need not be turned.
     let centre = at.local(pose.point(ball.centre));
     let local = Patch::Point { at: centre, radius: ball.radius };
-    // The seam of two triangles may be a little bent.
+    // Two triangles may be bent a little at their seam.
     let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
     let mut best: Option<(f64, f64, usize)> = None;
     for (i, feature) in part.features.iter().enumerate().filter(|(_, feature)| !feature.is_seam) {
         let found = meet_placed(&local, &feature.patch);
         let slack = part.bound * feature.slack(found.on[1], -found.normal);
         let inside = feature.margin(found.on[1]).min(slack).clamp(edge, 0.0);
-        // Where a feature ends and another begins, rounding may put the place on neither: then the one that is nearest to it.
+        // At the border of two features, rounding may put the place outside of both. Then take the one it is nearest to.
         let better = best.is_none_or(|(other, gap, _)| {
             let (is_in, was_in) = (inside > edge, other > edge);
             is_in && !was_in || is_in == was_in && if is_in { found.gap > gap } else { inside > other }
@@ -170,19 +170,20 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
         if better {
             best = Some((inside, found.gap, i));
         }
-        // Of a convex part, no other feature is nearer to a centre that is outside of it.
+        // Where the centre is outside of a convex part, there is just one such feature.
         if inside == 0.0 && found.gap + ball.radius > 0.0 && part.surface.is_none() {
             break;
         }
     }
     let (inside, i) = best.map_or((edge, 0), |(inside, _, i)| (inside, i));
     let found = meet(patch, pose, &part.features[i].patch, at);
-    // Beyond the end of a triangle, another one is nearer.
+    // Outside of a triangle, another triangle is nearer.
     let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
     (Nearest { gap, ..found }, i)
 }
 
-/// How far a meeting is within a feature, m, both by its place and by its normal out of the body.
+/// How far a meeting is inside a feature, m: the less of what its place has left, and its normal, times `size`. The normal
+/// points out of the body.
 pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
     let place = pose.local(place);
     let normal = pose.orientation.conjugate() * normal;
@@ -191,9 +192,9 @@ pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3
 
 /// Where two convex parts are nearest to each other.
 ///
-/// For any unit vector n, the distance along n is no more than that of the parts, and it is the same for the right n (C. Ericson,
-/// *Real-Time Collision Detection* (2005), 5.2). So the largest one over the normals of all pairs of features that may be the
-/// nearest ones is the gap, exact to rounding, and with its sign.
+/// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the
+/// right n is the normal of some pair of features. So the largest separation along the normals of all pairs is the gap, exact to
+/// rounding, and with its sign. Where GJK has a guess, only the features near it are tried first.
 fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     if let Some(found) = faces(a, pa, b, pb) {
         return found;
@@ -224,7 +225,7 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
-/// The patch of a feature. A triangle has no inside, so its edges may be met from all sides.
+/// The patch of a feature. The edges of a triangle can be touched from all sides, since it has no inside.
 fn side(part: &Part, feature: &Feature) -> Patch {
     match feature.patch {
         Patch::Line { at, along, half, radius, .. } if part.surface.is_some() => {
@@ -234,7 +235,7 @@ fn side(part: &Part, feature: &Feature) -> Patch {
     }
 }
 
-/// Where two boxes with parallel edges are nearest, if that is between two faces.
+/// Where two boxes with parallel edges are nearest. `None` unless that is between two faces.
 fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let (of_a, of_b) = (a.half?, b.half?);
     if pa.orientation != pb.orientation {
@@ -247,7 +248,7 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
         return None;
     }
     let sign = if apart[axis] < 0.0 { -1.0 } else { 1.0 };
-    // The middle of the area in which the faces lie on each other.
+    // The middle of the area that the two faces share.
     let mut place = 0.5 * ((-of_a).max(apart - of_b) + of_a.min(apart + of_b));
     place[axis] = sign * of_a[axis];
     let mut normal = DVec3::ZERO;
@@ -257,13 +258,13 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     Some(Nearest { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
 }
 
-/// The search for the direction along which two parts are farthest apart.
+/// The search for the normal with the largest separation.
 struct Search<'a> {
     a: &'a Part,
     pa: &'a Pose,
     b: &'a Part,
     pb: &'a Pose,
-    /// The distance along the best normal so far, and the meeting that has it.
+    /// The largest separation so far, m, and the meeting whose normal has it.
     best: Option<(f64, Nearest)>,
 }
 
@@ -282,8 +283,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a corner is nearest to a corner, an edge or a rim. The smaller the gap is, the more its normal is lost in rounding, and
-    /// with it the distance along it, but the gap is not.
+    /// Whether a pair of a corner with a corner, an edge or a rim is where the parts are nearest: its places and its normal belong
+    /// to the two features. Its gap is then exact. Its normal is not: the smaller the gap, the more of its digits are rounding,
+    /// so the separation along it would be too small.
     fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
         let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
@@ -301,7 +303,7 @@ impl Search<'_> {
 
     fn best_of(&mut self, along: f64, found: Nearest) {
         let digits = self.digits();
-        // Of meetings with one normal, that of the places that are nearest.
+        // Of meetings with the same separation, take the one whose gap is nearest to it.
         let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
                 || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits
@@ -311,7 +313,7 @@ impl Search<'_> {
         }
     }
 
-    /// The best meeting, if it is certain: if its places are on the parts, and as far apart as the parts are along its normal.
+    /// The best meeting, if it is certain: its places are on the parts, and its gap is the separation along its normal.
     fn answer(&self) -> Option<Nearest> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
@@ -319,13 +321,13 @@ impl Search<'_> {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
         };
-        // Within each other, they need not be.
+        // Where parts overlap, the places need not be on the parts.
         let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
         (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
     }
 
-    /// What rounding may do to a distance, m.
+    /// The rounding error of a distance, m.
     fn digits(&self) -> f64 {
         1e-14 * (self.a.bound + self.b.bound + (self.pb.location - self.pa.location).length())
     }

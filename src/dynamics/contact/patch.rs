@@ -12,8 +12,8 @@ const PARALLEL: f64 = 1e-9;
 
 /// The surface of a body around a place where it is touched, in the body's own axes.
 ///
-/// A patch goes on beyond the ends of its edge or face, so the places of a meeting are smooth functions of the poses;
-/// [`inside`](super::touch::inside) tells where the patch ends.
+/// A patch goes on beyond the borders of its edge or face, so that the places of a meeting are smooth functions of the poses.
+/// [`inside`](super::touch::inside) says how far the borders are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Patch {
     /// A corner, a ball, the end of a capsule, the corner of a rounded box.
@@ -33,12 +33,12 @@ pub(in crate::dynamics) enum Patch {
         half: f64,
         /// How far the surface is from it, m; 0 for a sharp edge.
         radius: f64,
-        /// The direction that points out of the body at an edge; zero where the body is round about the line.
+        /// The direction out of the body at an edge. Zero for a capsule or a cylinder, which are round about the line.
         outward: DVec3,
     },
     /// A face.
     Plane {
-        /// Any place on it.
+        /// A point of it.
         at: DVec3,
         /// Its unit normal, out of the body.
         normal: DVec3,
@@ -52,9 +52,9 @@ pub(in crate::dynamics) enum Patch {
         /// Its radius, m.
         radius: f64,
     },
-    /// The side of a cone: the envelope of the balls around the places of its axis.
+    /// The side of a cone: the envelope of balls around the points of its axis.
     Side {
-        /// The place on the axis half-way between the two ends.
+        /// The middle of the axis.
         at: DVec3,
         /// The unit direction of the axis.
         along: DVec3,
@@ -62,12 +62,13 @@ pub(in crate::dynamics) enum Patch {
         half: f64,
         /// The radius of the ball around `at`, m.
         radius: f64,
-        /// By how much the radius of a ball grows along the axis, m/m: minus the sine of the half opening angle.
+        /// By how much the radius of the balls grows along the axis, m/m. For a cone that becomes thinner along it, this is minus
+        /// the sine of half the opening angle.
         taper: f64,
     },
 }
 
-/// The balls around the places of a line, of which the surface is the envelope. A point is a line without a direction.
+/// A line of balls, whose envelope is the surface. A point is a line without a direction.
 #[derive(Clone, Copy, Debug)]
 struct Spine {
     at: DVec3,
@@ -106,13 +107,13 @@ impl Patch {
         }
     }
 
-    /// Whether two patches can only meet where neither of them has a normal, and no two edges cross.
+    /// Whether neither patch has a normal of its own where they meet, nor do two edges cross there, which would give one.
     pub(super) fn has_no_normal_with(&self, other: &Patch) -> bool {
         let corner = |patch: &Patch| matches!(patch, Patch::Point { .. });
         self.is_sharp() && other.is_sharp() && (corner(self) || corner(other))
     }
 
-    /// The balls whose envelope the patch is; `None` for planes and rims.
+    /// The line of balls whose envelope the patch is. `None` for planes and rims.
     fn spine(&self) -> Option<Spine> {
         let zero = DVec3::ZERO;
         match *self {
@@ -141,7 +142,7 @@ pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> N
     meet_placed(&a, &b).moved(origin)
 }
 
-/// The same of patches in common axes.
+/// The same for patches in common axes.
 pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
     match (*a, *b) {
         (Patch::Plane { at, normal }, _) => on_plane(at, normal, b),
@@ -161,13 +162,13 @@ pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
     }
 }
 
-/// The nearest place of a patch to a plane. Of a line, it is the nearer end.
+/// Where a plane and a patch are nearest. For a line, that is its nearer end.
 fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
     let lowest = match *other {
         Patch::Plane { at, .. } => at,
         Patch::Circle { centre, axis, radius } => {
             let across = normal - normal.dot(axis) * axis;
-            // A rim that lies flat has no lowest place: then any place of it will do.
+            // A rim that lies flat has no lowest place: any place will do.
             centre - radius * across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
         }
         _ => match other.spine() {
@@ -188,7 +189,7 @@ fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
 }
 
 impl Spine {
-    /// The place of the surface that reaches farthest against a direction.
+    /// The place of the surface that is farthest against a direction.
     fn lowest(&self, normal: DVec3) -> DVec3 {
         let end = |s: f64| self.at + s * self.along - (self.radius + self.taper * s) * normal;
         let ends = [end(self.half), end(-self.half)];
@@ -202,9 +203,9 @@ impl Spine {
 
 /// Where two envelopes of balls are nearest.
 ///
-/// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. With x = (s, t) − (s₀, t₀) from where the lines
-/// are nearest, at the distance h, it is √(h² + xᵀ G x) − k·x − …, where G holds the scalar products of the directions. Its
-/// minimum is at x = G⁻¹ k h / √(1 − kᵀ G⁻¹ k).
+/// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. Let the lines be nearest at (s₀, t₀), at the
+/// distance h. With x = (s, t) − (s₀, t₀) and the matrix G of the scalar products of the directions, the gap is
+/// √(h² + xᵀ G x) − k·x − …, whose minimum is at x = G⁻¹ k h / √(1 − kᵀ G⁻¹ k).
 fn spines(a: &Spine, b: &Spine) -> Nearest {
     let w = b.at - a.at;
     if a.is_point() && b.is_point() {
@@ -217,7 +218,7 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let cross = u.cross(v);
     let sine = cross.length();
     if b.is_point() || sine < PARALLEL {
-        // Of parallel lines, the middle of the common length, or the nearer ends.
+        // Parallel lines meet in the middle of the length that they share, or at their nearer ends.
         let t = if b.is_point() { 0.0 } else { common_middle(a, b, w) };
         let from = w + t * v;
         let s0 = from.dot(u);
@@ -239,10 +240,10 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let [s0, t0] = inverse(w.dot(u), -w.dot(v));
     let k = [a.taper, b.taper];
     let steepest = inverse(k[0], k[1]);
-    // The sides of the bodies tell which way is out of an edge, also where they overlap.
+    // The directions out of the two bodies give the sign of the normal, also where the bodies overlap.
     let out = unit.dot(a.outward - b.outward);
     let sign = if out == 0.0 { 1.0_f64.copysign(h) } else { out.signum() };
-    // With signs, so that all is smooth also where the lines cross.
+    // With its sign, the gap is smooth also where the lines cross.
     let below = (1.0 - k[0] * steepest[0] - k[1] * steepest[1]).max(0.0).sqrt();
     if below < PARALLEL {
         return nowhere(a.at + s0 * u, b.at + t0 * v, sign * unit);
@@ -258,8 +259,8 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     }
 }
 
-/// The lines of cones so steep that the gap becomes ever smaller along them: they are nearest at their ends, which are patches
-/// of their own.
+/// No meeting. The gap becomes ever smaller along the lines of steep cones, so they are nearest at an end, which is a patch of its
+/// own.
 fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> Nearest {
     Nearest { gap: f64::INFINITY, normal, on: [a, b] }
 }
@@ -272,7 +273,7 @@ fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
     (0.5 * (low + high)).clamp(-b.half, b.half)
 }
 
-/// Where two balls are nearest; `away` is the normal of balls with one centre.
+/// Where two balls are nearest. `away` is the normal if their centres are the same.
 fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
     let between = b - a;
     let normal = between.try_normalize().or(away.try_normalize()).unwrap_or(DVec3::X);
@@ -290,6 +291,6 @@ impl Pose {
         self.orientation.conjugate() * (place - self.location)
     }
 
-    /// A pose of nothing moved and nothing turned.
+    /// Not moved and not turned.
     pub(super) const IDENTITY: Pose = Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
 }

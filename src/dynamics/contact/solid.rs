@@ -1,4 +1,4 @@
-//! What touches of a body: its shape as convex parts, each with its corners, edges and faces.
+//! The surface of a body: its shape as convex parts, each with its corners, edges and faces.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::patch::Patch;
 use super::triangles::triangles;
 use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
 
-/// A place of a body's own axes in the world (not of its principal axes).
+/// Where a body is and how it is turned. Its axes are those of its shape, not its principal axes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Pose {
     /// Its centre of mass, m.
@@ -21,39 +21,40 @@ pub(in crate::dynamics) struct Pose {
     pub orientation: DQuat,
 }
 
-/// What touches of a body.
+/// The surface of a body, as a list of convex parts.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Solid {
     reach: f64,
     size: f64,
     parts: Arc<[Part]>,
-    /// Where the parts are, if they are many.
+    /// The boxes of the parts, of a mesh only.
     tree: Option<Arc<Tree>>,
     is_surface: bool,
 }
 
-/// A convex part: all that is within `radius` of its core. Everything is in the axes of the body.
+/// A convex part: its core, rounded by `radius`. All places are in the axes of the body.
 #[derive(Debug)]
 pub(super) struct Part {
     pub(super) core: Core,
     pub(super) radius: f64,
-    /// Half the size of a sharp box whose edges are along the axes of the body, m.
+    /// Half the size of a box along the axes of the body, m. `None` for all other parts.
     pub(super) half: Option<DVec3>,
-    /// A ball that holds the part.
+    /// The centre of a ball around the part.
     pub(super) centre: DVec3,
+    /// The radius of that ball, m.
     pub(super) bound: f64,
     /// Its corners, edges and faces.
     pub(super) features: Vec<Feature>,
-    /// The size of the surface of which it is a triangle, m; none for a solid.
+    /// For a triangle, the size of its mesh, m. `None` for a solid part.
     pub(super) surface: Option<f64>,
 }
 
-/// What a part is without its rounding.
+/// A part without its rounding.
 #[derive(Debug)]
 pub(super) enum Core {
-    /// The hull of some points.
+    /// The convex hull of points.
     Hull(Vec<DVec3>),
-    /// What lies between two discs about one axis.
+    /// A cylinder or a cone, which may have a flat top: the convex hull of two discs about one axis.
     Frustum {
         /// The centres of the discs.
         ends: [DVec3; 2],
@@ -62,7 +63,7 @@ pub(super) enum Core {
         /// Their radii, m.
         radii: [f64; 2],
     },
-    /// All that lies below a plane.
+    /// A half-space: everything below a plane.
     Ground {
         /// A place on the plane.
         at: DVec3,
@@ -72,7 +73,7 @@ pub(super) enum Core {
 }
 
 impl Solid {
-    /// What touches of a shape. `None` for a torus, for axes, and for compounds of them.
+    /// The surface of a shape. `None` for a torus, for axes, and for compounds that hold one of them.
     pub(in crate::dynamics) fn of(shape: &Shape) -> Option<Solid> {
         let mut parts = Vec::new();
         add(shape, &Pose::IDENTITY, &mut parts)?;
@@ -85,7 +86,7 @@ impl Solid {
         Some(Solid { parts: parts.into(), tree, is_surface, reach, size })
     }
 
-    /// The largest distance of a point of the core from the centre of mass, m: turning moves no place of the surface faster.
+    /// The largest distance of the cores from the centre of mass, m. Turning at ω moves no core faster than ω times this.
     /// 0 for a ball around its centre; infinite for a plane.
     pub(in crate::dynamics) fn reach(&self) -> f64 {
         self.reach
@@ -96,8 +97,7 @@ impl Solid {
         self.size
     }
 
-    /// The box along the axes of the world that holds the body, by its lowest and its highest corner. It is infinite for a
-    /// plane.
+    /// The bounding box of the body along the axes of the world: its lowest and its highest corner. Infinite for a plane.
     pub(in crate::dynamics) fn bounds(&self, pose: &Pose) -> [DVec3; 2] {
         let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         for part in &*self.parts {
@@ -110,7 +110,7 @@ impl Solid {
         bounds
     }
 
-    /// The tree of the parts, if they are many.
+    /// The tree of the parts' boxes. `None` for all but meshes.
     pub(super) fn tree(&self) -> Option<&Tree> {
         self.tree.as_deref()
     }
@@ -141,13 +141,13 @@ impl Part {
         Part { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
     }
 
-    /// The place that is farthest in a direction of any length.
+    /// The point of the part that is farthest along a direction of any length.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         let core = self.core.support(direction);
         if self.radius > 0.0 { core + self.radius * direction.normalize_or_zero() } else { core }
     }
 
-    /// The box along the axes of another body that holds the part, by its lowest and its highest corner.
+    /// The bounding box of the part along the axes of another body: its lowest and its highest corner.
     pub(super) fn box_in(&self, pose: &Pose, other: &Pose) -> [DVec3; 2] {
         if self.is_ground() {
             return [DVec3::NEG_INFINITY, DVec3::INFINITY];
@@ -167,7 +167,7 @@ impl Part {
         matches!(self.core, Core::Ground { .. })
     }
 
-    /// The centre, if it is a ball.
+    /// The centre of a ball. `None` for all other parts.
     pub(super) fn ball(&self) -> Option<DVec3> {
         match &self.core {
             Core::Hull(corners) if corners.len() == 1 => Some(corners[0]),
@@ -194,7 +194,7 @@ impl Part {
             return size;
         }
         let core = match &self.core {
-            // Along the normals of the faces.
+            // The smallest width along the normal of a face.
             Core::Hull(corners) if corners.len() > 2 => {
                 let width = |feature: &Feature| match feature.patch {
                     Patch::Plane { at, normal } => {
@@ -213,7 +213,7 @@ impl Part {
 }
 
 impl Core {
-    /// The place that is farthest in a direction of any length.
+    /// The point of the core that is farthest along a direction of any length.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         match self {
             Core::Hull(corners) => {
@@ -237,7 +237,7 @@ impl Core {
     }
 }
 
-/// Adds the parts of a shape that stands at a place of the body's axes.
+/// Adds the parts of a shape. `pose` is that of the shape in the axes of the body.
 fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
     let up = pose.orientation * DVec3::Y;
     let along = |y: f64| pose.location + y * up;

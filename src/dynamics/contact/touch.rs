@@ -7,26 +7,26 @@ use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, m
 use super::patch::{Patch, meet};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A flat end counts as lying flat where the sine of its tilt is smaller.
+/// A flat end lies flat where the sine of its tilt is smaller.
 const FLAT: f64 = 1e-7;
-/// Places that are nearer to each other than so many sizes are one.
+/// Two places closer than this part of the size are one.
 const SAME: f64 = 1e-6;
-/// No more places than that are needed to hold one part on another.
+/// At most so many places are kept for a pair of parts: they are enough to hold one on the other.
 const MOST: usize = 8;
 
 /// A place at which two solids touch, or nearly so.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Touch {
-    /// The surfaces around it, each in the axes of its body.
+    /// The surface of each body around it, in the axes of that body.
     pub patches: [Patch; 2],
-    /// Where they are nearest.
+    /// Where the two surfaces are nearest.
     pub meeting: Nearest,
-    /// The number of the part of either body, and of its feature; none where the patch is one place of a rim.
+    /// For each body, the numbers of its part and of the feature there. There is no feature for a single place of a rim.
     features: [(usize, Option<usize>); 2],
 }
 
-/// All places at which two solids are nearer than `within`, m, which must be small beside them. Each is listed once, in an
-/// order that depends on nothing but the arguments.
+/// All places at which two solids are closer than `within`, m, which must be small against their sizes. Each is listed once. The
+/// same arguments give the same order.
 pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
     let mut all = Vec::new();
     for_pairs(a, pa, b, pb, within, &mut |i, j| {
@@ -46,7 +46,7 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
                 once.push(touch);
             }
         }
-        // A corner of one triangle may seem to touch a corner where the next triangle says more.
+        // Two corners meet where the next triangle has a normal: its meeting counts.
         let is_smooth = |touch: &Touch| !touch.patches[0].has_no_normal_with(&touch.patches[1]);
         if once.iter().any(is_smooth) {
             once.retain(is_smooth);
@@ -56,14 +56,14 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
     all
 }
 
-/// Whether two meetings are one place.
+/// Whether two meetings are the same place.
 fn is_same(a: &Nearest, b: &Nearest, same: f64) -> bool {
     a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
 }
 
-/// How far a touch is from where one of its patches ends, m; negative beyond it, infinite where nothing ends.
+/// How far a touch is inside the borders of its features, m; negative outside of them, infinite where there are none.
 ///
-/// It counts 1e-9 sizes beyond the end as inside, so bodies with faces of one size may lie on each other.
+/// A touch that is 1e-9 sizes outside counts as inside, so that faces of the same size can lie on each other.
 pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) -> f64 {
     let meeting = meet(&touch.patches[0], pa, &touch.patches[1], pb);
     let parts = [&a.parts()[touch.features[0].0], &b.parts()[touch.features[1].0]];
@@ -77,8 +77,8 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
         let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
         let place = pose.local(meeting.on[side]);
         least = least.min(feature.margin(place) + edge(parts[side], sum > 0.0));
-        // Where something round passes from an edge to a face, the normal leaves the edge before any place does. A flat face
-        // is met by its corners at any tilt.
+        // Something round that rolls from an edge to a face leaves the edge's normals before its places. Against a flat face, the
+        // normals do not matter: corners touch it at any tilt.
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
             let normal = if side == 0 { meeting.normal } else { -meeting.normal };
             let slack = feature.slack(place, pose.orientation.conjugate() * normal);
@@ -96,7 +96,7 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
-    /// Places that overlap by more are not nearest ones, m.
+    /// Places that overlap by more than twice this are on the far side of a part, m.
     depth: f64,
     found: Vec<Touch>,
 }
@@ -138,7 +138,7 @@ impl Pair<'_> {
         }
     }
 
-    /// All pairs of features between which the parts touch.
+    /// All pairs of features at which two convex parts touch.
     fn convex(&mut self) {
         let nearest = between(self.a, self.pa, self.b, self.pb);
         if nearest.gap > self.within {
@@ -155,7 +155,7 @@ impl Pair<'_> {
             }
         }
         if self.found.is_empty() {
-            // A corner on a corner or an edge: there is no smooth normal, but they touch.
+            // A corner touches a corner or an edge: neither has a normal there.
             for &i in &near_a {
                 for &j in &near_b {
                     if self.a.features[i].patch.has_no_normal_with(&self.b.features[j].patch) {
@@ -166,7 +166,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Adds a pair of features, if the parts touch there.
+    /// Adds the touches of a pair of features, if there are any.
     fn add(&mut self, i: usize, j: usize) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
         if a.is_seam || b.is_seam {
@@ -198,7 +198,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Places of a rim that lies flat on a face: four, and those where it crosses the face's edges.
+    /// Places that stand for a rim that lies flat on a face: four around it, and those where it crosses an edge of the face.
     fn rim_points(&self, side: usize, rim: &Patch, face: &Feature) -> Vec<Patch> {
         let Patch::Circle { centre, axis, radius } = *rim else { return Vec::new() };
         let (own, other) = if side == 0 { (self.pa, self.pb) } else { (self.pb, self.pa) };
@@ -219,7 +219,7 @@ impl Pair<'_> {
         places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
     }
 
-    /// Keeps a pair of patches, if the bodies touch there.
+    /// Adds the touch of a pair of patches, if the bodies touch there and it is new.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
         let expected = -2.0 * self.depth..=self.within;
@@ -230,7 +230,7 @@ impl Pair<'_> {
         for (side, (part, pose, normal)) in parts.into_iter().enumerate() {
             let Some(feature) = features[side].map(|i| &part.features[i]) else { continue };
             let edge = edge(part, !patches[1 - side].is_sharp());
-            // Of a face that lies on another, the corners are within reach at a small tilt.
+            // A face on a face may be tilted a little while all its corners are within reach.
             let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
             let place = feature.margin(pose.local(meeting.on[side]));
             if place < -edge || margin(feature, pose, meeting.on[side], normal, part.bound) < -edge.max(tilt)
@@ -246,7 +246,7 @@ impl Pair<'_> {
         self.found.push(Touch { patches, meeting, features });
     }
 
-    /// Leaves the places that are farthest from each other.
+    /// Keeps the places that hold best: the ends of lines, and those that are farthest from each other.
     fn thin_out(&mut self) {
         let lines = |touch: &Touch| match touch.patches {
             [
@@ -255,7 +255,7 @@ impl Pair<'_> {
             ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT,
             _ => false,
         };
-        // Of parallel lines, the ends say more than the middle.
+        // Parallel lines that touch are held at their ends, which are places of their own.
         if self.found.iter().any(|touch| !lines(touch)) {
             let parallel: Vec<bool> = self.found.iter().map(lines).collect();
             let mut parallel = parallel.into_iter();
@@ -265,7 +265,7 @@ impl Pair<'_> {
     }
 }
 
-/// The places that are farthest from each other, if there are too many; the nearest one is among them.
+/// Of too many touches, those that are farthest from each other, beginning with the one with the smallest gap.
 fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     if all.len() <= MOST {
         return all;
@@ -293,7 +293,8 @@ fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     kept.into_iter().map(|i| all[i]).collect()
 }
 
-/// Whether the meeting of two patches says what others do not: the ends of lines and the corners of faces are patches of their own.
+/// Whether two patches have a touch of their own. A line or a face on a face touches at its ends or corners, which are patches
+/// themselves.
 fn is_needed(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
@@ -303,7 +304,7 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
     }
 }
 
-/// The features of a part that reach as far along a normal as its nearest place does, but for `depth`.
+/// The features of a part that reach as far along a normal as its nearest place `at`, within `depth`.
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
     let lowest = at.dot(normal) - depth;

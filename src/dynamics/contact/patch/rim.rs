@@ -1,5 +1,5 @@
-//! Where the rim of a cylinder or a cone is nearest to other curves. There is no closed form, so angles are found by Newton's
-//! method, to rounding.
+//! Where the rim of a cylinder or a cone is nearest to an edge or another rim. There is no closed form: Newton's method finds the
+//! angle on the rim, to rounding.
 
 use std::f64::consts::TAU;
 
@@ -10,14 +10,14 @@ use super::{PARALLEL, Spine, balls};
 
 /// Newton's method starts at the best of so many angles.
 const STARTS: u32 = 24;
-/// More steps than it takes to halve an interval down to rounding.
+/// So many halvings make an interval as small as rounding.
 const STEPS: u32 = 60;
 
 /// The rim of a flat end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
     pub(super) centre: DVec3,
-    /// Out of the body.
+    /// The unit normal of the flat end, out of the body.
     pub(super) axis: DVec3,
     pub(super) radius: f64,
 }
@@ -30,7 +30,7 @@ impl Rim {
         cos * x + sin * self.axis.cross(x)
     }
 
-    /// The unit direction from the axis to a place; any where the place is on the axis.
+    /// The unit direction from the axis to a place. Any direction across the axis for a place on it.
     fn towards(&self, place: DVec3) -> DVec3 {
         let from = place - self.centre;
         let across = from - from.dot(self.axis) * self.axis;
@@ -46,13 +46,13 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     }
     let v = spine.along;
     let slope = (1.0 - spine.taper * spine.taper).max(0.0).sqrt();
-    // The gap of a place of the rim, but for constants, and its derivatives by the angle.
+    // The gap of a place of the rim, without its constant part.
     let across = |p: DVec3| p - p.dot(v) * v;
     let value = |radial: DVec3| {
         let from = rim.centre + rim.radius * radial - spine.at;
         slope * across(from).length() - spine.taper * from.dot(v)
     };
-    // The line goes on beyond the ends of the edge, so the search starts where the edge itself is nearest.
+    // A place beside the end of the edge counts as farther away, so that the search starts near the edge.
     let beyond = |radial: DVec3| {
         let from = rim.centre + rim.radius * radial - spine.at;
         (from.dot(v).abs() - spine.half).max(0.0)
@@ -67,7 +67,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
         let tangent = rim.radius * rim.axis.cross(radial);
         let (from, bend) = (rim.centre + rim.radius * radial - spine.at, -rim.radius * radial);
         let (d, dt, db) = (across(from), across(tangent), across(bend));
-        // Of half the square of the distance, which is smooth also where it is 0.
+        // The derivatives of half the square of the distance, which is smooth also where it is 0.
         let (first, second) = (d.dot(dt), dt.length_squared() + d.dot(db));
         if spine.taper == 0.0 {
             return [first, second];
@@ -98,7 +98,7 @@ pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
         let place = place_a(angle);
         (b.centre + b.radius * b.towards(place) - place).length()
     };
-    // Of half the square of the distance from the nearest place of the other rim.
+    // The derivatives of half the square of the distance to the nearest place of the other rim.
     let angle = lowest(gap, |angle| {
         let place = place_a(angle);
         let (ra, rb) = (a.radial(angle), b.towards(place));
@@ -114,8 +114,8 @@ pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
     crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
 }
 
-/// Where two edges cross, of which places, directions, and the sides out of their bodies are known. The second edge may
-/// be round.
+/// Where two edges cross. Known are a place p on the first, its direction u, and a direction out of its body; for the second, q, v
+/// and `out_q`. The second edge may be round, with a radius.
 fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, radius: f64) -> Nearest {
     let cross = u.cross(v);
     let sine = cross.length();
@@ -127,9 +127,9 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     Nearest { gap, normal, on: [p, q - radius * normal] }
 }
 
-/// The angle at which a function has its smallest minimum: where the first of two derivatives is 0, to rounding.
+/// The angle at which a function has its smallest minimum, to rounding. `derivatives` are the first and the second.
 ///
-/// Newton's method, within an interval that is halved where it would leave it.
+/// Newton's method within an interval; a step that would leave it halves it instead.
 fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
     let apart = TAU / f64::from(STARTS);
     let mut best = (f64::INFINITY, 0.0);
@@ -142,7 +142,7 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
     }
     let mut angle = best.1;
     let (mut low, mut high) = (angle - apart, angle + apart);
-    // The value counts the ends of an edge, and the derivatives do not.
+    // The value knows the ends of an edge, but the derivatives do not: so the minimum may be outside of the interval.
     for _ in 0..STARTS {
         if derivatives(low)[0] > 0.0 {
             low -= apart;
