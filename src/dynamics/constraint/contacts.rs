@@ -36,6 +36,18 @@ impl Solver {
         !are_same
     }
 
+    /// For each row, the rate below which it is at rest whatever others are, m/s.
+    pub(super) fn stills(&self, model: &Model) -> Vec<f64> {
+        let mut stills = vec![0.0; self.rows.len()];
+        let places = self.structure.iter().flat_map(|structure| &structure.places);
+        for place in places {
+            if let Some(contact) = place.constraint.checked_sub(model.constraints().len()) {
+                stills[place.row] = self.contacts[contact].still;
+            }
+        }
+        stills
+    }
+
     /// Whether something holds one of some bodies that can move.
     pub(in crate::dynamics) fn concerns(&self, bodies: &[usize]) -> bool {
         let Some(structure) = &self.structure else { return true };

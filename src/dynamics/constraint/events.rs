@@ -63,6 +63,7 @@ impl Solver {
             _ => f64::INFINITY,
         };
         let of_grip = |grip: &Grip| match self.modes[grip.row] {
+            Mode::Held if grip.is_restless => f64::INFINITY,
             Mode::Held => {
                 let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();
                 part(left * self.weight(grip.row), force, PULLED)

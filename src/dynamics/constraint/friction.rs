@@ -5,9 +5,9 @@
 
 use glam::DVec2;
 
-use super::super::Loads;
+use super::super::{Loads, Model};
 use super::events::PASSED;
-use super::modes::Mode;
+use super::modes::{Mode, TOUCHED};
 use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};
@@ -20,6 +20,13 @@ const UNLIKE: f64 = 10.0;
 
 /// Directions are about the same where the cosine of their angle is larger.
 const ABOUT: f64 = 0.99;
+
+/// So many times friction between two bodies may change what it does in a step. Where it needs to be at its limit in several places
+/// that imply each other, it would change without end.
+const RESTLESS: u32 = 4;
+
+/// What is restless sticks below this part of the largest rate.
+const RESTING: f64 = 1e-5;
 
 /// A slip below this part of the largest rate has no direction of its own.
 pub(super) const SLOW: f64 = 1e-9;
@@ -41,6 +48,8 @@ pub(super) struct Grip {
     pub(super) is_beginning: bool,
     /// Whether the two bodies touch at other places as well.
     pub(super) is_shared: bool,
+    /// Whether it has changed too often in the present step: it sticks then until the end, whatever friction that takes.
+    pub(super) is_restless: bool,
     /// How much all pairs of rows change each other at most: the largest sum of the sizes of the entries of A between one of its rows
     /// and all of friction.
     pub(super) stiffness: f64,
@@ -70,6 +79,7 @@ impl Grip {
                             .filter(|other| other.bodies == place.bodies)
                             .count()
                             > 1,
+                        is_restless: false,
                         stiffness: 0.0,
                         strength: 0.0,
                     });
@@ -96,6 +106,40 @@ impl Grip {
 }
 
 impl Solver {
+    /// Told at the beginning of a step: what was restless in the one before may change once.
+    pub(in crate::dynamics) fn calm(&mut self) {
+        self.changes.retain(|_, changes| *changes > RESTLESS);
+        self.changes.values_mut().for_each(|changes| *changes = RESTLESS);
+        self.grips.iter_mut().for_each(|grip| grip.is_restless = false);
+    }
+
+    /// Notes that a row changes what it does.
+    pub(in crate::dynamics) fn note_change(&mut self, model: &Model, row: usize) {
+        let Some(structure) = self.structure.take() else { return };
+        let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));
+        let contact = place.and_then(|place| place.constraint.checked_sub(model.constraints().len()));
+        if let Some(contact) = contact {
+            *self.changes.entry(self.contacts[contact].bodies).or_default() += 1;
+            self.see_restless(model, &structure);
+        }
+        self.structure = Some(structure);
+    }
+
+    /// Notes which pairs of rows are restless.
+    pub(super) fn see_restless(&mut self, model: &Model, structure: &Structure) {
+        if self.changes.is_empty() {
+            return;
+        }
+        for grip in &mut self.grips {
+            let Ok(place) = structure.places.binary_search_by_key(&grip.normal, |place| place.row) else {
+                continue;
+            };
+            let contact = structure.places[place].constraint.checked_sub(model.constraints().len());
+            let changes = contact.and_then(|contact| self.changes.get(&self.contacts[contact].bodies));
+            grip.is_restless = changes.is_some_and(|changes| *changes > RESTLESS);
+        }
+    }
+
     /// Whether some contact slides.
     pub(super) fn slides(&self) -> bool {
         self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Slid)
@@ -192,8 +236,8 @@ impl Solver {
     /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
     /// holds.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
-        let slow = SLOW * self.largest_rate;
-        let Grip { row, normal, .. } = self.grips[grip];
+        let Grip { row, normal, is_restless, .. } = self.grips[grip];
+        let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
             Mode::Open
@@ -208,11 +252,15 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Whether some pair of rows sticks that still slips by more than an event tolerates: the slip is to be taken out then, or what
-    /// begins to slide would go the wrong way.
-    pub(super) fn still_slips(&self, rates: &[f64]) -> bool {
-        let slips = |grip: &Grip| grip.of(rates).length() > PASSED * self.largest_rate;
-        self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Held && slips(grip))
+    /// Whether contacts that hold still move by more than an event tolerates: that is to be taken out then, or what begins to slide would
+    /// go the wrong way.
+    pub(super) fn still_moves(&self, rates: &[f64]) -> bool {
+        let moves = |row: usize, speed: f64, part: f64| {
+            self.modes[row] == Mode::Held && speed > part * self.largest_rate
+        };
+        let grips = &self.grips;
+        grips.iter().any(|grip| moves(grip.row, grip.of(rates).length(), PASSED))
+            || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
     }
 
     fn grip_at(&self, row: usize) -> Option<&Grip> {
@@ -223,7 +271,7 @@ impl Solver {
     /// By how much what a pair of rows does is wrong, at its first row: it sticks and would need more friction than there is, or it
     /// begins to slide and is pushed along.
     pub(super) fn grip_is_wrong(&self, row: usize, accelerations: &[f64]) -> f64 {
-        let Some(grip) = self.grip_at(row) else { return 0.0 };
+        let Some(grip) = self.grip_at(row).filter(|grip| !grip.is_restless) else { return 0.0 };
         match self.modes[row] {
             Mode::Held => {
                 let most = grip.coefficient * self.unknown[grip.normal].max(0.0);
@@ -285,9 +333,9 @@ impl Solver {
     pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.grips.len() {
-            let Grip { row, normal, coefficient, push, is_beginning, .. } = self.grips[i];
+            let Grip { row, normal, coefficient, push, is_beginning, is_restless, .. } = self.grips[i];
             let slips = self.modes[row] == Mode::Slid && !is_beginning;
-            if slips || self.modes[normal] != Mode::Held {
+            if slips || is_restless || self.modes[normal] != Mode::Held {
                 continue;
             }
             let weight = self.grips[i].stiffness;

@@ -26,7 +26,7 @@ pub(super) enum Mode {
 }
 
 /// A stop is touched where c is below this part of its scale.
-const TOUCHED: f64 = 1e-9;
+pub(super) const TOUCHED: f64 = 1e-9;
 
 /// What is below this part of the terms that it is a sum of has come from rounding.
 pub(super) const SLIGHT: f64 = 1e-10;
@@ -43,9 +43,11 @@ impl Mode {
     /// By how much a row does not hold.
     pub(super) fn missing(self, law: Law, row: &Row) -> f64 {
         match (law, self) {
+            // Friction that cannot hold slips a little.
+            (Law::Friction { .. }, _) => 0.0,
             (_, Mode::Held) => row.violation.abs(),
             (Law::Stop, _) => (-row.violation).max(0.0),
-            (Law::Tie | Law::Drive { .. } | Law::Friction { .. }, _) => 0.0,
+            (Law::Tie | Law::Drive { .. }, _) => 0.0,
         }
     }
 }
@@ -102,11 +104,12 @@ impl Solver {
         self.hold();
         self.see_accelerations(model, t, state, loads, &members);
         let mut can_hold = vec![false; self.rows.len()];
+        let stills = self.stills(model);
         for i in 0..self.rows.len() {
             // What falls as far as a stop may be passed gets a rate of √(2 c'' c): such a rate is none, or two stops that both
             // hold would be hit in turn without end.
             let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
-            let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt());
+            let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
                 Law::Tie => (Mode::Held, false),
                 Law::Stop if touched[i] && is_still => (Mode::Held, true),
@@ -120,7 +123,7 @@ impl Solver {
         for grip in 0..self.grips.len() {
             self.take_grip(grip, &rates);
         }
-        if self.still_slips(&rates) {
+        if self.still_moves(&rates) {
             self.members.copy_from_slice(&members);
             self.hold();
             self.settle_velocities(model, state);

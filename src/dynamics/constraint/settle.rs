@@ -13,6 +13,9 @@ const ROUNDING: f64 = 1e-15;
 /// Iterations contract by the square of the angle of a step at least; more would mean that they do not converge.
 const ITERATIONS: usize = 60;
 
+/// An iteration that makes what is missing so many times larger finds nothing.
+const DIVERGED: f64 = 10.0;
+
 impl Solver {
     /// Changes the velocities at the beginning of a step such that free bodies are where the constraints hold after it: the
     /// impulses of SHAKE and RATTLE. The step has begun with [`begin`](Self::begin) at these places.
@@ -40,7 +43,11 @@ impl Solver {
             }
             self.measure(t + dt, &trial);
             let worst = self.worst();
-            if worst <= ROUNDING || (worst < FAILURE && worst > 0.5 * before) {
+            let is_enough = worst < FAILURE || self.factor.is_soft();
+            if worst <= ROUNDING || (is_enough && worst > 0.5 * before) {
+                break;
+            }
+            if worst > DIVERGED * before {
                 break;
             }
             before = worst;

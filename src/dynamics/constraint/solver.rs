@@ -4,6 +4,7 @@
 //! make velocities fit, and those of A Λ = −c shifts M⁻¹ Jᵀ Λ that make places fit. Source: E. Hairer, C. Lubich & G. Wanner,
 //! *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::contact::Closed;
@@ -54,6 +55,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) modes: Vec<Mode>,
     /// The pairs of rows that hold by friction.
     pub(super) grips: Vec<Grip>,
+    /// How often friction between two bodies has changed what it does, in the present step.
+    pub(super) changes: BTreeMap<[usize; 2], u32>,
     /// J v of all rows, where contacts slide.
     pub(super) slips: Vec<f64>,
     /// Whether some row may do anything but hold.
@@ -195,6 +198,7 @@ impl Solver {
         };
         self.laws = places.flat_map(laws).collect();
         self.grips = Grip::all(&structure, &self.laws);
+        self.see_restless(model, &structure);
         self.has_modes = self.laws.iter().any(|law| *law != Law::Tie);
         self.modes = self.laws.iter().map(Mode::first).collect();
         self.held = vec![false; structure.rows];

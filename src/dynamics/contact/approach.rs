@@ -1,15 +1,23 @@
 //! When two bodies first touch within a step.
 //!
 //! Their gap can shrink only so fast: with n the normal between them, by n·v, by what turning moves along n, and by the curvature of
-//! the paths. Steps that are safe by this bound lead to the touch, however fast the bodies are. Source: B. V. Mirtich,
+//! the paths. Steps that are safe by this bound lead to the touch, however fast the bodies are. Near it, each place has a bound of its
+//! own: one corner can leave the floor while another comes down. Source: B. V. Mirtich,
 //! *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
 
 use super::nearest::{Nearest, nearest};
-use super::path::Path;
-use super::solid::Solid;
+use super::path::{Moving, Path};
+use super::solid::{Pose, Solid};
+use super::touch::touches;
 
 /// Bodies touch where their gap is below this part of the coordinates: some roundings. A bounce that is lower than that is none.
 pub(super) const TOUCH: f64 = 4e-15;
+
+/// Bodies that are nearer than this part of the smaller one are looked at place by place.
+const CLOSE: f64 = 0.01;
+
+/// Gaps of places can be too small by this part of the smaller body, where places are counted that are beyond an edge by a rounding.
+const SLACK: f64 = 1e-8;
 
 /// So many safe steps are made at most; what is left then is passed in steps of this part of the whole.
 const STEPS: usize = 2_000;
@@ -25,28 +33,51 @@ pub(super) struct Approach<'a> {
     pub(super) touch: f64,
 }
 
-impl Approach<'_> {
-    fn look(&self, time: f64) -> Option<(Nearest, [super::path::Moving; 2])> {
-        let moving = self.paths.map(|path| path.at(time));
-        let near = nearest(self.solids[0], &moving[0].pose, self.solids[1], &moving[1].pose, f64::INFINITY)?;
-        Some((near, moving))
+/// Where two bodies are nearest, and all other places where they are nearer than `within`, m.
+pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, within: f64) -> Vec<Nearest> {
+    let mut all = vec![near];
+    let [a, b] = solids;
+    let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
+    if !has_one(a, b) && !has_one(b, a) {
+        // No place is nearer than the nearest one: what seems to be lies at the far side of an edge.
+        let slack = SLACK * a.size().min(b.size());
+        let others = touches(a, poses[0], b, poses[1], within);
+        let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
+        all.extend(others.map(|other| Nearest { gap: other.gap.max(near.gap), ..other }));
     }
+    all
+}
 
+/// How near bodies are that are looked at place by place, m.
+pub(super) fn close(solids: [&Solid; 2]) -> f64 {
+    CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
+}
+
+impl Approach<'_> {
     /// The first time at which they touch and come nearer, s after the beginning, if that is before `end`.
     pub(super) fn first(&self, end: f64) -> Option<f64> {
+        let close = close(self.solids);
         let mut time = 0.0;
         for step in 0.. {
-            let (near, moving) = self.look(time)?;
-            let rate = self.rate(&near, &moving, time);
-            let is_touched = near.gap <= self.touch;
-            if is_touched && rate < -self.slight {
-                return Some(time);
+            let moving = self.paths.map(|path| path.at(time));
+            let poses = [&moving[0].pose, &moving[1].pose];
+            let near = nearest(self.solids[0], poses[0], self.solids[1], poses[1], f64::INFINITY)?;
+            let (shrink, bend) = self.bounds(&near, &moving);
+            let mut safe = self.until(near.gap.max(close), shrink, bend);
+            let mut is_stuck = step > STEPS;
+            if near.gap <= close {
+                for place in places(self.solids, poses, near, close) {
+                    let rate = self.rate(&place, &moving, time);
+                    let is_touched = place.gap <= self.touch;
+                    if is_touched && rate < -self.slight {
+                        return Some(time);
+                    }
+                    safe = safe.min(self.until(place.gap, -rate, bend));
+                    is_stuck |= is_touched && rate <= self.slight;
+                }
             }
-            let safe = self.safe(&near, &moving, is_touched, rate);
             // What touches without coming nearer, or comes nearer without end, is passed in small steps.
-            let stuck = (is_touched && rate <= self.slight) || step > STEPS;
-            let safe = if stuck { safe.max(PART * end) } else { safe };
-            time += safe;
+            time += if is_stuck { safe.max(PART * end) } else { safe };
             if time.is_nan() || time >= end {
                 return None;
             }
@@ -54,20 +85,21 @@ impl Approach<'_> {
         None
     }
 
-    /// How fast the gap changes, m/s.
-    fn rate(&self, near: &Nearest, moving: &[super::path::Moving; 2], time: f64) -> f64 {
+    /// How fast a gap changes, m/s.
+    fn rate(&self, place: &Nearest, moving: &[Moving; 2], time: f64) -> f64 {
         let at = |i: usize| {
-            let arm = near.on[i] - moving[i].pose.location;
+            let arm = place.on[i] - moving[i].pose.location;
             let path = self.paths[i];
             let turning = if time == 0.0 { path.first_turning } else { path.turning };
             moving[i].velocity + turning.cross(arm)
         };
-        near.normal.dot(at(1) - at(0))
+        place.normal.dot(at(1) - at(0))
     }
 
-    /// A time within which they cannot touch, s.
-    fn safe(&self, near: &Nearest, moving: &[super::path::Moving; 2], is_touched: bool, rate: f64) -> f64 {
-        let mut shrink = -near.normal.dot(moving[1].velocity - moving[0].velocity);
+    /// How fast the gap of any two places can shrink, m/s, and a bound of its second derivative, m/s².
+    fn bounds(&self, near: &Nearest, moving: &[Moving; 2]) -> (f64, f64) {
+        let velocity = moving[1].velocity - moving[0].velocity;
+        let mut shrink = -near.normal.dot(velocity);
         let mut bend = self.paths[0].bend(self.paths[1]);
         for (i, body) in moving.iter().enumerate() {
             let turning = self.paths[i].turning;
@@ -80,13 +112,18 @@ impl Approach<'_> {
                     2.0 * (near.on[i] - body.pose.location).length() + self.solids[1 - i].reach()
                 };
                 shrink += turning.cross(near.normal).length() * reach;
-                bend += turning.length_squared() * reach;
+                // The normal turns as well.
+                bend += turning.length_squared() * reach + 2.0 * turning.length() * velocity.length();
             }
         }
-        let gap = near.gap;
-        if is_touched {
+        (shrink, bend)
+    }
+
+    /// A time within which a gap cannot close that shrinks with a rate, m/s, s.
+    fn until(&self, gap: f64, shrink: f64, bend: f64) -> f64 {
+        if gap <= self.touch {
             // Touched, and not coming nearer: free until the paths bend together again.
-            return if bend > 0.0 { 2.0 * rate.max(0.0) / bend } else { f64::INFINITY };
+            return if bend > 0.0 { 2.0 * (-shrink).max(0.0) / bend } else { f64::INFINITY };
         }
         let root = (shrink * shrink + 2.0 * bend * gap).sqrt();
         // The smallest positive root of gap − shrink t − ½ bend t², without cancellation.

@@ -21,6 +21,8 @@ pub(in crate::dynamics) struct Closed {
     pub(in crate::dynamics) law: Meeting,
     /// A typical length of the smaller body, m.
     pub(in crate::dynamics) size: f64,
+    /// Bodies that part slower than this are at rest, m/s.
+    pub(in crate::dynamics) still: f64,
     /// The axis of the world along which the first tangent lies, as far as the normal lets it: tangents must not jump while bodies
     /// stay in touch.
     pub(in crate::dynamics) heading: DVec3,

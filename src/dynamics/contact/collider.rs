@@ -1,11 +1,12 @@
 //! The bodies that touch each other: where they do, and what happens then.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::{BodyId, Breakdown, Constraint, Model, State};
-use super::approach::{Approach, TOUCH};
+use super::approach::{Approach, TOUCH, close, places};
 use super::closed::Closed;
-use super::nearest::nearest;
+use super::nearest::{Nearest, nearest};
 use super::pairs::Pairs;
 use super::path::{Path, pose};
 use super::solid::{Pose, Solid};
@@ -35,6 +36,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) fastest: f64,
     /// The impacts since somebody asked last.
     pub(super) impacts: Vec<Impact>,
+    /// How often pairs of bodies have hit each other in the present step.
+    pub(super) hits: BTreeMap<[usize; 2], u32>,
 }
 
 /// All places at which two bodies touch.
@@ -49,7 +52,13 @@ impl Collider {
     /// Bodies that touch as `contacts` says.
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
-        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts: Vec::new() }
+        let (impacts, hits) = (Vec::new(), BTreeMap::new());
+        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits }
+    }
+
+    /// Told at the beginning of a step.
+    pub(in crate::dynamics) fn set_out(&mut self) {
+        self.hits.clear();
     }
 
     /// Told when bodies have changed.
@@ -128,12 +137,13 @@ impl Collider {
         let poses = bodies.map(|i| pose(i, model, state));
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
         let touch = TOUCH * scale(bodies, [x, y], state);
-        let at = |i: usize| {
-            let arm = near.on[i] - state.location[bodies[i]];
-            state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)
-        };
-        let gap = if near.gap.abs() > touch { near.gap } else { 0.0 };
-        Some((gap, near.normal.dot(at(1) - at(0))))
+        let gap = |place: &Nearest| if place.gap.abs() > touch { place.gap } else { 0.0 };
+        let found = places([x, y], [&poses[0], &poses[1]], near, close([x, y])).into_iter();
+        let found = found.map(|place| (gap(&place), rate(&place, bodies, (model, state))));
+        let nearest = (gap(&near), rate(&near, bodies, (model, state)));
+        // Of the places that come nearer, the one that touches first.
+        let coming = found.filter(|(_, rate)| *rate < 0.0);
+        Some(coming.min_by(|a, b| (a.0 / -a.1).total_cmp(&(b.0 / -b.1))).unwrap_or(nearest))
     }
 
     /// How far bodies that touch are from touching at further places, or from leaving the edge or the face on which they do, in units of
@@ -158,7 +168,9 @@ impl Collider {
                 };
                 closed.iter().any(|other| same(&other))
             };
-            for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)) {
+            // What has been passed by a rounding, and parts again, is none.
+            let comes = |touch: &&Touch| rate(&touch.meeting, contact.bodies, (model, state)) < 0.0;
+            for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)).filter(comes) {
                 margin = margin.min(touch.meeting.gap / tolerated);
             }
         }
@@ -226,6 +238,15 @@ impl Collider {
             |constraint: &Arc<dyn Constraint>| constraint.bodies().iter().any(|other| other.index() == body);
         model.constraints().iter().any(concerns)
     }
+}
+
+/// How fast the gap of two bodies changes, m/s.
+fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
+    let at = |i: usize| {
+        let arm = meeting.on[i] - state.location[bodies[i]];
+        state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)
+    };
+    meeting.normal.dot(at(1) - at(0))
 }
 
 /// The size of the coordinates of two bodies, m.

@@ -7,10 +7,10 @@
 use glam::{DVec2, DVec3};
 
 /// So many sweeps find the impulses of places that depend on each other.
-const SWEEPS: usize = 20_000;
+const SWEEPS: usize = 2_000;
 
 /// Sweeps end when they change impulses by less than this part.
-const SETTLED: f64 = 1e-15;
+const SETTLED: f64 = 1e-14;
 
 /// How one place of an impact behaves.
 #[derive(Clone, Copy, Debug)]

@@ -115,6 +115,11 @@ impl Solid {
         self.tree.as_deref()
     }
 
+    /// Whether this is a single ball, which touches anything convex at one place.
+    pub(super) fn is_ball(&self) -> bool {
+        matches!(&*self.parts, [part] if part.ball().is_some())
+    }
+
     /// Whether triangles are among the parts.
     pub(super) fn is_surface(&self) -> bool {
         self.is_surface

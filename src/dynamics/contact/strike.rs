@@ -22,6 +22,14 @@ const REST: f64 = 1e-8;
 /// Places that part with less than this part of the fastest approach may stay closed.
 const STILL: f64 = 1e-9;
 
+/// Where two bodies have hit each other so often within a step, beside what their restitution makes of a bounce, slow ones count as
+/// rest: they would go on without end between others that press them together.
+const OFTEN: f64 = 10.0;
+
+/// What counts as rest becomes twice as fast with so many more impacts, and at most so many times as fast.
+const MORE: f64 = 5.0;
+const MOST: f64 = 1000.0;
+
 /// Rates are alike where they differ by less than this part.
 const ALIKE: f64 = 1e-13;
 
@@ -124,8 +132,9 @@ impl Collider {
         for (pair, places) in touching.iter().zip(&places) {
             let motions = pair.bodies.map(|body| motion(body, model, state));
             let size = self.size(pair.bodies);
+            let still = STILL * self.fastest * self.haste(pair);
             for (touch, place) in pair.touches.iter().zip(places) {
-                if place.rate(motions).x <= STILL * self.fastest {
+                if place.rate(motions).x <= still {
                     let (touch, heading) = (*touch, heading(touch.meeting.normal));
                     closed.push(Arc::new(Closed {
                         bodies: pair.bodies,
@@ -133,11 +142,24 @@ impl Collider {
                         law: pair.law,
                         size,
                         heading,
+                        still,
                     }));
                 }
             }
         }
         Ok(Strike { closed, struck })
+    }
+
+    /// How many times faster than usual two bodies may part that count as at rest, since they hit each other again and again.
+    fn haste(&self, pair: &Touching) -> f64 {
+        let hits = self.hits.get(&pair.bodies).copied().unwrap_or(0);
+        if pair.law.restitution == 1.0 {
+            return 1.0;
+        }
+        // So many bounces lead from the fastest one to rest.
+        let bounces = REST.ln() / pair.law.restitution.ln();
+        let more = (f64::from(hits) - bounces - OFTEN) / MORE;
+        more.max(0.0).exp2().min(MOST)
     }
 
     /// A typical length of the smaller of two bodies, m.
@@ -157,7 +179,9 @@ impl Collider {
     ) {
         let motions = |state: &State| pair.bodies.map(|body| motion(body, model, state));
         let before: Vec<DVec3> = places.iter().map(|place| place.rate(motions(state))).collect();
-        let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= REST * self.fastest;
+        let rest = REST * self.fastest * self.haste(pair);
+        let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= rest;
+        *self.hits.entry(pair.bodies).or_default() += 1;
         let bounce = Bounce {
             restitution: if rests { 0.0 } else { pair.law.restitution },
             friction: pair.law.friction,

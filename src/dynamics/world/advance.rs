@@ -31,6 +31,10 @@ impl World {
         self.ledger.close(&self.model, t, &self.state);
         let (mut now, mut left, mut length) = (t, moments, dt);
         let mut counts = Counts::default();
+        self.solver.calm();
+        if let Some(collider) = &mut self.collider {
+            collider.set_out();
+        }
         loop {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
@@ -48,7 +52,7 @@ impl World {
             length = t + dt - now;
             self.pass(event, now);
             self.integrator.discontinuity();
-            if counts.are_too_many(event) || self.solver.has_failed() {
+            if counts.are_too_many(event, duration) || self.solver.has_failed() {
                 self.give_up(event, now);
                 return;
             }

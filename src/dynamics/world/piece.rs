@@ -9,8 +9,14 @@ const CHANGES: u32 = 10_000;
 /// So many impacts within a step mean the same. The impacts that spell π to seven digits are fewer, nearly all in one step.
 const IMPACTS: u32 = 4_000_000;
 
+/// So many events at the same instant mean the same: each settles what touches then.
+const AT_ONCE: u32 = 1_000;
+
 /// Trials until the time of an event is known to the last bit; each halves what is left at least every second time.
 const TRIALS: usize = 120;
+
+/// Events within this part of a step are at its beginning.
+const INSTANT: f64 = 1e-13;
 
 /// Trials until two bodies touch; each squares what is left.
 const TOUCHES: usize = 12;
@@ -29,16 +35,19 @@ pub(super) enum Event {
 pub(super) struct Counts {
     changes: u32,
     impacts: u32,
+    /// Those one after another at the same instant.
+    at_once: u32,
 }
 
 impl Counts {
-    /// Counts one more, and says whether that is too many.
-    pub(super) fn are_too_many(&mut self, event: Event) -> bool {
+    /// Counts one more, at the end of a piece that has been so long, s, and says whether that is too many.
+    pub(super) fn are_too_many(&mut self, event: Event, length: f64) -> bool {
+        self.at_once = if length > 0.0 { 0 } else { self.at_once + 1 };
         match event {
             Event::Row(_) => self.changes += 1,
             Event::Touch(_) => self.impacts += 1,
         }
-        self.changes > CHANGES || self.impacts > IMPACTS
+        self.changes > CHANGES || self.impacts > IMPACTS || self.at_once > AT_ONCE
     }
 }
 
@@ -103,6 +112,9 @@ impl World {
 
     /// An event: takes its impulses, and finds out which constraints push from then on.
     pub(super) fn pass(&mut self, event: Event, t: f64) {
+        if let Event::Row(row) = event {
+            self.solver.note_change(&self.model, row);
+        }
         if self.collider.is_some() {
             self.meet(t, matches!(event, Event::Touch(_)));
         } else {
@@ -191,7 +203,7 @@ impl World {
             let (a, b) = (weights[0] * early_margin, weights[1] * late_margin);
             let secant = (early * b - late * a) / (b - a);
             let length = if is_slow || !(secant > early && secant < late) { middle } else { secant };
-            if length <= early || length >= late {
+            if length <= early || length >= late || late <= INSTANT * end.0 {
                 break;
             }
             let (margin, at) = self.try_piece(t, length);
@@ -206,8 +218,10 @@ impl World {
             weights[usize::from(!is_late)] *= halved;
             was_late = Some(is_late);
         }
-        self.try_piece(t, late);
-        (late, row)
+        // What happens at once has nothing before it.
+        let length = if late <= INSTANT * end.0 { 0.0 } else { late };
+        self.try_piece(t, length);
+        (length, row)
     }
 
     /// The state `dt` after the beginning of the piece, made by one step; its margin.
