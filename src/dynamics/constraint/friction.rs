@@ -48,6 +48,8 @@ pub(super) struct Grip {
     pub(super) is_beginning: bool,
     /// Whether the two bodies touch at other places as well.
     pub(super) is_shared: bool,
+    /// Whether it is caught at once, since no force fits its slip.
+    pub(super) is_caught: bool,
     /// Whether it has changed too often in the present step: it sticks then until the end, whatever friction that takes.
     pub(super) is_restless: bool,
     /// How much all pairs of rows change each other at most: the largest sum of the sizes of the entries of A between one of its rows
@@ -79,6 +81,7 @@ impl Grip {
                             .filter(|other| other.bodies == place.bodies)
                             .count()
                             > 1,
+                        is_caught: false,
                         is_restless: false,
                         stiffness: 0.0,
                         strength: 0.0,
@@ -236,12 +239,12 @@ impl Solver {
     /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
     /// holds.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
-        let Grip { row, normal, is_restless, .. } = self.grips[grip];
+        let Grip { row, normal, is_restless, is_caught, .. } = self.grips[grip];
         let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
             Mode::Open
-        } else if slip.length() <= slow {
+        } else if is_caught || slip.length() <= slow {
             Mode::Held
         } else {
             let grip = &mut self.grips[grip];
@@ -261,6 +264,15 @@ impl Solver {
         let grips = &self.grips;
         grips.iter().any(|grip| moves(grip.row, grip.of(rates).length(), PASSED))
             || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
+    }
+
+    /// Lets a contact stick at once that slides, but whose normal row is wrong whatever it does: that is Painlevé's paradox. Friction grows
+    /// without end then, until the slip is over, as in an impact without restitution. Returns whether there is such a contact. Source:
+    /// D. E. Stewart, SIAM Review 42 (2000) 3.
+    pub(super) fn catch(&mut self, wrong: usize) -> bool {
+        let is_wrong = |grip: &&mut Grip| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
+        let grip = self.grips.iter_mut().find(is_wrong);
+        grip.map(|grip| grip.is_caught = true).is_some()
     }
 
     fn grip_at(&self, row: usize) -> Option<&Grip> {

@@ -120,17 +120,30 @@ impl Solver {
                 Law::Friction { .. } => (Mode::Open, false),
             };
         }
-        for grip in 0..self.grips.len() {
-            self.take_grip(grip, &rates);
+        let modes = self.modes.clone();
+        for _ in 0..=self.grips.len() {
+            for grip in 0..self.grips.len() {
+                self.take_grip(grip, &rates);
+            }
+            if self.still_moves(&rates) {
+                self.members.copy_from_slice(&members);
+                self.hold();
+                self.halt(model, state, &rates);
+                self.measure(t, state);
+                members.copy_from_slice(&self.members);
+                if let Some(structure) = &self.structure {
+                    jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
+                }
+            }
+            let Some(wrong) = self.go_on(model, t, state, loads, (&members, &can_hold, &rates)) else {
+                break;
+            };
+            if !self.catch(wrong) {
+                break;
+            }
+            self.modes.clone_from(&modes);
         }
-        if self.still_moves(&rates) {
-            self.members.copy_from_slice(&members);
-            self.hold();
-            self.settle_velocities(model, state);
-            self.measure(t, state);
-            members.copy_from_slice(&self.members);
-        }
-        self.go_on(model, t, state, loads, (&members, &can_hold, &rates));
+        self.grips.iter_mut().for_each(|grip| grip.is_caught = false);
         self.see_strength();
     }
 
@@ -214,7 +227,21 @@ impl Solver {
         size
     }
 
-    /// Finds which of the rows that can hold go on doing so, by their accelerations.
+    /// Stops what moves along the rows that hold, by impulses. Their work is booked.
+    fn halt(&mut self, model: &Model, state: &mut State, rates: &[f64]) {
+        for (value, rate) in self.unknown.iter_mut().zip(rates) {
+            *value = -rate;
+        }
+        self.solve();
+        let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return };
+        jacobian::push(structure, jacobian, unknown, model, state);
+        jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
+        let work = unknown.iter().zip(rates).map(|(impulse, rate)| 0.5 * impulse * rate).sum::<f64>();
+        state.accounts.impacts += work;
+    }
+
+    /// Finds which of the rows that can hold go on doing so, by their accelerations. Gives a row that is wrong whatever it does, if there
+    /// is one.
     fn go_on(
         &mut self,
         model: &Model,
@@ -222,7 +249,8 @@ impl Solver {
         state: &State,
         loads: &mut Loads,
         (members, can_hold, rates): (&[Member], &[bool], &[f64]),
-    ) {
+    ) -> Option<usize> {
+        let mut last = None;
         let n = self.rows.len();
         let is_free = can_hold.iter().all(|can| !can);
         if !self.grips.is_empty() {
@@ -240,7 +268,7 @@ impl Solver {
                 held_before.clone_from(&self.modes);
             }
             if is_free {
-                return;
+                return None;
             }
             let accelerations = self.see_accelerations(model, t, state, loads, members);
             let size = self.largest_acceleration;
@@ -255,8 +283,9 @@ impl Solver {
                 (Mode::Pushed(sign), _) => sign * accelerations[i],
                 (Mode::Held, Law::Tie) | (Mode::Slid, _) => 0.0,
             };
-            match worst(n, round, SLIGHT * size, wrong) {
-                None if one_by_one || !self.change_grips(&accelerations, SLIGHT * size) => return,
+            last = worst(n, round, SLIGHT * size, wrong);
+            match last {
+                None if one_by_one || !self.change_grips(&accelerations, SLIGHT * size) => return None,
                 None => {}
                 Some(i) if matches!(self.laws[i], Law::Friction { .. }) => self.change_grip(i),
                 Some(i) => {
@@ -273,6 +302,7 @@ impl Solver {
                 }
             }
         }
+        last
     }
 }
 

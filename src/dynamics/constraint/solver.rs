@@ -83,6 +83,10 @@ impl Solver {
     /// Told when bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;
+        // Nothing of what held may act or be booked any more.
+        self.has_modes = false;
+        self.modes.clear();
+        self.grips.clear();
     }
 
     /// What went wrong since somebody asked last.

@@ -1,6 +1,6 @@
 //! The bodies that touch each other: where they do, and what happens then.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::super::{BodyId, Breakdown, Constraint, Model, State};
@@ -38,6 +38,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) impacts: Vec<Impact>,
     /// How often pairs of bodies have hit each other in the present step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,
+    /// Pairs whose touches are not looked for in the rest of the step.
+    overlooked: BTreeSet<[usize; 2]>,
 }
 
 /// All places at which two bodies touch.
@@ -52,13 +54,19 @@ impl Collider {
     /// Bodies that touch as `contacts` says.
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
-        let (impacts, hits) = (Vec::new(), BTreeMap::new());
-        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits }
+        let (impacts, hits, overlooked) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
+        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, overlooked }
     }
 
     /// Told at the beginning of a step.
     pub(in crate::dynamics) fn set_out(&mut self) {
         self.hits.clear();
+        self.overlooked.clear();
+    }
+
+    /// Leaves two bodies alone in the rest of the step.
+    pub(in crate::dynamics) fn overlook(&mut self, bodies: [usize; 2]) {
+        self.overlooked.insert(bodies);
     }
 
     /// Told when bodies have changed.
@@ -91,7 +99,7 @@ impl Collider {
         self.meet_bodies(model);
         self.paths.clear();
         self.paths.extend((0..model.len()).map(|i| Path::of(i, model, before, after, duration)));
-        let Collider { contacts, solids, pairs, paths, fastest, .. } = self;
+        let Collider { contacts, solids, pairs, paths, fastest, overlooked, .. } = self;
         pairs.follow(contacts, solids, paths, (model, before));
         let mut end = duration;
         let mut first = None;
@@ -103,7 +111,8 @@ impl Collider {
             if pair.free > near_enough {
                 continue;
             }
-            if closed.iter().any(|contact| contact.bodies == pair.bodies) {
+            let is_closed = closed.iter().any(|contact| contact.bodies == pair.bodies);
+            if is_closed || overlooked.contains(&pair.bodies) {
                 continue;
             }
             let ways = super::pairs::way(Some(x), &paths[a]) + super::pairs::way(Some(y), &paths[b]);

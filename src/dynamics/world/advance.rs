@@ -1,7 +1,7 @@
 //! How a world advances: steps, births and deaths on the way, and looks between two steps.
 
 use super::super::{Snapshot, State, Step, System};
-use super::piece::Counts;
+use super::piece::{Counts, Event};
 use super::{World, picture};
 
 /// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
@@ -52,7 +52,11 @@ impl World {
             length = t + dt - now;
             self.pass(event, now);
             self.integrator.discontinuity();
-            if counts.are_too_many(event, duration) || self.solver.has_failed() {
+            let are_too_many = counts.are_too_many(event, duration);
+            if let (Event::Touch(bodies), true, Some(collider)) = (event, counts.stay(), &mut self.collider) {
+                collider.overlook(bodies);
+            }
+            if are_too_many || self.solver.has_failed() {
                 self.give_up(event, now);
                 return;
             }

@@ -9,6 +9,9 @@ const CHANGES: u32 = 10_000;
 /// So many impacts within a step mean the same. The impacts that spell π to seven digits are fewer, nearly all in one step.
 const IMPACTS: u32 = 4_000_000;
 
+/// After so many at the same instant, two bodies that touch without coming nearer are left alone until the next step.
+const STAY: u32 = 20;
+
 /// So many events at the same instant mean the same: each settles what touches then.
 const AT_ONCE: u32 = 1_000;
 
@@ -40,6 +43,11 @@ pub(super) struct Counts {
 }
 
 impl Counts {
+    /// Whether a touch happens again and again at the same instant.
+    pub(super) fn stay(&self) -> bool {
+        self.at_once > STAY
+    }
+
     /// Counts one more, at the end of a piece that has been so long, s, and says whether that is too many.
     pub(super) fn are_too_many(&mut self, event: Event, length: f64) -> bool {
         self.at_once = if length > 0.0 { 0 } else { self.at_once + 1 };
