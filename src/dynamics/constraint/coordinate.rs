@@ -25,9 +25,9 @@ pub(super) struct Free {
     pub(super) value: f64,
     /// The part of its second derivative that does not come from accelerations of the bodies.
     bias: f64,
-    /// The size of the terms that its value is a difference of.
+    /// The size of the terms whose difference is the value.
     pub(super) scale: f64,
-    /// For each end: its body, and the derivatives of the value with respect to its place and its turn.
+    /// For each end: its body, and the derivatives of the value by the body's place and turn.
     parts: [(Option<usize>, DVec3, DVec3); 2],
 }
 
@@ -38,7 +38,8 @@ impl Coordinate {
         self.zero.is_some()
     }
 
-    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure gives a body; `None` where it is away.
+    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure gives a body. `None` while one of them
+    /// is away.
     pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
         let mut all = [Member::default(); 2];
         let ids = super::parts::bodies(&self.between);
@@ -104,7 +105,7 @@ impl Coordinate {
         rate(a, free.parts[0]) + rate(b, free.parts[1])
     }
 
-    /// For each end, the force and the torque on its body that a generalised force of 1 makes.
+    /// For each end, its body, and the force and the torque on it by a generalised force of 1.
     pub(super) fn directions(free: &Free) -> [(Option<usize>, DVec3, DVec3); 2] {
         free.parts
     }

@@ -1,4 +1,4 @@
-//! When rows have to change what they do: how far a state is from the next event.
+//! Events: how far a state is from the next moment at which a row changes its mode.
 
 use super::super::{Loads, Model, State};
 use super::Law;
@@ -20,8 +20,8 @@ impl Solver {
         self.has_modes
     }
 
-    /// How far a state is from the next event, which has happened where this is negative, in units of what is tolerated; and the
-    /// row that is the nearest. It is 1 where a stop is just touched. `loads` is room to work in.
+    /// The distance of a state from the next event, in units of what is tolerated, and the row of that event. It is 1 where a
+    /// stop is just touched, and negative where the event is over. `loads` is room to work in.
     pub(in crate::dynamics) fn margin(
         &mut self,
         model: &Model,
@@ -76,7 +76,7 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
-    /// Notes that a run cannot go on, since a row changes again and again.
+    /// Notes that the run cannot go on, since a row changes its mode again and again.
     pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
         let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));

@@ -7,7 +7,7 @@ use super::member::Member;
 use super::structure::Structure;
 use super::{Direction, Row};
 
-/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to the accelerations in their place.
+/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to the accelerations that stand in their place.
 pub(super) fn move_members(
     structure: &Structure,
     jacobian: &[Direction],
@@ -21,7 +21,7 @@ pub(super) fn move_members(
     });
 }
 
-/// Calls back with each direction of the Jacobian, its member and the multiplier of its row.
+/// Calls `act` with each direction of the Jacobian, its member and the multiplier of its row, unless that is 0.
 pub(super) fn for_each_direction(
     structure: &Structure,
     jacobian: &[Direction],
@@ -37,7 +37,7 @@ pub(super) fn for_each_direction(
     }
 }
 
-/// c' = J v + ∂c/∂t for the velocities of the members; the largest sum of the sizes of its terms.
+/// Writes c' = J v + ∂c/∂t for the velocities of the members. Returns the size of the terms: the largest sum of absolute values.
 pub(super) fn rates(
     structure: &Structure,
     jacobian: &[Direction],
@@ -58,14 +58,14 @@ pub(super) fn rates(
     largest
 }
 
-/// J v for the velocities of the members, or J a where accelerations stand in their place.
+/// Writes J v for the velocities of the members, or J a where accelerations stand in their place.
 pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &[Member], out: &mut [f64]) {
     for (row, out) in out.iter_mut().enumerate() {
         *out = product(structure, jacobian, members, row).0;
     }
 }
 
-/// One row of [`products`], and the sum of the sizes of its terms.
+/// One row of [`products`], and the sum of the absolute values of its terms.
 #[inline(always)]
 pub(super) fn product(
     structure: &Structure,

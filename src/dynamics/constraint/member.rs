@@ -1,4 +1,4 @@
-//! A body as constraints see it.
+//! Bodies and ends, as constraints see them.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -25,7 +25,7 @@ pub struct Member {
     pub(super) inverse_inertia: DMat3,
 }
 
-/// What does not change with time about a body of a constraint.
+/// The constants of a body of a constraint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nature {
     body: usize,
@@ -33,7 +33,7 @@ pub(super) struct Nature {
     /// I⁻¹ in its principal axes.
     inverse_inertia: DVec3,
     is_isotropic: bool,
-    /// The rotation that takes its own axes to its principal axes, where they differ.
+    /// The rotation from its own axes to its principal axes. `None` where they are the same.
     turned: Option<DQuat>,
 }
 
@@ -67,7 +67,7 @@ impl Member {
         member
     }
 
-    /// Takes place and motion from a state. Says whether the place has changed.
+    /// Takes place and motion from a state. Returns whether the place has changed.
     #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;
@@ -113,9 +113,9 @@ impl Member {
 /// An end of a constraint at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End<'a> {
-    /// Which of the constraint's bodies it belongs to; none for a point of the world.
+    /// The number of its body among those of the constraint. `None` for a point of the world.
     pub(super) body: Option<usize>,
-    /// That body; for a point of the world, one that rests at the origin.
+    /// Its body. For a point of the world, a body that rests at the origin.
     pub(super) member: &'a Member,
     /// r: the way to it from the centre of mass, m.
     pub(super) arm: DVec3,

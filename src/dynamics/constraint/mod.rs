@@ -1,4 +1,4 @@
-//! What holds bodies together: the interface of a constraint, one file for each kind, and the solver of all of them.
+//! Constraints: their interface, one file for each kind, and the solver of all of them.
 //!
 //! A constraint is a list of equations c(x, q) = 0, its rows. With the Jacobian J = ∂c/∂(x, φ), where φ are turns about the
 //! world's axes, the forces that keep them are Jᵀ λ. Source: E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical
@@ -48,9 +48,9 @@ use glam::DVec3;
 
 use super::{Anchor, BodyId};
 
-/// What holds bodies together.
+/// A constraint holds bodies together.
 ///
-/// A new kind is one type with this trait; the solver does not know which kinds there are.
+/// A new kind is one type with this trait. The solver knows no kinds.
 pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// Its ends. Its force and torque are measured on the last one.
     fn ends(&self) -> Vec<Anchor>;
@@ -68,7 +68,7 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
         Law::Tie
     }
 
-    /// Writes all equations at one moment. `members` are the bodies, in the order of [`bodies`](Self::bodies).
+    /// Writes all equations at one moment. `members` has the bodies in the order of [`bodies`](Self::bodies).
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
 }
 
@@ -77,10 +77,11 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
 pub enum Law {
     /// c = 0, with any force.
     Tie,
-    /// c ≥ 0. It pushes where c would become negative, and never pulls.
+    /// c ≥ 0. It pushes where c would become negative. It never pulls.
     Stop,
-    /// Two rows of this law follow each other: c' = 0 of both, as far as multipliers can make it that are together at most
-    /// `coefficient` times that of the first row of the constraint; where they cannot, they push as far as they can.
+    /// Coulomb's friction along two tangents, by two rows of this law, one behind the other. Together, their multipliers are at
+    /// most `coefficient` times that of the first row of the constraint. Where this is enough, both keep c' = 0; else they push
+    /// with all of it.
     Friction {
         /// Coulomb's coefficient, or, of turns, the coefficient of rolling friction, m; it is positive.
         coefficient: f64,
@@ -97,15 +98,15 @@ pub enum Law {
 pub struct Row {
     /// c, in metres or without unit; it is 0 where the equation holds.
     pub violation: f64,
-    /// ∂c/∂t: the part of c' that does not depend on velocities.
+    /// ∂c/∂t, the part of c' that does not depend on velocities.
     pub rate: f64,
-    /// The part of c'' that does not depend on accelerations: J̇ v, and the derivatives by time alone.
+    /// The part of c'' that does not depend on accelerations: J̇ v + ∂²c/∂t².
     pub bias: f64,
-    /// The size of the terms whose difference c is: the rounding error of c is about 1e-16 of this.
+    /// The size of the terms whose difference is c. The rounding error of c is about 1e-16 of this.
     pub scale: f64,
 }
 
-/// The part of a row of the Jacobian that belongs to one body: c' = linear·v + angular·ω + …
+/// The entries of one row of the Jacobian for one body: c' = linear·v + angular·ω + …
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Direction {
     /// ∂c/∂x.
@@ -130,10 +131,10 @@ pub struct Members<'a> {
     all: &'a [Member],
     of: &'a [usize],
     time: f64,
-    /// The same at the beginning of the step.
+    /// All members at the beginning of the step.
     origin: &'a [Member],
     begun: f64,
-    /// Whether a step is aimed at its end: bodies move freely meanwhile.
+    /// Whether a step is being aimed at its end: see [`Solver::aim`].
     is_aiming: bool,
 }
 
@@ -156,8 +157,8 @@ impl Members<'_> {
         Self { all: self.origin, time: self.begun, ..*self }
     }
 
-    /// Where a step is aimed at its end, with bodies that move freely meanwhile: the first two bodies at its beginning, as they
-    /// move from then on.
+    /// While a step is being aimed: the first two bodies at its beginning, with the velocities with which they set out. `None` at
+    /// all other times.
     pub(in crate::dynamics) fn aimed(&self) -> Option<[Member; 2]> {
         let set_off = |i: usize| {
             let (now, then) = (&self[i], &self.at_origin()[i]);
@@ -181,17 +182,17 @@ impl std::ops::Index<usize> for Members<'_> {
 
 /// Where a constraint writes its equations.
 pub struct Equations<'a> {
-    /// Those of all constraints.
+    /// The rows of all constraints.
     rows: &'a mut [Row],
     jacobian: &'a mut [Direction],
-    /// The first row and the first direction of the constraint that writes, and the number of its bodies.
+    /// The first row and the first direction of the constraint that is measured, and the number of its bodies.
     row: usize,
     direction: usize,
     bodies: usize,
 }
 
 impl Equations<'_> {
-    /// Writes a row; the directions that are not set are zero.
+    /// Writes a row with all directions zero.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
         // By index: most rows have one or two bodies, and the compiler unrolls the loop of an iterator for many.
@@ -209,7 +210,7 @@ impl Equations<'_> {
         self.rows[self.row + row].rate = rate;
     }
 
-    /// Writes the only row of a constraint of two ends: the part of c' of each end's body.
+    /// Writes the only row of a constraint with two ends. Each end gives its body and that body's direction.
     #[inline(always)]
     fn only_row(&mut self, row: Row, ends: [(Option<usize>, DVec3, DVec3); 2]) {
         self.rows[self.row] = row;
@@ -230,7 +231,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds to the direction of one body in a row; a point of the world has none.
+    /// Adds to the direction of one body in a row. A point of the world has no body, and nothing is added.
     pub(in crate::dynamics) fn direction(
         &mut self,
         row: usize,

@@ -4,8 +4,8 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass and friction that runs from one end over two points to the other end. It can be slack. An end that is pulled
-/// up to its point stops a hundredth of the rope's length before it.
+/// A rope without mass and friction that runs from one end over two points to the other end. It can be slack. An end cannot come
+/// nearer to its point than a hundredth of the rope's length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulley {
     /// The two ends of the rope.

@@ -38,8 +38,8 @@ impl Solver {
         });
     }
 
-    /// Finds the multipliers at a state that has been measured and factorised. The accelerations without them take the place of
-    /// velocities, which are not needed any more.
+    /// Finds the multipliers at a state that has been measured and factorised. The members' velocities are overwritten by their
+    /// accelerations without constraints.
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
         self.see_free_accelerations(t, state, loads);
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
@@ -56,7 +56,7 @@ impl Solver {
         }
     }
 
-    /// Puts the accelerations without constraints in the place of velocities.
+    /// Overwrites the members' velocities by their accelerations without constraints.
     fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
         let Solver { structure: Some(structure), members, motions, .. } = self else { return };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
@@ -122,8 +122,8 @@ impl Solver {
         });
     }
 
-    /// Adds the forces of motors that are not strong enough for their speed, and those of friction where contacts slide: they act as
-    /// forces do.
+    /// Adds the forces of motors that push with their limit, and of friction where contacts slide. Splitting methods treat both
+    /// like any other force.
     pub(in crate::dynamics) fn drive(&mut self, t: f64, state: &State, loads: &mut Loads) {
         let slides = self.slides();
         if !slides && !self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {

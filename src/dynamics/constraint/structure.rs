@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use super::{Constraint, Direction};
 
-/// The places of all rows and blocks. They do not change with time.
+/// Where the rows and directions of all constraints are. This does not change with time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Structure {
     /// The constraints, in the order of their elimination.
     pub(super) places: Vec<Place>,
-    /// The bodies that some constraint concerns, each once.
+    /// The bodies of all constraints, each once, in rising order.
     pub(super) bodies: Vec<usize>,
     /// The number of rows of all constraints.
     pub(super) rows: usize,
@@ -19,11 +19,11 @@ pub(super) struct Structure {
     pub(super) directions: usize,
     /// Where the directions of each row begin; one more for the end.
     pub(super) row_start: Vec<usize>,
-    /// For each constraint, those before it that share a body that can move, and itself at last.
+    /// For each constraint, the earlier ones that share a movable body with it, and itself at the end.
     pub(super) neighbours: Vec<Vec<Neighbour>>,
 }
 
-/// Where a constraint stands.
+/// The rows and directions of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
     /// Its number in the world.
@@ -39,7 +39,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Its directions, with their bodies; the rest is zero.
+    /// Its directions. They know their bodies, and are zero.
     pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
         let rows = std::iter::repeat_n(&self.bodies, self.rows);
         rows.flatten().map(|&member| Direction { member, ..Direction::default() })
@@ -51,7 +51,7 @@ impl Place {
 pub(super) struct Neighbour {
     /// Its place.
     pub(super) place: usize,
-    /// The bodies that both have: their number in the neighbour, and in the other.
+    /// The bodies that both have: the number of each in the neighbour, and in the constraint itself.
     pub(super) shared: Vec<(usize, usize)>,
 }
 
@@ -62,7 +62,7 @@ impl Structure {
         self.row_start[row]..self.row_start[row + 1]
     }
 
-    /// The structure of the constraints whose bodies are all there. A body that no force can move connects nothing.
+    /// The structure of the constraints whose bodies are all there. A body that no force can move does not connect constraints.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
         is_there: impl Fn(usize) -> bool,
@@ -124,7 +124,7 @@ impl Structure {
     }
 }
 
-/// The nodes of a graph in the order of least degree, which keeps the factors of chains and trees as sparse as the matrix.
+/// The nodes of a graph in the order of least degree. So the factors of chains and trees are as sparse as the matrix.
 /// Source: A. George & J. W. H. Liu, *The evolution of the minimum degree ordering algorithm*, SIAM Review 31 (1989) 1.
 fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
     let mut queue: BTreeSet<(usize, usize)> =

@@ -1,8 +1,8 @@
 //! Contacts between bodies: impacts, friction and rest.
 //!
 //! Bodies move freely until two of them touch. The step ends at that moment, and an impulse follows the laws of impact and
-//! friction. A contact that does not rebound becomes a constraint that pushes and never pulls. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics
-//! with Unilateral Contacts* (1996).
+//! friction. A contact that does not rebound becomes a constraint that pushes and never pulls. Source: F. Pfeiffer & C.
+//! Glocker, *Multibody Dynamics with Unilateral Contacts* (1996).
 
 mod approach;
 mod change;

@@ -433,3 +433,35 @@ fn a_mesh_rests_on_its_corners() {
     assert_eq!(touch(&GROUND, &at(0.0, 0.0, 0.0), &mesh_of_box(size), &at(0.3, 0.7, 0.1)).len(), 4);
     assert_eq!(touch(&flat(), &at(0.0, 0.0, 0.0), &mesh_of_box(size), &at(0.3, 0.7, 0.1)).len(), 4);
 }
+
+#[test]
+fn parallel_lines_meet_in_the_middle_of_the_length_that_they_share() {
+    // From −0.5 m to 0.5 m, and from −0.2 m to 0.8 m.
+    for (a, b) in [(0.0, 0.3), (-0.3, 0.0)] {
+        let found = near(&PILL, &at(0.0, a, 0.0), &PILL, &at(0.9, b, 0.0));
+        assert!((found.on[0].y - (a + 0.15)).abs() < 1e-15, "{found:?}");
+    }
+}
+
+#[test]
+fn a_touch_ends_at_the_border_of_its_face() {
+    let origin = at(0.0, 0.0, 0.0);
+    let found = touch(&CUBE, &origin, &BALL, &at(0.1, 1.2, 0.0));
+    assert_eq!(found.len(), 1, "{found:?}");
+    // The top reaches to x = 0.5 m and z = 0.3 m.
+    for (x, z, left) in [(0.1, 0.0, 0.3), (0.3, 0.0, 0.2), (0.7, 0.0, -0.2), (0.0, -0.4, -0.1)] {
+        let inside = inside(&found[0], &solid(&CUBE), &origin, &solid(&BALL), &at(x, 1.2, z));
+        assert!((inside - left).abs() < 1e-8, "{x} {z}: {inside}");
+    }
+}
+
+#[test]
+fn a_can_beside_the_edge_of_a_table_stands_on_that_edge_too() {
+    let table = Shape::Box { size: DVec3::new(4.0, 2.0, 4.0) };
+    let found = touch(&table, &at(0.0, -1.0, 0.0), &CAN, &at(2.0, 0.6, 0.0));
+    for z in [-0.4, 0.4] {
+        let edge = DVec3::new(2.0, 0.0, z);
+        assert!(found.iter().any(|touch| touch.meeting.on[1].distance(edge) < 1e-9), "{found:?}");
+    }
+    assert!(found.iter().all(|touch| touch.meeting.on[1].x < 2.0 + 1e-9), "{found:?}");
+}
