@@ -208,7 +208,7 @@ fn a_cradle_whose_balls_touch_gives_on_what_it_gets() {
         }
         // Within half a moment of an apex, an angle is below that of the apex by ½ ω² t² of it: 4e-3°.
         let angle = 0.5_f64.to_degrees();
-        for (i, (low, high)) in most.into_iter().enumerate() {
+        for (i, (low, high)) in (0..).zip(most) {
             let expected = [if i < lifted { -angle } else { 0.0 }, if i >= 5 - lifted { angle } else { 0.0 }];
             let error = (low - expected[0]).abs().max((high - expected[1]).abs());
             assert!(error < 4e-3, "{lifted} lifted, ball {i}: {low} {high}");
