@@ -157,9 +157,9 @@ impl Collider {
             return 1.0;
         }
         // So many bounces lead from the fastest one to rest.
-        let bounces = REST.ln() / pair.law.restitution.ln();
+        let bounces = libm::log(REST) / libm::log(pair.law.restitution);
         let more = (f64::from(hits) - bounces - OFTEN) / MORE;
-        more.max(0.0).exp2().min(MOST)
+        libm::exp2(more.max(0.0)).min(MOST)
     }
 
     /// A typical length of the smaller of two bodies, m.
