@@ -114,6 +114,23 @@ impl Cache {
         scene: &'a Scene,
         moments: Moments,
         effort: &Effort,
+        seen: impl FnMut(&Frame),
+    ) -> Result<Recorded<'a>, SimulateError> {
+        let recorded = self.run_to_breakdown(scene, moments, effort, seen)?;
+        recorded.breakdown().map_or(Ok(()), |breakdown| Err(breakdown.clone()))?;
+        Ok(recorded)
+    }
+
+    /// Like [`run`](Self::run), but of a run that breaks down, the frames before are given: see [`Recorded::breakdown`]. Such a
+    /// run is not kept.
+    ///
+    /// # Errors
+    /// Where there is no frame before the breakdown, or there is no room for the recording.
+    pub fn run_to_breakdown<'a>(
+        &self,
+        scene: &'a Scene,
+        moments: Moments,
+        effort: &Effort,
         mut seen: impl FnMut(&Frame),
     ) -> Result<Recorded<'a>, SimulateError> {
         if let Some(recording) = self.find(scene, &moments) {
@@ -125,8 +142,12 @@ impl Cache {
         let start = Instant::now();
         let spill = self.spill(scene, &moments);
         let mut recorder = Recorder::new(scene, moments, effort, Box::new(spill.clone()));
-        while let Some(frame) = recorder.advance()? {
-            seen(&frame);
+        loop {
+            match recorder.advance() {
+                Ok(Some(frame)) => seen(&frame),
+                Ok(None) => break,
+                Err(breakdown) => return recorder.finish_early(breakdown),
+            }
         }
         let recorded = recorder.finish()?;
         self.keep(&spill, recorded.recording(), start.elapsed());

@@ -43,19 +43,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
-    let run = run_arguments::run(&scene, &cache, &progress)?;
+    let run = run_arguments::run_to_breakdown(&scene, &cache, &progress)?;
+    let whole = run_arguments::whole(run.recorded(), &selection);
+    if whole.last().is_none() {
+        progress.finish();
+        return run_arguments::broken_down(run.recorded(), &whole);
+    }
     progress.phase(if arguments.check { "comparing" } else { "writing" });
     let mut result = Ok(());
     for (view, folder) in &cameras {
         let seen = seen(&run, *view, &progress)?;
         let run = seen.as_ref().unwrap_or(&run);
         if arguments.check {
-            result = check(run, folder, &selection, &progress).and(result);
+            result = check(run, folder, &whole, &progress).and(result);
         } else {
-            write(run, folder, &selection, &progress, start)?;
+            write(run, folder, &whole, &progress, start)?;
         }
     }
-    result
+    run_arguments::broken_down(run.recorded(), &whole).and(result)
 }
 
 /// Writes the scripts of one camera, and says what they come to.

@@ -8,7 +8,7 @@ use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
 use jabuka::export::{ExportError, Exported, write_csv, write_events, write_glb, write_joints};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
-use jabuka::simulate::{Moments, Recorded, Selection};
+use jabuka::simulate::{Recorded, Selection};
 
 use super::progress::Progress;
 use super::run_arguments;
@@ -86,9 +86,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, 0);
-    let run = run_arguments::simulated(&scene, &cache, Moments::of(&scene), &progress);
+    let run = run_arguments::simulated_to_breakdown(&scene, &cache, &progress);
     let run = run.map_err(|error| progress.failed(&error))?;
     progress.finish();
+    let selection = run_arguments::whole(&run, &selection);
+    if selection.last().is_none() {
+        return run_arguments::broken_down(&run, &selection);
+    }
     let done = match format {
         Format::Csv => table(arguments, &run, &selection),
         Format::Glb => model(arguments, &run, &selection),
@@ -98,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Failure::Errors
     })?;
     say::result(&format!("{}: {text}\n", visible_path(&arguments.output)));
-    Ok(())
+    run_arguments::broken_down(&run, &selection)
 }
 
 fn table(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {

@@ -9,9 +9,9 @@ use jabuka::scene::{Override, View};
 use jabuka::simulate::{Moments, Recorded, Selection};
 use jabuka::{Run, Scene};
 
-use super::Failure;
 use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
+use super::{Failure, say};
 
 /// What changes a scene, and which frames are taken, by which cameras.
 #[derive(clap::Args)]
@@ -118,6 +118,49 @@ pub(super) fn simulated<'a>(
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
     Ok(cache.run(scene, moments, progress.effort(), |_| progress.step())?)
+}
+
+/// Like [`simulated`], but of a run that breaks down, the frames before.
+pub(super) fn simulated_to_breakdown<'a>(
+    scene: &'a Scene,
+    cache: &Cache,
+    progress: &Progress,
+) -> Result<Recorded<'a>, OutputError> {
+    progress.phase("simulating");
+    Ok(cache.run_to_breakdown(scene, Moments::of(scene), progress.effort(), |_| progress.step())?)
+}
+
+/// The selected frames that can be drawn, where a run may have broken down.
+pub(super) fn whole(recorded: &Recorded<'_>, selection: &Selection) -> Selection {
+    match recorded.breakdown() {
+        Some(_) => (0..recorded.whole_frames()).filter(|&frame| selection.contains(frame)).collect(),
+        None => selection.clone(),
+    }
+}
+
+/// Says why a run broke down, if it did, and how many of the selected frames are kept.
+pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Result<(), Failure> {
+    let Some(breakdown) = recorded.breakdown() else { return Ok(()) };
+    let kept = match selection.count_within(recorded.whole_frames()) {
+        0 => "no frame before that was asked for".to_owned(),
+        1 => "1 frame before is kept".to_owned(),
+        frames => format!("{frames} frames before are kept"),
+    };
+    let mut report = OutputError::from(breakdown.clone()).report();
+    report.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.message.push_str(&format!("; {kept}")));
+    say::report(&report);
+    Err(Failure::Errors)
+}
+
+/// Like [`run`], but of a run that breaks down, the frames before.
+pub(super) fn run_to_breakdown<'a>(
+    scene: &'a Scene,
+    cache: &Cache,
+    progress: &Progress,
+) -> Result<Run<'a>, Failure> {
+    let recorded = simulated_to_breakdown(scene, cache, progress);
+    let run = recorded.and_then(|recorded| Ok(Run::of(recorded)?));
+    run.map_err(|error| progress.failed(&error))
 }
 
 /// The run of a scene, as its main camera sees it.

@@ -99,7 +99,7 @@ impl Moments {
     }
 
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
-    fn time(&self, frame: usize) -> f64 {
+    pub(super) fn time(&self, frame: usize) -> f64 {
         frame as f64 / self.frame_rate
     }
 }

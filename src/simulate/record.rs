@@ -17,6 +17,8 @@ pub struct Recorded<'a> {
     scene: &'a Scene,
     recording: Arc<Recording>,
     survey: Survey,
+    /// Why it ended before its last frame, if it did.
+    breakdown: Option<SimulateError>,
 }
 
 impl<'a> Recorded<'a> {
@@ -44,7 +46,7 @@ impl<'a> Recorded<'a> {
 
     /// A run that was simulated and looked over by somebody else.
     pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
-        Recorded { scene, recording, survey }
+        Recorded { scene, recording, survey, breakdown: None }
     }
 
     /// A run that was recorded earlier; `seen` is told of every frame. What is known of the run as a whole depends on what is
@@ -73,7 +75,7 @@ impl<'a> Recorded<'a> {
             surveyor.see(&frame);
             seen(&frame);
         }
-        Ok(Recorded { scene, recording, survey: surveyor.finish() })
+        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown: None })
     }
 
     /// The scene.
@@ -89,6 +91,24 @@ impl<'a> Recorded<'a> {
     /// The moments of the run.
     pub fn recording(&self) -> &Arc<Recording> {
         &self.recording
+    }
+
+    /// Why the run ended before its last frame, if it did.
+    pub fn breakdown(&self) -> Option<&SimulateError> {
+        self.breakdown.as_ref()
+    }
+
+    /// How many frames can be drawn: all, unless the run broke down. A frame counts if all moments of its open shutters were
+    /// recorded as well.
+    pub fn whole_frames(&self) -> usize {
+        let moments = Moments::of(self.scene);
+        let is_recorded = |time| self.recording.moment_at(time).is_some();
+        let is_whole = |frame: usize| moments.times_of(moments.time(frame)).all(is_recorded);
+        let frames = self.recording.frames();
+        if self.breakdown.is_none() {
+            return frames;
+        }
+        (0..frames).rev().find(|&frame| is_whole(frame)).map_or(0, |last| last + 1)
     }
 
     /// All frames, from the first on.
@@ -246,8 +266,24 @@ impl<'a> Recorder<'a> {
     /// # Errors
     /// Where there is no room for it.
     pub fn finish(self) -> Result<Recorded<'a>, SimulateError> {
+        self.finish_after(None)
+    }
+
+    /// What was simulated before a breakdown. A run that diverges is wrong long before it stops, and nothing of it is given.
+    ///
+    /// # Errors
+    /// The breakdown, where there is no frame before it or the run diverged; or where there is no room for the recording.
+    pub fn finish_early(self, breakdown: SimulateError) -> Result<Recorded<'a>, SimulateError> {
+        if matches!(breakdown, SimulateError::Recording(_) | SimulateError::Diverged(_)) {
+            return Err(breakdown);
+        }
+        let recorded = self.finish_after(Some(breakdown.clone()))?;
+        if recorded.whole_frames() > 0 { Ok(recorded) } else { Err(breakdown) }
+    }
+
+    fn finish_after(self, breakdown: Option<SimulateError>) -> Result<Recorded<'a>, SimulateError> {
         let Recorder { scene, surveyor, recording, .. } = self;
         recording.index()?;
-        Ok(Recorded { scene, recording, survey: surveyor.finish() })
+        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown })
     }
 }

@@ -4,6 +4,8 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
+use jabuka::output::Manifest;
+
 use crate::support::{compile, contents, jabuka, scene, stderr};
 
 /// Compiles, which must be refused with exit code 1 and the given words.
@@ -137,4 +139,73 @@ fn a_run_that_diverges_writes_nothing() {
     assert!(stderr(&output).contains("error[diverged]: the run diverged"), "{}", stderr(&output));
     assert!(stderr(&output).contains("`ball`"), "{}", stderr(&output));
     assert!(!folder.path().join("out").exists());
+}
+
+/// A ball between two walls that close in, which are 0.5 m from it: they have it at 0.5 s.
+const JAMMED: &str = "
+    [simulation]
+    duration = 1
+    frame_rate = 10
+    integrator = 'velocity-verlet'
+    contacts = 'event-driven'
+    [body.ball]
+    shape.sphere.radius = 0.5
+    location = [0, 2, 0]
+    restitution = 1
+    [body.left]
+    shape.box.size = [1, 3, 3]
+    motion.formula.location = ['-1.5 + t', 2, 0]
+    [body.right]
+    shape.box.size = [1, 3, 3]
+    motion.formula.location = ['1.5 - t', 2, 0]
+";
+
+#[test]
+fn a_run_that_jams_keeps_the_frames_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("press.toml");
+    fs::write(&scene, JAMMED).unwrap();
+    let compile = |arguments: &[&str]| {
+        let mut command = jabuka();
+        command.current_dir(folder.path()).arg("compile").arg(&scene).args(arguments).output().unwrap()
+    };
+    let names = |folder: &Path| -> Vec<String> {
+        let files =
+            fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = files.filter(|name| name.ends_with(".pov")).collect();
+        names.sort();
+        names
+    };
+    let output = compile(&[]);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("error[jammed]: ") && said.contains("; 5 frames before are kept"), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("5 of 11 frames"), "{output:?}");
+    let out = folder.path().join("out/press");
+    assert_eq!(names(&out).len(), 5);
+    assert!(Manifest::read(&out).unwrap().is_complete());
+
+    // What is kept can be compared, and a table has as many times.
+    let check = compile(&["--check"]);
+    assert_eq!(check.status.code(), Some(1));
+    assert!(
+        String::from_utf8_lossy(&check.stdout).contains("5 scripts are as the scene gives them"),
+        "{check:?}"
+    );
+    let table = folder.path().join("press.csv");
+    let export = jabuka().arg("export").arg(&scene).arg("-o").arg(&table).output().unwrap();
+    assert_eq!(export.status.code(), Some(1));
+    assert!(stderr(&export).contains("; 5 frames before are kept"), "{export:?}");
+    assert_eq!(fs::read_to_string(&table).unwrap().lines().count(), 1 + 5 * 3);
+
+    // Where no frame before is asked for, nothing is written.
+    let none = compile(&["--frames", "7-9", "-o", "none"]);
+    assert_eq!(none.status.code(), Some(1));
+    assert!(stderr(&none).contains("; no frame before that was asked for"), "{none:?}");
+    assert!(!folder.path().join("none").exists());
+
+    // A frame counts if all of its open shutter was simulated: that of frame 4 is open until 0.49 s, that of frame 5 too long.
+    fs::write(&scene, format!("{JAMMED}[camera]\nshutter = 0.09\nsamples = 4\n")).unwrap();
+    let blurred = compile(&["-o", "blurred"]);
+    assert!(stderr(&blurred).contains("; 5 frames before are kept"), "{blurred:?}");
 }
