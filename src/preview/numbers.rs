@@ -7,7 +7,10 @@ use crate::simulate::Reader;
 
 /// The numbers that are said of all bodies of a frame together.
 #[cfg(test)]
-pub(super) const HEAD: usize = 12;
+pub(super) const HEAD: usize = 13;
+/// The numbers that are said of one body over time.
+#[cfg(test)]
+pub(super) const BODY: usize = 15;
 /// The numbers of a body that say where it is.
 const POSE: usize = 7;
 /// The bytes of a number.
@@ -40,13 +43,14 @@ pub(super) fn poses(
 }
 
 /// Appends what is said of all bodies together: the time; kinetic, potential, total energy; the sum of the accounts; drift; linear
-/// momentum; angular momentum.
-pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance) {
+/// momentum; angular momentum; the number of impacts, which is not a number without contacts.
+pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
     let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
     put(bytes, &[time, *kinetic, *potential, *total]);
     put(bytes, &[accounts.total(), *drift]);
     put(bytes, &linear_momentum.to_array());
     put(bytes, &angular_momentum.to_array());
+    put(bytes, &[impacts]);
 }
 
 /// Appends numbers.

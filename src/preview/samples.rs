@@ -15,13 +15,16 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
     for frame in frames {
         // One body is read faster than all.
         let (moment, _) = reader.body(frame, 0)?;
-        put_balance(&mut all, moment.time, &moment.balance);
+        let impacts =
+            if run.scene.simulation.contacts.is_some() { moment.impacts.of_run() } else { f64::NAN };
+        put_balance(&mut all, moment.time, &moment.balance, impacts);
     }
     Ok(all)
 }
 
 /// Of a body in each frame: the time; its location, velocity, angular velocity, the force on it, 3 numbers each; its
-/// kinetic energy. Where it is not there, all but the time are not numbers.
+/// kinetic energy; the number of its impacts. Where it is not there, all but the time are not numbers, nor is the last without
+/// contacts.
 pub(super) fn of_body(
     run: &Simulation,
     body: usize,
@@ -32,14 +35,17 @@ pub(super) fn of_body(
     let mut reader = recording.read();
     for frame in frames {
         put(&mut all, &[run.scene.simulation.time(frame)]);
-        let Some(at) = reader.body(frame, body)?.1 else {
-            put(&mut all, &[f64::NAN; 13]);
+        let (moment, at) = reader.body(frame, body)?;
+        let Some(at) = at else {
+            put(&mut all, &[f64::NAN; 14]);
             continue;
         };
+        let counts_impacts = run.scene.simulation.contacts.is_some();
+        let impacts = if counts_impacts { moment.impacts.of_body(body) } else { f64::NAN };
         let vectors =
             [at.location, at.velocity, at.angular_velocity, at.force].map(|vector| vector.to_array());
         put(&mut all, vectors.as_flattened());
-        put(&mut all, &[kinetic(rigid, &at)]);
+        put(&mut all, &[kinetic(rigid, &at), impacts]);
     }
     Ok(all)
 }
@@ -58,7 +64,7 @@ fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
 mod tests {
     use std::sync::Arc;
 
-    use super::super::numbers::HEAD;
+    use super::super::numbers::{BODY, HEAD};
     use super::*;
     use crate::Scene;
     use crate::cache::Cache;
@@ -75,11 +81,32 @@ mod tests {
         let bytes = of_body(&run, 0, 0..11).unwrap();
         let numbers: Vec<f64> =
             bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
-        assert_eq!(numbers.len(), 11 * 14);
-        for (frame, of_frame) in numbers.chunks(14).enumerate() {
+        assert_eq!(numbers.len(), 11 * BODY);
+        for (frame, of_frame) in numbers.chunks(BODY).enumerate() {
             assert_eq!(of_frame[0], run.scene.simulation.time(frame));
-            assert_eq!(of_frame[1..].iter().all(|number| number.is_nan()), frame < 5, "{frame}");
+            assert_eq!(of_frame[1..14].iter().all(|number| number.is_nan()), frame < 5, "{frame}");
         }
+    }
+
+    /// The ball meets the ground once in 0.4 s: it falls 0.2 m in 0.202 s.
+    #[test]
+    fn impacts_are_counted_where_there_are_contacts() {
+        let text = "simulation = { duration = 0.4, gravity = [0, -9.81, 0], contacts = 'event-driven' }
+            [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 0.3, 0]\nrestitution = 1
+            [body.far]\nshape.sphere.radius = 0.1\nlocation = [1, 5, 0]\n";
+        let scene = Scene::parse(text).unwrap();
+        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        while run.outcome().is_none() {
+            std::thread::yield_now();
+        }
+        let last = |bytes: Vec<u8>, size: usize| -> Vec<f64> {
+            let numbers = bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap()));
+            numbers.skip(size - 1).step_by(size).collect()
+        };
+        let expected: Vec<f64> = (0..11).map(|frame| f64::from(u8::from(frame > 5))).collect();
+        assert_eq!(last(balance(&run, 0..11).unwrap(), HEAD), expected);
+        assert_eq!(last(of_body(&run, 0, 0..11).unwrap(), BODY), expected);
+        assert_eq!(last(of_body(&run, 1, 0..11).unwrap(), BODY), [0.0; 11]);
     }
 
     /// The energies of all bodies together are that of the run.
@@ -113,10 +140,11 @@ mod tests {
         };
         let whole = numbers(balance(&run, 0..11).unwrap());
         let [first, second] = [0, 1].map(|body| numbers(of_body(&run, body, 0..11).unwrap()));
-        assert_eq!((whole.len(), first.len()), (11 * HEAD, 11 * 14));
+        assert_eq!((whole.len(), first.len()), (11 * HEAD, 11 * BODY));
         for frame in 0..11 {
-            assert_eq!(whole[frame * HEAD], first[frame * 14]);
-            let (sum, kinetic) = (first[frame * 14 + 13] + second[frame * 14 + 13], whole[frame * HEAD + 1]);
+            assert_eq!(whole[frame * HEAD], first[frame * BODY]);
+            let (sum, kinetic) =
+                (first[frame * BODY + 13] + second[frame * BODY + 13], whole[frame * HEAD + 1]);
             assert!((sum - kinetic).abs() < 1e-12 * kinetic, "{sum} {kinetic}");
         }
     }

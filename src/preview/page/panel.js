@@ -37,9 +37,9 @@ export class Panel {
     if (!run || body === undefined || frame >= (run.progress?.recorded ?? 0)) return;
     this.frame = frame;
     const number = Math.floor(frame / BLOCK);
-    const at = 14 * (frame % BLOCK);
+    const at = 15 * (frame % BLOCK);
     const known = this.blocks.get(number);
-    if (!known || known.length < at + 14) {
+    if (!known || known.length < at + 15) {
       if (this.asking) return;
       this.asking = true;
       try {
@@ -49,10 +49,10 @@ export class Panel {
         if (error.status !== 404) console.warn(error.message);
       }
       this.asking = false;
-      if (this.blocks.get(number)?.length >= at + 14 || this.frame !== frame) this.show(this.frame);
+      if (this.blocks.get(number)?.length >= at + 15 || this.frame !== frame) this.show(this.frame);
       return;
     }
-    const n = known.subarray(at, at + 14);
+    const n = known.subarray(at, at + 15);
     const description = run.description.bodies[body];
     const three = (i) => Array.from(n.subarray(i, i + 3));
     // What is left of a component by rounding is nothing.
@@ -68,6 +68,7 @@ export class Panel {
       ["angular velocity", written(three(7), "rad/s")],
       ["force", written(three(10), "N")],
       ["kinetic energy", `${short(n[13])} J`],
+      ...(Number.isNaN(n[14]) ? [] : [["impacts", short(n[14])]]),
     ]);
   }
 

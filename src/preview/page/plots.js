@@ -6,17 +6,19 @@ import { short } from "./math.js";
 const POINTS = 4000;
 const INK = { first: "--kinetic", second: "--potential", third: "--total" };
 
-/** What can be plotted: from the 12 numbers of a balance, or the 14 of a body. */
+/** What can be plotted: from the 13 numbers of a balance, or the 15 of a body. */
 export const PLOTS = [
   { name: "Energy", unit: "J", of: "balance", curves: [["kinetic", INK.first, (n, i) => n[i + 1]], ["potential", INK.second, (n, i) => n[i + 2]], ["total", INK.third, (n, i) => n[i + 3]]] },
   { name: "Drift", unit: "J", of: "balance", curves: [["total − work", INK.third, (n, i) => n[i + 3] - n[i + 4]]] },
   { name: "Momentum", unit: "kg m/s", of: "balance", curves: vector(6) },
   { name: "Angular momentum", unit: "kg m²/s", of: "balance", curves: vector(9) },
+  { name: "Impacts", unit: "", of: "balance", curves: [["impacts", INK.first, (n, i) => n[i + 12]]] },
   { name: "Body: location", unit: "m", of: "body", curves: vector(1) },
   { name: "Body: velocity", unit: "m/s", of: "body", curves: vector(4) },
   { name: "Body: angular velocity", unit: "rad/s", of: "body", curves: vector(7) },
   { name: "Body: force", unit: "N", of: "body", curves: vector(10) },
   { name: "Body: kinetic energy", unit: "J", of: "body", curves: [["kinetic", INK.first, (n, i) => n[i + 13]]] },
+  { name: "Body: impacts", unit: "", of: "body", curves: [["impacts", INK.first, (n, i) => n[i + 14]]] },
 ];
 
 function vector(at) {
@@ -113,7 +115,7 @@ export class Plots {
     context.clearRect(0, 0, w, h);
     const style = getComputedStyle(document.documentElement);
     const ink = (name) => style.getPropertyValue(name).trim();
-    const stride = plot.of === "balance" ? 12 : 14;
+    const stride = plot.of === "balance" ? 13 : 15;
     const shown = this.runs.filter((each) => each.numbers?.length && each.of?.startsWith(plot.of));
     let [low, high] = [Infinity, -Infinity];
     for (const { numbers } of shown) {
@@ -184,7 +186,9 @@ export class Plots {
       term.textContent = name;
       term.style.color = `var(${color})`;
       const at = numbers ? nearest(numbers, stride, this.time ?? 0) : undefined;
-      what.textContent = at === undefined ? "–" : `${short(value(numbers, at))} ${plot.unit}`;
+      // Without contacts, nobody counts impacts.
+      const isKnown = at !== undefined && !Number.isNaN(value(numbers, at));
+      what.textContent = isKnown ? `${short(value(numbers, at))} ${plot.unit}` : "–";
       return [term, what];
     });
     this.legend.replaceChildren(...rows);

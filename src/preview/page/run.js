@@ -209,13 +209,13 @@ export class Run {
     all.forEach((shown, i) => this.shown.set(`${view} ${frame + i}`, shown));
   }
 
-  /** Energies and momenta over the run, with at most so many points: 12 numbers each. */
+  /** Energies and momenta over the run, with at most so many points: 13 numbers each. */
   async balance(points) {
     const every = Math.max(1, Math.ceil(this.frames / points));
     return new Float64Array(await binary(`/api/runs/${this.id}/balance`, { every }));
   }
 
-  /** How a body moves over some frames: 14 numbers each. */
+  /** How a body moves over some frames: 15 numbers each. */
   async series(body, from, to, every = 1) {
     return new Float64Array(await binary(`/api/runs/${this.id}/series`, { body, from, to, every }));
   }

@@ -265,20 +265,20 @@ impl Reader {
         Ok(Frame::of_entry(frame, self.entry()?.ok_or_else(damaged)?))
     }
 
-    /// One body in a frame, and what is said of all bodies together; none if the body is not there. It takes less time than to
-    /// read all, above all frame after frame.
+    /// A frame that knows one body only, and that body; none if it is not there. It takes less time than to read all, above all
+    /// frame after frame.
     ///
     /// # Errors
     /// Where the frame is not there, or cannot be read.
-    pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Snapshot, Option<BodySnapshot>)> {
+    pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Frame, Option<BodySnapshot>)> {
         if !self.seek_frame(frame) {
             return Err(damaged());
         }
         let found =
             self.advance(Some(body), |decoder, page| decoder.decode_one(page, body).map(|(entry, _)| entry))?;
-        let snapshot = found.ok_or_else(damaged)?.snapshot;
-        let body = snapshot.bodies.first().copied();
-        Ok((snapshot, body))
+        let seen = Frame::of_entry(frame, found.ok_or_else(damaged)?);
+        let body = seen.bodies.first().copied();
+        Ok((seen, body))
     }
 
     fn advance(
