@@ -15,8 +15,9 @@ const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
 /// The keys of a body that need contacts.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
 
-/// Bodies may begin so far below the ground, as a part of their size: their numbers have few digits. The dynamics sees to them.
-const BELOW: f64 = 1e-3;
+/// A body may begin so far below the ground, as a part of its largest coordinate and its size: that is rounding. The dynamics
+/// allows as much where bodies overlap.
+const BELOW: f64 = 1e-9;
 
 /// What stops bodies where they touch, if anything does.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
@@ -179,7 +180,7 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
             continue;
         };
         let lowest = body.start.location.y - reach;
-        if height - lowest <= BELOW * reach.abs() {
+        if height - lowest <= BELOW * (body.start.location.abs().max_element() + reach.abs()) {
             continue;
         }
         let before = context.diagnostics.len();
