@@ -2,14 +2,16 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::{Asking, NotDrawn, Why, number};
+use crate::scene::Quantity;
 
 /// That something is asked for and not drawn: what, from when on, why, and what to write.
 pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     let NotDrawn { what, name, why, others } = missing;
     let (what, key) = match what {
         Asking::Arrow(quantity) => {
-            let quantity = quantity.name();
-            (format!("the arrow for the {quantity} of `{name}`"), format!("arrows.{quantity}.scale"))
+            let words = if *quantity == Quantity::Normal { "normal force" } else { quantity.name() };
+            let key = if matches!(missing.why, Why::Untouched) { "" } else { ".scale" };
+            (format!("the arrow for the {words} of `{name}`"), format!("arrows.{}{key}", quantity.name()))
         }
         Asking::Axes => (format!("the axes of `{name}`"), "axes.length".to_owned()),
         Asking::Trail => (format!("the trail of `{name}`"), "trail.width".to_owned()),
@@ -43,6 +45,7 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
                 None,
             )
         }
+        Why::Untouched => (format!("{what} {are} not drawn{others}: nothing touches the body"), None),
         Why::Still => (format!("{what} {are} not drawn{others}: the body stays where it is"), None),
         Why::Gone => {
             (format!("{what} {are} not drawn{others}: the body is gone before the first of them"), None)

@@ -11,7 +11,12 @@ fn said(keys: &str) -> Vec<String> {
         [camera]\nlocation = [0, 0, 10]\nlook_at = [0, 0, 0]
         {keys}"
     );
-    let scene = Scene::parse(&text).unwrap();
+    said_of(&text)
+}
+
+/// What is said of a scene, each message with its help.
+fn said_of(text: &str) -> Vec<String> {
+    let scene = Scene::parse(text).unwrap();
     let run = Run::new(&scene).unwrap();
     // Whatever is left out, every frame has its script.
     for frame in run.frames() {
@@ -131,4 +136,22 @@ fn ghosts_of_what_stays_where_it_is() {
     assert_eq!(said(&turning), [""; 0]);
     // What is fixed has none, and needs none.
     assert_eq!(said(&format!("{ball}fixed = true")), [""; 0]);
+}
+
+#[test]
+fn arrows_for_what_never_touches_a_body() {
+    let keys = |arrows: &str| {
+        format!(
+            "simulation = {{ duration = 1, gravity = [0, -10, 0], contacts = 'event-driven', integrator = 'rk4' }}
+            environment.ground.height = -20\n[camera]\nlocation = [0, 0, 10]\nlook_at = [0, 0, 0]
+            [body.ball]\nshape.sphere.radius = 0.5\nmass = 1\narrows = {{ {arrows} }}"
+        )
+    };
+    let untouched = "the arrow for the normal force of `ball` is not drawn: nothing touches the body: \
+                     leave `arrows.normal` out";
+    assert_eq!(said_of(&keys("weight = true, normal = true")), [untouched]);
+    let small = "the arrow for the weight of `ball` is not seen: at most 0.0141 pixels long: \
+                 write `arrows.weight.scale = 0.02`, or leave `arrows.weight.scale` out";
+    assert_eq!(said_of(&keys("weight.scale = 2e-6")), [small]);
+    assert_eq!(said_of(&keys("weight.scale = 0.02")), [""; 0]);
 }

@@ -5,9 +5,9 @@ use glam::{DQuat, DVec3};
 use super::beside;
 use super::camera::Placed;
 use super::in_front::lift_from_body;
-use crate::dynamics::{BodyId, BodySnapshot};
+use crate::dynamics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, Body, Color, Quantity, Scene};
-use crate::simulate::{Frame, JointEnd, Load, axis, loads, root, shown};
+use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 
 /// The colors of arrows, in the order of their quantities: those of no usual body, and far apart for any eye.
 const COLORS: [Color; Quantity::COLORS] = [
@@ -177,8 +177,11 @@ impl Arrows {
             })
         });
         let of_joints = of_joints.collect();
-        let shows_loads = |body: &Body| body.showing.loads.iter().any(Option::is_some);
-        let of_loads = scene.bodies.iter().any(shows_loads).then(|| (Box::new(scene.clone()), colors));
+        let of_loads = scene
+            .bodies
+            .iter()
+            .any(|body| body.showing.has_loads())
+            .then(|| (Box::new(scene.clone()), colors));
         Arrows { bodies, arrows, of_joints, of_loads, longest }
     }
 
@@ -198,7 +201,7 @@ impl Arrows {
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
         let mut arrows: Vec<Arrow> =
             of_one.flat_map(|(its, at)| self.of_body(its, at, sizes, camera)).collect();
-        arrows.extend(self.loads(frame, sizes, camera));
+        arrows.extend(self.loads((&frame.bodies, &frame.contacts), sizes, camera));
         arrows.extend(self.of_joints.iter().filter_map(|arrow| {
             let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
             let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.quantity.number()]);
@@ -216,7 +219,12 @@ impl Arrows {
     }
 
     /// The arrows for weight and contacts, in front of their bodies: they begin inside or at the far side.
-    fn loads(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+    fn loads(
+        &self,
+        (bodies, contacts): (&[BodySnapshot], &[ContactSnapshot]),
+        sizes: ArrowSizes,
+        camera: &Placed,
+    ) -> Vec<Arrow> {
         let Some((scene, colors)) = &self.of_loads else { return Vec::new() };
         let arrow = |load: &Load| {
             let Load { body, quantity, root: from, vector, .. } = *load;
@@ -225,10 +233,10 @@ impl Arrows {
             let mut arrow =
                 Arrow { bearer: Bearer::Body(body), quantity, from, to, radius: sizes.radius, color };
             let seen = is_seen(from, to, sizes);
-            lift_from_body(&mut arrow, &scene.bodies[body], frame.body(body)?, camera);
+            lift_from_body(&mut arrow, &scene.bodies[body], find(bodies, body)?, camera);
             seen.then_some(arrow)
         };
-        loads(scene, frame).iter().filter_map(arrow).collect()
+        loads_on(scene, bodies, contacts).iter().filter_map(arrow).collect()
     }
 
     /// The axes of a frame.
@@ -241,15 +249,18 @@ impl Arrows {
     }
 
     /// The arrows of a body as it was, if its ghosts have any, as a camera sees them.
-    pub(super) fn of_ghost(&self, ghost: &BodySnapshot, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
-        let Ok(of) = self.bodies.binary_search_by_key(&ghost.id, |(number, _)| *number) else {
+    pub(super) fn of_ghost(&self, ghost: &Ghost, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
+        let Ghost { body: at, contacts, .. } = ghost;
+        let Ok(of) = self.bodies.binary_search_by_key(&at.id, |(number, _)| *number) else {
             return Vec::new();
         };
         if !self.bodies[of].1.showing.ghosts.is_some_and(|ghosts| ghosts.arrows) {
             return Vec::new();
         }
         let [first, end] = [of, of + 1].map(|of| self.arrows.partition_point(|arrow| arrow.of < of));
-        self.of_body(&self.arrows[first..end], ghost, sizes, camera)
+        let mut arrows = self.of_body(&self.arrows[first..end], at, sizes, camera);
+        arrows.extend(self.loads((&[*at], contacts), sizes, camera));
+        arrows
     }
 
     /// The arrows of one body, side by side where they point the same way.

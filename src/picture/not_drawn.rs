@@ -69,6 +69,8 @@ pub enum Why {
         /// The width.
         width: f64,
     },
+    /// Nothing touches the body.
+    Untouched,
     /// The body stays where it is, or nearly so.
     Still,
     /// The body is gone before the first of its ghosts.
@@ -108,6 +110,21 @@ pub(super) fn find(
         let why = match (arrow.lost, scale, fit) {
             (Some(time), ..) => Why::Lost { time, fit },
             (None, Some(scale), Some(fit)) if arrow.longest * scale < SHORTEST * pixel => {
+                Why::TooSmall { pixels: arrow.longest * scale / pixel, fit }
+            }
+            _ => continue,
+        };
+        found.add(Asking::Arrow(arrow.quantity), &body.name, why);
+    }
+    for arrow in &survey.asked.loads {
+        let body = &scene.bodies[arrow.body];
+        let kind = Quantity::OF_LOADS.iter().position(|quantity| *quantity == arrow.quantity);
+        let scale = kind.and_then(|kind| body.showing.loads[kind]?.scale);
+        let why = match scale {
+            // Friction may be zero where something touches the body; the normal force is zero only where nothing does.
+            _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Why::Untouched,
+            Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < SHORTEST * pixel => {
+                let fit = round_down(LONGEST * view / arrow.longest);
                 Why::TooSmall { pixels: arrow.longest * scale / pixel, fit }
             }
             _ => continue,

@@ -170,7 +170,7 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
     let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
     let height = |y: Vertical| y.above_middle(aspect);
     let mut arrows = plan.arrows_in_front(frame);
-    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows_in_front(frame, &ghost.body)));
+    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows_in_front(frame, ghost)));
     let arrow = |arrow: &picture::Arrow| Arrow {
         from: arrow.from.to_array(),
         to: arrow.to.to_array(),
@@ -263,8 +263,8 @@ mod tests {
         let frame = Frames::at(&scene, 1.0).unwrap();
         let ghosts: Vec<_> = plan.ghosts(&frame).collect();
         assert_eq!(ghosts.len(), 2);
-        let hidden = plan.ghost_arrows(&frame, &ghosts[0].body);
-        let seen = plan.ghost_arrows_in_front(&frame, &ghosts[0].body);
+        let hidden = plan.ghost_arrows(&frame, ghosts[0]);
+        let seen = plan.ghost_arrows_in_front(&frame, ghosts[0]);
         assert_ne!(hidden, seen, "it points into the ground");
         let arrows: Vec<Vector> = shown(&scene, &plan, &frame).arrows.iter().map(|arrow| arrow.to).collect();
         assert!(arrows.contains(&seen[0].to.to_array()), "{arrows:?}");

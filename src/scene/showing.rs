@@ -24,6 +24,11 @@ impl Showing {
     pub fn has_arrows(&self) -> bool {
         self.arrows.iter().chain(&self.loads).any(Option::is_some)
     }
+
+    /// Whether it has arrows for its weight or for what touches it.
+    pub fn has_loads(&self) -> bool {
+        self.loads.iter().any(Option::is_some)
+    }
 }
 
 /// A vector of a body or of a joint that an arrow can show.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::vectors::{root, shown, surface};
-use super::{Frame, Moments};
+use super::{Frame, Load, Moments};
 use crate::dynamics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
@@ -12,6 +12,8 @@ use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 pub struct Asked {
     /// The arrows, in the order of their bodies and of [`Quantity::OF_BODIES`].
     pub arrows: Vec<AskedArrow>,
+    /// The arrows for weight and contacts, in the order of their bodies and of [`Quantity::OF_LOADS`].
+    pub loads: Vec<AskedArrow>,
     /// The trails, in the order of their bodies.
     pub trails: Vec<AskedTrail>,
     /// The ghosts, in the order of their bodies.
@@ -113,6 +115,10 @@ impl Asked {
                 let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
                 asked.arrows.extend(arrow);
             }
+            for (quantity, arrow) in Quantity::OF_LOADS.into_iter().zip(body.showing.loads) {
+                let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
+                asked.loads.extend(arrow);
+            }
             let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin: None, way: 0.0 });
             asked.trails.extend(trail);
             asked.ghosts.extend(body.showing.ghosts.map(|ghosts| AskedGhosts {
@@ -142,8 +148,12 @@ impl Asked {
         asked
     }
 
-    /// Looks at the next frame of the run.
-    pub(super) fn see(&mut self, scene: &Scene, frame: &Frame) {
+    /// Looks at the next frame of the run, and the loads on its bodies.
+    pub(super) fn see(&mut self, scene: &Scene, frame: &Frame, loads: &[Load]) {
+        for arrow in &mut self.loads {
+            let its = loads.iter().filter(|load| (load.body, load.quantity) == (arrow.body, arrow.quantity));
+            arrow.longest = its.map(|load| load.vector.length()).fold(arrow.longest, f64::max);
+        }
         for arrow in &mut self.arrows {
             let Some(body) = frame.body(arrow.body) else { continue };
             arrow.see(&scene.bodies[arrow.body], body, frame.time);

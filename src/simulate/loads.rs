@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Frame;
+use crate::dynamics::{BodySnapshot, ContactSnapshot};
 use crate::scene::{Arrow, Quantity, Scene};
 
 /// A force on a body that an arrow shows: its weight, or what another body does to it.
@@ -36,10 +37,14 @@ struct Touch {
 /// The loads of a frame that a scene shows, in the order of the bodies. Where two bodies touch at several places, there is one arrow
 /// for all of them, at their centre of pressure.
 pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
-    let asks =
-        |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.loads.iter().any(Option::is_some));
+    loads_on(scene, &frame.bodies, &frame.contacts)
+}
+
+/// The loads on some bodies, of all contacts of these.
+pub fn loads_on(scene: &Scene, bodies: &[BodySnapshot], contacts: &[ContactSnapshot]) -> Vec<Load> {
+    let asks = |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.has_loads());
     let mut touches: BTreeMap<(usize, usize), Touch> = BTreeMap::new();
-    for contact in &frame.contacts {
+    for contact in contacts {
         let [one, two] = contact.bodies;
         for (body, other, sign) in [(one, two, -1.0), (two, one, 1.0)] {
             if asks(body) {
@@ -53,7 +58,7 @@ pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
         }
     }
     let mut loads = Vec::new();
-    for at in frame.bodies.iter().filter(|at| asks(at.id)) {
+    for at in bodies.iter().filter(|at| asks(at.id)) {
         let body = &scene.bodies[at.id];
         let mut add = |quantity: Quantity, arrow: Option<Arrow>, root: DVec3, vector: DVec3| {
             loads.extend(arrow.map(|arrow| Load { body: at.id, quantity, arrow, root, vector }));
@@ -74,7 +79,7 @@ pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::{BodySnapshot, ContactSnapshot, Snapshot};
+    use crate::dynamics::Snapshot;
 
     #[test]
     fn several_places_of_one_contact_make_one_arrow_at_the_centre_of_pressure() {

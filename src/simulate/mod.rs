@@ -48,7 +48,7 @@ pub use frames::{Frames, within};
 pub use impacts::ImpactCounts;
 pub use labour::Labour;
 pub use lag::Lagging;
-pub use loads::{Load, loads};
+pub use loads::{Load, loads, loads_on};
 pub use moments::Moments;
 pub use overlap::Overlap;
 pub use past::{Ghost, Passed, Past, Way};

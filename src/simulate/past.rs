@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Frame, Lagging, Moments};
-use crate::dynamics::{BodySnapshot, Snapshot};
+use crate::dynamics::{BodySnapshot, ContactSnapshot, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
 /// The most points of a trail; where frames are more, every second, fourth, … is kept.
@@ -56,6 +56,8 @@ pub struct Ghost {
     pub time: f64,
     /// How it was.
     pub body: BodySnapshot,
+    /// Where it touched others, if its ghosts show the forces there.
+    pub contacts: Vec<ContactSnapshot>,
 }
 
 impl Passed {
@@ -132,7 +134,16 @@ impl History {
             }
         }
         due.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let ghost = |(time, body): (f64, usize)| Some(Arc::new(Ghost { time, body: *moment.body(body)? }));
+        let contacts = |body: usize| {
+            let shows = |(id, showing): &(usize, Showing)| {
+                *id == body && showing.ghosts.is_some_and(|ghosts| ghosts.arrows) && showing.has_loads()
+            };
+            let touches = moment.contacts.iter().filter(|contact| contact.bodies.contains(&body)).copied();
+            if self.asks.iter().any(shows) { touches.collect() } else { Vec::new() }
+        };
+        let ghost = |(time, body): (f64, usize)| {
+            Some(Arc::new(Ghost { time, body: *moment.body(body)?, contacts: contacts(body) }))
+        };
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
 

@@ -56,6 +56,15 @@ pub struct ContactTotals {
     pub rubbed: f64,
 }
 
+impl ContactTotals {
+    /// The same, where amounts that are rounding of the largest kinetic energy (J) are 0.
+    fn rounded(self, largest_kinetic: f64) -> ContactTotals {
+        const ROUNDING: f64 = 1e-11;
+        let round = |taken: f64| if taken.abs() <= ROUNDING * largest_kinetic { 0.0 } else { taken };
+        ContactTotals { lost: round(self.lost), rubbed: round(self.rubbed), ..self }
+    }
+}
+
 /// Simulates a scene to learn where it takes place; `seen` is told of every frame.
 ///
 /// # Errors
@@ -135,14 +144,15 @@ impl<'a> Surveyor<'a> {
         if frame.index == 0 {
             self.corrected = Corrected::find(scene, frame);
         }
-        self.asked.see(scene, frame);
+        let loads = super::loads(scene, frame);
+        self.asked.see(scene, frame, &loads);
         // A body that has gone through a plane is behind the scenery: the camera need not follow it.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
         let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
             let (root, vector) = end.arrow(*quantity, frame)?;
             Some(JointArrow { quantity: *quantity, scale: *scale, root, vector })
         });
-        let loads = super::loads(scene, frame).into_iter().map(|load| JointArrow {
+        let loads = loads.into_iter().map(|load| JointArrow {
             quantity: load.quantity,
             scale: load.arrow.scale,
             root: load.root,
@@ -184,7 +194,7 @@ impl<'a> Surveyor<'a> {
             overlap: overlaps.finish(),
             corrected,
             asked,
-            contacts,
+            contacts: contacts.map(|contacts| contacts.rounded(largest_kinetic)),
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,

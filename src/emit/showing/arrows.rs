@@ -3,9 +3,8 @@
 use super::super::{sdl::Style, text};
 use super::Names;
 use super::color;
-use crate::dynamics::BodySnapshot;
 use crate::picture::{Arrow, Axes, Bearer, Plan};
-use crate::simulate::Frame;
+use crate::simulate::{Frame, Ghost};
 
 /// Appends the arrows and axes of all bodies and joints, whose names are given; those of a body stand together.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'_>, style: Style) {
@@ -25,7 +24,7 @@ pub(super) fn write_ghost(
     out: &mut String,
     plan: &Plan,
     frame: &Frame,
-    ghost: &BodySnapshot,
+    ghost: &Ghost,
     names: Names<'_>,
     style: Style,
 ) {

@@ -104,7 +104,7 @@ impl Showing {
         links::write(out, plan, frame, style);
         self.ghosts.write(out, plan, frame);
         for ghost in plan.ghosts(frame) {
-            arrows::write_ghost(out, plan, frame, &ghost.body, its, style);
+            arrows::write_ghost(out, plan, frame, ghost, its, style);
         }
         self.trails.write(out, plan, frame, names);
         arrows::write(out, plan, frame, its, style);

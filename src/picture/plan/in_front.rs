@@ -1,10 +1,9 @@
 //! Arrows in front of what would hide them.
 
 use super::Plan;
-use crate::dynamics::BodySnapshot;
 use crate::picture::arrows::{Arrow, Bearer};
 use crate::picture::in_front::lift_from_link;
-use crate::simulate::Frame;
+use crate::simulate::{Frame, Ghost};
 
 impl Plan {
     /// The arrows of a frame; those that the ground or a spring would hide are nearer to the camera, which sees them as they
@@ -28,7 +27,7 @@ impl Plan {
     }
 
     /// The arrows of a body as it was, in front of the ground.
-    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &BodySnapshot) -> Vec<Arrow> {
+    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         let mut arrows = self.ghost_arrows(frame, ghost);
         let camera = self.eye.at(frame);
         arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));

@@ -22,7 +22,6 @@ use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
@@ -245,7 +244,7 @@ impl Plan {
     }
 
     /// The arrows of a body as it was, in the picture of a frame, if its ghosts have any.
-    pub fn ghost_arrows(&self, frame: &Frame, ghost: &BodySnapshot) -> Vec<Arrow> {
+    pub fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
@@ -350,6 +349,8 @@ fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> O
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
     use crate::picture::Bearer;
     use crate::simulate::{Frames, survey};
@@ -389,13 +390,35 @@ mod tests {
         assert!((1.0..5.0).contains(&plan.stage().size));
     }
 
+    /// A ghost keeps the forces of its own time.
+    #[test]
+    fn ghosts_have_the_arrows_of_what_touched_them() {
+        let text = "[simulation]\nduration = 0.5\ngravity = [0, -10, 0]\ncontacts = 'event-driven'
+            integrator = 'rk4'\n[body.block]\nshape.box.size = [1, 1, 1]\nmass = 2\nlocation = [0, 0.5, 0]
+            velocity = [4, 0, 0]\nfriction = 0.2\nghosts = { every = 0.2, arrows = true }
+            arrows = { normal.scale = 0.1, friction.scale = 0.1 }";
+        let scene = Scene::parse(text).unwrap();
+        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+        let frame = Frames::at(&scene, 0.48).unwrap();
+        let ghosts: Vec<_> = plan.ghosts(&frame).filter(|ghost| ghost.time > 0.1).collect();
+        assert_eq!(ghosts.len(), 2);
+        for ghost in ghosts {
+            let [normal, friction] = plan.ghost_arrows(&frame, ghost)[..] else {
+                panic!("two are asked for")
+            };
+            let along = |arrow: Arrow| (arrow.to - arrow.from).normalize();
+            assert!(along(normal).dot(DVec3::Y) > 0.99, "{normal:?}");
+            assert!(along(friction).dot(DVec3::X) < -0.99, "{friction:?}");
+        }
+    }
+
     #[test]
     fn ghosts_have_their_arrows_and_are_not_where_their_body_is() {
         let (plan, frame) = plan("arrows.velocity = true\nghosts.every = 0.25");
         let ghosts: Vec<f64> = plan.ghosts(&frame).map(|ghost| ghost.time).collect();
         assert_eq!(ghosts, [0.0, 0.25]);
         for ghost in plan.ghosts(&frame) {
-            let [arrow] = plan.ghost_arrows(&frame, &ghost.body)[..] else { panic!("they have arrows") };
+            let [arrow] = plan.ghost_arrows(&frame, ghost)[..] else { panic!("they have arrows") };
             assert!(arrow.from.distance(ghost.body.location) < 0.1 + 1e-9);
         }
     }

@@ -71,7 +71,7 @@ impl Plan {
     /// and joints.
     fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let mut arrows = self.arrows(frame);
-        arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, &ghost.body)));
+        arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, ghost)));
         let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
         let axes = self.axes(frame).into_iter().flat_map(|axes| {
             let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
