@@ -1,4 +1,4 @@
-//! Contacts from the scene to what is drawn and written, with impacts that are made up: how bodies bounce is not asked here.
+//! Contacts from the scene to what is drawn and written, most with impacts that are made up; how bodies bounce is asked in tests/physics.
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
 mod support;
@@ -170,4 +170,25 @@ fn arrows_show_weight_from_the_centre_in_front_of_the_body() {
     assert!(line.starts_with("Arrow(<0, 5, 1."), "in front of the ball, which reaches to z = 1: {line}");
     assert!(script.contains("#macro Arrow("), "{script}");
     assert!(!script.contains("// a, normal"), "nothing touches it");
+}
+
+/// The blocks of the scene, from the command line: so many digits of π.
+#[test]
+fn the_scene_spells_pi_for_every_ratio() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/pi_by_collisions.toml");
+    for (ratio, count) in
+        [("1", 3), ("100", 31), ("1e4", 314), ("1e6", 3141), ("1e8", 31415), ("1e10", 314_159)]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let ratio = format!("variables.ratio={ratio}");
+        let mut command = jabuka();
+        command.args(["compile", scene, "--frames", "125", "--no-cache", "--set", &ratio, "-o"]);
+        let output = command.arg(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let said = stdout(&output);
+        assert!(
+            said.contains(&format!("impacts   {count}, which took 0 J; friction took 0 J")),
+            "{ratio}: {said}"
+        );
+    }
 }

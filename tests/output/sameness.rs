@@ -28,6 +28,35 @@ fn any_run_any_number_of_threads() {
     }
 }
 
+/// Impacts, friction and rest, with ghosts and open shutters between the frames.
+#[test]
+fn contacts_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let seen = "[camera]\nshutter = 0.01\nsamples = 3\n";
+    for name in ["billiard_break", "incline", "newtons_cradle"] {
+        let text = fs::read_to_string(scene(name)).unwrap();
+        let text = text.replacen("[camera]\n", seen, 1).replacen(
+            "[body.ball]\n",
+            "[body.ball]\nghosts.every = 0.03\n",
+            1,
+        );
+        let path = folder.path().join(format!("{name}.toml"));
+        fs::write(&path, text).unwrap();
+        let compile_with = |threads: &str| {
+            let out = folder.path().join(format!("{name}-{threads}"));
+            let mut command = jabuka();
+            command.env("RAYON_NUM_THREADS", threads).arg("compile").arg(&path).arg("-o").arg(&out);
+            let output = command.args(["--set", "simulation.duration=1"]).output().unwrap();
+            assert!(output.status.success(), "{output:?}");
+            contents(&out)
+        };
+        let one = compile_with("1");
+        for threads in ["2", "8"] {
+            assert!(one == compile_with(threads), "{name}: {threads} threads give other bytes than one");
+        }
+    }
+}
+
 #[test]
 fn any_folder_user_and_locale() {
     let here = tempfile::tempdir().unwrap();

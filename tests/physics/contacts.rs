@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, BodyId, Contacts, Dynamics, Method, RigidBody, Rod, Shape, Surface, UniformGravity, World,
+    Anchor, BodyId, Contacts, Dynamics, METHODS, Method, RigidBody, Rod, Shape, Surface, UniformGravity,
+    World,
 };
 
 use crate::common::method;
@@ -46,11 +47,17 @@ impl Table {
     }
 
     pub(crate) fn build(mut self) -> World {
+        let surfaces = std::mem::take(&mut self.surfaces);
+        let mut world = self.build_without_contacts();
+        world.collide(Contacts { surfaces, apart: BTreeSet::new() });
+        world
+    }
+
+    fn build_without_contacts(mut self) -> World {
         self.world.add_shapes(self.shapes);
         if self.gravity {
             self.world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
         }
-        self.world.collide(Contacts { surfaces: self.surfaces, apart: BTreeSet::new() });
         self.world
     }
 }
@@ -333,4 +340,74 @@ fn a_billiard_break_can_be_reversed() {
         (after.linear_momentum - before.linear_momentum).length() < 1e-12 * before.linear_momentum.length()
     );
     assert!((after.total - before.total).abs() < 1e-10 * before.total);
+}
+
+/// Bodies that are far apart: a box that tumbles freely, and a double pendulum. Whether they could touch changes no digit.
+#[test]
+fn contacts_that_nobody_makes_change_no_digit() {
+    for method in METHODS.iter().filter(|method| method.constraints) {
+        let run = |touches: bool| {
+            let mut table = Table::new(method, true);
+            table.floor(surface(1.0, 0.5));
+            let size = DVec3::new(0.3, 0.1, 0.2);
+            table.add(Shape::Box { size }, 2.0, surface(0.5, 0.5), |body| {
+                body.with_location(DVec3::new(-5.0, 50.0, 0.0))
+                    .with_angular_velocity(DVec3::new(0.1, 5.0, 0.2))
+            });
+            let mut bob = |x: f64| {
+                let at = DVec3::new(x, 20.0, 0.0);
+                table
+                    .add(Shape::Sphere { radius: 0.1 }, 1.0, surface(1.0, 0.0), |body| body.with_location(at))
+            };
+            let [upper, lower] = [1.0, 2.0].map(&mut bob);
+            let mut world = if touches { table.build() } else { table.build_without_contacts() };
+            let hook = Anchor::Point(DVec3::Y * 20.0);
+            world.add_constraint(Rod { between: [hook, Anchor::centre(upper)], length: 1.0 });
+            world
+                .add_constraint(Rod { between: [Anchor::centre(upper), Anchor::centre(lower)], length: 1.0 });
+            (1..=50).for_each(|frame| advance(&mut world, f64::from(frame) / 25.0));
+            world.state().clone()
+        };
+        assert!(run(true) == run(false), "{}", method.name);
+    }
+}
+
+/// A ball that slides and then rolls, and a block that slides; somebody looks at moments within steps, or
+/// asks for balances and forces. It ends with the same bits.
+#[test]
+fn looking_at_contacts_changes_no_bit() {
+    for method in exact() {
+        let run = |looks: bool| {
+            let mut table = Table::new(method, true);
+            table.floor(Surface::default());
+            table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.3, 0.2), |body| {
+                let spin = DVec3::new(3.0, 20.0, 40.0);
+                body.with_location(DVec3::Y * 0.4)
+                    .with_velocity(DVec3::new(3.0, 0.0, 1.0))
+                    .with_angular_velocity(spin)
+            });
+            table.add(Shape::Box { size: DVec3::new(0.4, 0.2, 0.3) }, 1.0, surface(0.0, 0.2), |body| {
+                body.with_location(DVec3::new(9.0, 0.1, 0.0)).with_velocity(DVec3::new(1.7, 0.0, 0.9))
+            });
+            let mut world = table.build();
+            for frame in 1..=40 {
+                let time = |part: f64| (f64::from(frame) - 1.0 + part) / 25.0;
+                let moments: Vec<f64> =
+                    if looks { vec![time(0.1), time(0.37), time(0.371)] } else { Vec::new() };
+                let mut seen = 0;
+                world.advance(time(1.0), &moments, &mut |_| seen += 1).unwrap();
+                assert_eq!(seen, moments.len());
+                if looks {
+                    world.snapshot().unwrap();
+                    world.balance();
+                    world.forces();
+                    let mut branch = world.clone();
+                    branch.advance(time(1.3), &[], &mut |_| {}).unwrap();
+                }
+            }
+            world.state().clone()
+        };
+        let [alone, watched] = [false, true].map(run);
+        assert!(alone == watched, "{}: {:?} {:?}", method.name, alone.location, watched.location);
+    }
 }
