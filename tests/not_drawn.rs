@@ -150,8 +150,8 @@ fn arrows_for_what_never_touches_a_body() {
     let untouched = "the arrow for the normal force of `ball` is not drawn: nothing touches the body: \
                      leave `arrows.normal` out";
     assert_eq!(said_of(&keys("weight = true, normal = true")), [untouched]);
-    let small = "the arrow for the weight of `ball` is not seen: at most 0.0141 pixels long: \
-                 write `arrows.weight.scale = 0.02`, or leave `arrows.weight.scale` out";
+    let small = "the arrow for the weight of `ball` is not seen: at most 0.00352 pixels long: \
+                 write `arrows.weight.scale = 0.08`, or leave `arrows.weight.scale` out";
     assert_eq!(said_of(&keys("weight.scale = 2e-6")), [small]);
     assert_eq!(said_of(&keys("weight.scale = 0.02")), [""; 0]);
 }

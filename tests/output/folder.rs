@@ -172,7 +172,7 @@ fn a_run_that_jams_keeps_the_frames_before() {
     let names = |folder: &Path| -> Vec<String> {
         let files =
             fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
-        let mut names: Vec<String> = files.filter(|name| name.ends_with(".pov")).collect();
+        let mut names: Vec<String> = files.filter(|name| name.starts_with("frame_")).collect();
         names.sort();
         names
     };

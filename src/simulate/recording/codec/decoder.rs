@@ -67,14 +67,7 @@ impl Decoder {
                 values = take_changed(values, mask, &JOINT_COLUMNS, last)?;
             }
         }
-        let (runs, mut values) = counts;
-        let mut next = 0;
-        for (mask, count) in runs {
-            for last in self.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
-                values = take_changed(values, mask, &COUNT_COLUMNS, std::slice::from_mut(last))?;
-            }
-            next += count;
-        }
+        self.take_counts(counts)?;
         let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
             force: DVec3::new(n[0], n[1], n[2]),
             torque: DVec3::new(n[3], n[4], n[5]),
@@ -86,10 +79,21 @@ impl Decoder {
         Ok(entry)
     }
 
-    /// Passes the next moment, and keeps only what is of one body; whether it is there. What is known of others, of joints and
+    fn take_counts(&mut self, (runs, mut values): (Vec<Run>, &[u8])) -> io::Result<()> {
+        let mut next = 0;
+        for (mask, count) in runs {
+            for last in self.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
+                values = take_changed(values, mask, &COUNT_COLUMNS, std::slice::from_mut(last))?;
+            }
+            next += count;
+        }
+        Ok(())
+    }
+
+    /// Passes the next moment, and keeps only what is of one body, and the counts of impacts; whether the body is there. What is known of others, of joints and
     /// of contacts is lost.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
-        let Parts { head, bodies: (runs, mut values), .. } =
+        let Parts { head, bodies: (runs, mut values), counts, .. } =
             parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
@@ -104,7 +108,10 @@ impl Decoder {
             id += count;
         }
         let body = if found { vec![body_of(wanted, &self.last[wanted])] } else { Vec::new() };
-        Ok((head.entry(body, Vec::new()), found))
+        self.take_counts(counts)?;
+        let mut entry = head.entry(body, Vec::new());
+        entry.counts = ImpactCounts(self.impacts.clone());
+        Ok((entry, found))
     }
 }
 
