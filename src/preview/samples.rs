@@ -91,7 +91,7 @@ mod tests {
     /// The ball meets the ground once in 0.4 s: it falls 0.2 m in 0.202 s.
     #[test]
     fn impacts_are_counted_where_there_are_contacts() {
-        let text = "simulation = { duration = 0.4, gravity = [0, -9.81, 0], contacts = 'event-driven' }
+        let text = "simulation = { duration = 0.4, gravity = [0, -9.81, 0], contacts = 'event-driven', integrator = 'rk4' }
             [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 0.3, 0]\nrestitution = 1
             [body.far]\nshape.sphere.radius = 0.1\nlocation = [1, 5, 0]\n";
         let scene = Scene::parse(text).unwrap();

@@ -26,7 +26,7 @@ fn log() -> Support {
 
 /// A body of mass 1 at rest near the top of a fixed support. The support is the first or the second body.
 #[allow(clippy::unwrap_used, reason = "only tests call it")]
-fn near_the_top(support: &Support, shape: Shape, friction: f64, is_first: bool) -> (World, BodyId) {
+fn near_the_top(support: &Support, shape: &Shape, friction: f64, is_first: bool) -> (World, BodyId) {
     let mut table = Table::new(method("rk4"), true);
     let (under, radius, turn) = support;
     let mut body = None;
@@ -61,7 +61,7 @@ fn forces_on_curved_supports_are_those_of_theory() {
         (log(), &log_of_ball, 2.0, 0.5),
     ] {
         for is_first in [true, false] {
-            let (mut world, body) = near_the_top(&support, shape.clone(), friction, is_first);
+            let (mut world, body) = near_the_top(&support, shape, friction, is_first);
             let way = support.1 + RADIUS;
             for t in [0.2, 0.4] {
                 advance(&mut world, t);
@@ -84,7 +84,7 @@ fn forces_on_curved_supports_are_those_of_theory() {
 /// What slides without friction leaves a sphere at cos θ = ⅔ cos θ₀. From then on, its horizontal velocity stays.
 #[test]
 fn a_ball_leaves_a_sphere_where_it_has_to() {
-    let (mut world, ball) = near_the_top(&sphere(), Shape::Sphere { radius: RADIUS }, 0.0, true);
+    let (mut world, ball) = near_the_top(&sphere(), &Shape::Sphere { radius: RADIUS }, 0.0, true);
     advance(&mut world, 1.0);
     assert!(world.snapshot().unwrap().contacts.is_empty());
     let cos = 2.0 / 3.0 * libm::cos(START);

@@ -62,8 +62,8 @@ fn the_tippe_top_keeps_the_integral_of_jellett_and_turns_over() {
     // In units of the radius, of the mass of its ball, and of the larger moment of inertia.
     let (stem, high) = (0.15_f64, 0.9);
     let ball = 4.0 / 3.0 * PI;
-    let stem = (PI * stem * stem * (high - 2.0 * stem) + ball * stem.powi(3)) / ball;
-    let heavy = 2.0 * 0.7_f64.powi(3);
+    let stem = (PI * stem * stem * (high - 2.0 * stem) + ball * (stem * stem * stem)) / ball;
+    let heavy = 2.0 * (0.7 * 0.7 * 0.7);
     let offset = (0.25 * heavy - 1.05 * stem) / (1.0 + heavy + stem);
     let jellett = |body: &BodySnapshot| {
         let axis = body.orientation * DVec3::Y;
