@@ -6,7 +6,7 @@ use crate::dynamics::METHODS;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{BodyMeasure, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
+use crate::scene::{BodyMeasure, ContactLaw, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
 
 /// Things of one sort to choose from.
 pub struct Category {
@@ -21,6 +21,7 @@ pub struct Category {
 /// All of them.
 pub static CATEGORIES: &[Category] = &[
     Category { name: "integrators", place: "`integrator` of [simulation]", entries: integrators },
+    Category { name: "contacts", place: "`contacts` of [simulation]", entries: contacts },
     Category { name: "shapes", place: "`shape` of [body.NAME]", entries: || variants(&["body", "shape"]) },
     Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
     Category { name: "repeats", place: "`repeat` of [body.NAME]", entries: || variants(&["body", "repeat"]) },
@@ -35,6 +36,10 @@ pub static CATEGORIES: &[Category] = &[
 
 fn integrators() -> Vec<(&'static str, String)> {
     METHODS.iter().map(|method| (method.name, method.summary.to_owned())).collect()
+}
+
+fn contacts() -> Vec<(&'static str, String)> {
+    ContactLaw::ALL.iter().map(|law| (law.name(), law.summary().to_owned())).collect()
 }
 
 fn finishes() -> Vec<(&'static str, String)> {

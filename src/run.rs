@@ -6,7 +6,7 @@ use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
-use crate::scene::{Scene, Shutter, View};
+use crate::scene::{ContactLaw, Scene, Shutter, View};
 use crate::simulate::{
     Corrected, Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError,
     Survey,
@@ -110,7 +110,10 @@ impl<'a> Run<'a> {
             .chain(small)
             .chain(grid)
             .chain(plan.not_drawn().iter().map(not_drawn::warning))
-            .chain(first_order(self.scene(), self.survey().drift).or_else(|| drift(self.survey().drift)))
+            .chain(
+                first_order(self.scene(), self.survey().drift)
+                    .or_else(|| drift(self.scene(), self.survey().drift)),
+            )
             .collect()
     }
 
@@ -175,10 +178,13 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
 ];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
-fn drift(drift: f64) -> Option<Diagnostic> {
+fn drift(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
     let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
-    let help = "take a smaller `simulation.step`, or an `integrator` of higher order";
+    let help = match scene.simulation.contacts {
+        Some(ContactLaw::TimeStepping) => "take a smaller `simulation.step`",
+        _ => "take a smaller `simulation.step`, or an `integrator` of higher order",
+    };
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 
@@ -187,7 +193,8 @@ fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 1e-6;
     let simulation = &scene.simulation;
     let method = simulation.method;
-    let is_said = simulation.contacts.is_some() && method.order == 1 && drift.abs() > NOTICEABLE;
+    let is_exact = simulation.contacts == Some(ContactLaw::EventDriven);
+    let is_said = is_exact && method.order == 1 && drift.abs() > NOTICEABLE;
     let percent = rounded(drift * 100.0);
     let message = format!(
         "the contacts of this run are not exact: with `{}`, the energy drifts by {percent} % of the largest kinetic energy",

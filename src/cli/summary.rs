@@ -6,6 +6,7 @@ use std::time::Duration;
 use jabuka::Run;
 use jabuka::diagnostic::visible_path;
 use jabuka::output::Written;
+use jabuka::scene::ContactLaw;
 use jabuka::simulate::ContactTotals;
 
 use super::shell;
@@ -48,7 +49,11 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         steps = survey.steps_per_frame,
         method = scene.simulation.method.name,
         drift = drift(survey.drift),
-        contacts = survey.contacts.map(contacts).unwrap_or_default(),
+        contacts = survey
+            .contacts
+            .zip(scene.simulation.contacts)
+            .map(|(totals, law)| contacts(totals, law))
+            .unwrap_or_default(),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
@@ -60,8 +65,16 @@ pub(super) fn drift(drift: f64) -> String {
 }
 
 /// How many impacts there have been, and what contacts have taken.
-fn contacts(ContactTotals { impacts, lost, rubbed }: ContactTotals) -> String {
-    format!("impacts   {impacts}, which took {} J; friction took {} J\n", short(lost), short(rubbed))
+fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
+    let ContactTotals { impacts, lost, rubbed, penetration, joints } = totals;
+    let taken =
+        format!("impacts   {impacts}, which took {} J; friction took {} J\n", short(lost), short(rubbed));
+    if law == ContactLaw::EventDriven {
+        return taken;
+    }
+    let [depth, gap] = [penetration, joints].map(two_digits);
+    let gap = if joints > 0.0 { format!("; joints {gap} m off at most") } else { String::new() };
+    format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
 }
 
 /// A number to four digits, without trailing zeros.
@@ -104,8 +117,18 @@ mod tests {
     #[test]
     fn figures_are_short() {
         assert_eq!([short(0.01), short(1.0 / 240.0), short(1e-9)], ["0.01", "0.004167", "1e-9"]);
-        let totals = ContactTotals { impacts: 31415.0, lost: 0.123_456, rubbed: 0.0 };
-        assert_eq!(contacts(totals), "impacts   31415, which took 0.1235 J; friction took 0 J\n");
+        let totals = ContactTotals {
+            impacts: 31415.0,
+            lost: 0.123_456,
+            penetration: 0.00123,
+            ..ContactTotals::default()
+        };
+        let taken = "impacts   31415, which took 0.1235 J; friction took 0 J\n";
+        assert_eq!(contacts(totals, ContactLaw::EventDriven), taken);
+        let depth = "contacts  bodies 0.0012 m within each other at most\n";
+        assert_eq!(contacts(totals, ContactLaw::TimeStepping), format!("{taken}{depth}"));
+        let joined = ContactTotals { joints: 2.5e-5, ..totals };
+        assert!(contacts(joined, ContactLaw::TimeStepping).ends_with("; joints 2.5e-5 m off at most\n"));
         assert_eq!([percent(0.0), percent(-0.00123), percent(3e-17)], ["0 %", "-0.12 %", "3e-15 %"]);
         assert_eq!([bytes(999), bytes(1_000), bytes(123_456_789)], ["999 B", "1.0 kB", "123 MB"]);
     }

@@ -102,6 +102,7 @@ codes! {
     LargeScripts = "large-scripts",
     Link = "link",
     LongShutter = "long-shutter",
+    LosesHeight = "loses-height",
     MissingAsset = "missing-asset",
     MissingInclude = "missing-include",
     MissingKey = "missing-key",

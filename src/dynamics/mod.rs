@@ -19,6 +19,7 @@
 //! | energy, momentum, drift | [`Balance`] |
 //! | all that can be known of one moment | [`Snapshot`] |
 //! | all of it together, with a clock | [`World`] |
+//! | many bodies in contact, at fixed steps | [`TimeStepping`] |
 //! | what the rest of the program sees of it | [`Dynamics`] |
 //!
 //! # Tutorial
@@ -84,6 +85,7 @@ mod presence;
 mod shape;
 mod snapshot;
 mod state;
+mod stepping;
 mod system;
 mod track;
 mod world;
@@ -104,9 +106,11 @@ pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
 pub use state::{Accounts, State};
+pub use stepping::{Link, LinkKind, TimeStepping};
 pub use system::System;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
+use world::steps_of;
 
 /// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
 pub trait Dynamics: Send {

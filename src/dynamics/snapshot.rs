@@ -15,6 +15,8 @@ pub struct Snapshot {
     pub reactions: Vec<Reaction>,
     /// Where bodies touch and stay in touch, in the order of their ids.
     pub contacts: Vec<ContactSnapshot>,
+    /// How deep bodies are within each other at most, m; 0 where contacts are exact, or there are none.
+    pub penetration: f64,
     /// Energies, momenta and the drift.
     pub balance: Balance,
 }

@@ -3,6 +3,8 @@
 mod advance;
 mod piece;
 
+pub(super) use advance::steps_of;
+
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -45,6 +47,16 @@ pub struct World {
     before: State,
 }
 
+/// What a world consists of, but for its method and its constraints.
+pub(super) struct Parts {
+    pub(super) time: f64,
+    pub(super) step: f64,
+    pub(super) model: Model,
+    pub(super) state: State,
+    pub(super) ledger: EnergyLedger,
+    pub(super) calendar: Calendar,
+}
+
 impl World {
     /// An empty world at time 0, with the default method and a longest step of 1/240 s.
     #[must_use]
@@ -66,6 +78,12 @@ impl World {
             loads: Loads::default(),
             before: State::default(),
         }
+    }
+
+    /// What it consists of, for another engine.
+    pub(super) fn into_parts(self) -> Parts {
+        let World { time, step, model, state, ledger, calendar, .. } = self;
+        Parts { time, step, model, state, ledger, calendar }
     }
 
     /// Makes room for so many more bodies.
@@ -370,7 +388,8 @@ fn picture(
     };
     let reactions = system.reactions();
     let present = (0..state.len()).filter(|&id| model.is_present(id));
-    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts: system.contacts(), balance }
+    let (bodies, contacts) = (present.map(body).collect(), system.contacts());
+    Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DQuat;
+
 use super::timed::Timed;
 use super::{Arrow, Color};
 use crate::dynamics::{
-    Anchor, Ball, Constraint, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider, Target,
+    Anchor, Ball, BodyId, BodySnapshot, Constraint, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo,
+    Slider, Target,
 };
 
 /// What holds two bodies together, or a body to a point of the world.
@@ -82,6 +85,24 @@ impl JointKind {
             | JointKind::Pulley(Pulley { between, .. }) => *between,
             JointKind::Gear(gear) => gear.joints.map(|joint| joint.between[1]),
         }
+    }
+
+    /// By how much it does not hold, m: how far apart its points are, or by how much its length is off. The closure gives a body; none where
+    /// one of its bodies is away, and for pulleys and gears, which hold no two points together.
+    pub fn gap(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<f64> {
+        let ends = self.between().map(|end| match end {
+            Anchor::Body { id, at } => body(id).map(|body| (body.point(at).0, body.orientation)),
+            Anchor::Point(point) => Some((point, DQuat::IDENTITY)),
+        });
+        let [Some((from, turn)), Some((to, _))] = ends else { return None };
+        let way = to - from;
+        Some(match self {
+            JointKind::Ball(_) | JointKind::Hinge(_) | JointKind::Fixed(_) => way.length(),
+            JointKind::Slider(slider) => way.reject_from_normalized(turn * slider.axis).length(),
+            JointKind::Rod(rod) => (way.length() - rod.length).abs(),
+            JointKind::Rope(rope) => (way.length() - rope.length).max(0.0),
+            JointKind::Pulley(_) | JointKind::Gear(_) => return None,
+        })
     }
 
     /// The angle of a hinge, or the way of a slider.

@@ -305,6 +305,11 @@ impl JointMeasure {
         }
     }
 
+    /// Whether it is a force or a torque of the joint.
+    pub fn is_reaction(self) -> bool {
+        !matches!(self, JointMeasure::Angle | JointMeasure::Position | JointMeasure::Speed)
+    }
+
     /// Its value for what a joint does, and for its coordinate with its rate.
     pub fn of(self, reaction: &Reaction, [value, rate]: [f64; 2]) -> f64 {
         match self {

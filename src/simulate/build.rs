@@ -4,20 +4,62 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use crate::dynamics::{BodyId, Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World};
-use crate::scene::{Body, Scene};
+use crate::dynamics::{
+    BodyId, Contacts, Dynamics, Effort, Link, LinkKind, RigidBody, Shape, TimeStepping, UniformGravity, World,
+};
+use crate::scene::{Body, ContactLaw, Joint, JointKind, Scene};
 
 /// What advances a scene, chosen by what the scene says; the interactions of pairs are counted meanwhile. An engine with steppers
 /// of its own is made here, beside the world.
 pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
+    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
+        let mut world = free_world(scene);
+        add_ground(&mut world, scene);
+        world.watch(effort);
+        let links: Vec<Link> = scene.joints.iter().filter_map(link).collect();
+        let mut stepping = TimeStepping::new(world, &contacts(scene), &links);
+        stepping.show_contacts(shows_contacts(scene));
+        return Box::new(stepping);
+    }
     let mut world = world(scene);
     world.watch(effort);
     Box::new(world)
 }
 
+/// A joint as time stepping has it; the check has refused all others.
+fn link(joint: &Joint) -> Option<Link> {
+    let kind = match &joint.kind {
+        JointKind::Ball(ball) => LinkKind::Ball(*ball),
+        JointKind::Hinge(hinge) => LinkKind::Hinge(hinge.clone()),
+        JointKind::Slider(slider) => LinkKind::Slider(slider.clone()),
+        JointKind::Fixed(fixed) => LinkKind::Fixed(*fixed),
+        JointKind::Rod(rod) => LinkKind::Rod(*rod),
+        JointKind::Rope(rope) => LinkKind::Rope(*rope),
+        JointKind::Pulley(_) | JointKind::Gear(_) => return None,
+    };
+    Some(Link { kind, collides: joint.collides })
+}
+
+/// Whether anything is drawn of the contacts of a moment. Piles have tens of thousands.
+fn shows_contacts(scene: &Scene) -> bool {
+    let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
+    scene.bodies.iter().any(shows)
+}
+
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
 /// is the same in both. A ground that stops bodies is one more, behind all of the scene's.
 pub fn world(scene: &Scene) -> World {
+    let mut world = free_world(scene);
+    scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
+    if scene.simulation.contacts.is_some() {
+        add_ground(&mut world, scene);
+        world.collide(contacts(scene));
+    }
+    world
+}
+
+/// The world without what holds bodies together or apart.
+fn free_world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
     // What is given at every time needs no steps to get there.
@@ -30,12 +72,7 @@ pub fn world(scene: &Scene) -> World {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
     scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
-    scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
     scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
-    if scene.simulation.contacts.is_some() {
-        add_ground(&mut world, scene);
-        world.collide(contacts(scene));
-    }
     world
 }
 

@@ -17,6 +17,8 @@ pub struct Frame {
     pub reactions: Vec<Reaction>,
     /// Where bodies touch and stay in touch.
     pub contacts: Vec<ContactSnapshot>,
+    /// How deep bodies are within each other at most, m.
+    pub penetration: f64,
     /// Energies, momenta and the drift.
     pub balance: Balance,
     /// How many impacts there have been.
@@ -28,9 +30,9 @@ pub struct Frame {
 impl Frame {
     /// The frame of a moment, without what has been before, and without the impacts up to it.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
-        let Snapshot { time, bodies, reactions, contacts, balance } = moment;
+        let Snapshot { time, bodies, reactions, contacts, penetration, balance } = moment;
         let (impacts, past) = (ImpactCounts::default(), Past::default());
-        Frame { index, time, bodies, reactions, contacts, balance, impacts, past }
+        Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, past }
     }
 
     /// The frame of a moment of a run, without what has been before.

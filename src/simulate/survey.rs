@@ -54,6 +54,10 @@ pub struct ContactTotals {
     pub lost: f64,
     /// The energy that friction has taken between impacts, J.
     pub rubbed: f64,
+    /// How deep bodies were within each other at most in a frame, m.
+    pub penetration: f64,
+    /// By how much a joint did not hold at most in a frame, m.
+    pub joints: f64,
 }
 
 impl ContactTotals {
@@ -163,7 +167,10 @@ impl<'a> Surveyor<'a> {
             let accounts = &frame.balance.accounts;
             // They take energy; zero has no sign.
             let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
-            *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed };
+            let penetration = contacts.penetration.max(frame.penetration);
+            let gap = |joint: &Joint| joint.kind.gap(|id| frame.body(id.index()).copied());
+            let joints = scene.joints.iter().filter_map(gap).fold(contacts.joints, f64::max);
+            *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed, penetration, joints };
         }
         self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
         let error_now = frame.balance.drift * self.largest_kinetic;

@@ -39,6 +39,12 @@ impl Hinge {
         self.axis[0]
     }
 
+    /// The rotation that takes the axes of the first end to those of the second where the angle is 0.
+    #[must_use]
+    pub fn turned(&self) -> DQuat {
+        self.turned
+    }
+
     /// Its angle.
     #[must_use]
     pub fn coordinate(&self) -> Coordinate {

@@ -15,6 +15,7 @@ mod velocity_verlet;
 use super::{State, System};
 
 pub use dense::{DenseOutput, Step};
+pub(super) use rotation::free as turn_freely;
 pub(super) use splitting::drift_body;
 
 /// A method of integration. It advances a state; time belongs to the [`World`](super::World).

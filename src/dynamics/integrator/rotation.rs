@@ -17,7 +17,12 @@ pub(super) fn rate(orientation: DQuat, angular_velocity: DVec3) -> DQuat {
 /// body turn evenly about one of its own axes. Turning by x for half the time, y half, z, y half, x half is a
 /// symmetric splitting: second order, reversible, symplectic. L is not touched at all, and so kept exactly. Source:
 /// Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840; Touma & Wisdom, Astron. J. 107 (1994) 1189.
-pub(super) fn free(orientation: DQuat, angular_momentum: DVec3, inverse_inertia: DVec3, dt: f64) -> DQuat {
+pub(in crate::dynamics) fn free(
+    orientation: DQuat,
+    angular_momentum: DVec3,
+    inverse_inertia: DVec3,
+    dt: f64,
+) -> DQuat {
     if is_isotropic(inverse_inertia) {
         // ω is parallel to L and constant: one turn, exact for any step.
         let turn = DQuat::from_scaled_axis(inverse_inertia.x * dt * angular_momentum);

@@ -35,6 +35,19 @@ impl Model {
         self.away.get(body).is_none_or(Option::is_none)
     }
 
+    /// Whether forces move a body whenever it is there.
+    pub(in super::super) fn is_moved_by_forces(&self, body: usize) -> bool {
+        match self.away.get(body) {
+            Some(Some(away)) => !away.is_given(),
+            _ => self.inverse_mass[body] != 0.0,
+        }
+    }
+
+    /// Whether a body is there, and its motion is given.
+    pub(in super::super) fn is_guided(&self, body: usize) -> bool {
+        self.movable[body] && self.inverse_mass[body] == 0.0
+    }
+
     /// Those of some bodies that are there.
     #[must_use]
     pub fn present<'a>(&self, bodies: &'a [BodyId]) -> Cow<'a, [BodyId]> {

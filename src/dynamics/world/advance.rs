@@ -8,14 +8,19 @@ use super::{World, picture};
 /// fractions have rounding errors, and 0.1 s are ten steps of 0.01 s.
 const STEP_TOLERANCE: f64 = 1e-9;
 
+/// The fewest equal steps of an interval (s) that are not longer than the longest allowed, s; at least 1, at most `u32::MAX`.
+pub(in super::super) fn steps_of(interval: f64, longest: f64) -> u32 {
+    let steps = (interval / longest * (1.0 - STEP_TOLERANCE)).ceil();
+    // The conversion saturates, so this holds for every number, and for what is not one.
+    (steps as u32).max(1)
+}
+
 impl World {
     /// The number of equal steps that [`advance_to`](Self::advance_to) makes of an interval (s): the fewest that are not
     /// longer than the longest allowed; at least 1, at most `u32::MAX`.
     #[must_use]
     pub fn steps_within(&self, interval: f64) -> u32 {
-        let steps = (interval / self.step * (1.0 - STEP_TOLERANCE)).ceil();
-        // The conversion saturates, so this holds for every number, and for what is not one.
-        (steps as u32).max(1)
+        steps_of(interval, self.step)
     }
 
     /// Makes one step of `dt` seconds, however long. Bodies that come or go meanwhile do so at its end.

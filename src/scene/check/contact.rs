@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Context;
 use super::habits::{before, is_file};
 use super::read::figure;
+use super::stepping;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 use crate::dynamics::{Shape, Surface};
@@ -52,10 +53,11 @@ pub(super) fn collider(
         has_no_effect(&["collision_group"], "it does not collide");
         return None;
     }
-    if has_torus(shape) {
+    if simulation.contacts == Some(ContactLaw::EventDriven) && has_torus(shape) {
         let message = format!("contacts of `{name}` cannot be computed");
         let error = Diagnostic::error(Code::BadContacts, message);
-        let help = "build it as a `compound` of capsules or spheres, or let others pass through it: `collides = false`";
+        let help = "build it as a `compound` of capsules or spheres, or let others pass through it: `collides = false`; \
+                    `simulation.contacts = \"time-stepping\"` takes it as a ring of capsules";
         let span = view.table("shape").key_span("torus").or(view.key_span("shape"));
         let error = error.help(help);
         context.diagnostics.push(match span {
@@ -103,7 +105,9 @@ pub(super) fn check(
         needed(root, &table, context);
     }
     let Some(span) = table.span("contacts").filter(|_| simulation.contacts.is_some()) else { return };
-    if !simulation.method.constraints {
+    if simulation.contacts == Some(ContactLaw::TimeStepping) {
+        stepping::check(root, simulation, bodies, context);
+    } else if !simulation.method.constraints {
         let message = format!("the integrator `{}` cannot compute contacts", simulation.method.name);
         let error = Diagnostic::error(Code::BadContacts, message).at(span, "");
         context

@@ -24,6 +24,7 @@ mod sdl;
 mod shape;
 mod showing;
 mod simulation;
+mod stepping;
 mod suggest;
 mod templates;
 mod trajectory;
@@ -288,6 +289,7 @@ fn build(
     let (simulation, counts) = simulation::read(&root.table("simulation"), needs_steps(&root));
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);
+    let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);
     let before = context.diagnostics.len();
     let forces = force::read(&root, &bodies, context);
     context.forces_are_wrong |= context.has_errors(before);
@@ -300,6 +302,7 @@ fn build(
     contact::ground(&root, &simulation, &mut environment);
     contact::check(&root, &simulation, &bodies, &environment, context);
     let joints = joint::read(&root, &bodies, &simulation, context);
+    stepping::check_joints(&root, &simulation, &joints, context);
     let mut bodies = bodies;
     joint::swing(&joints, &mut bodies);
     let spans: HashMap<&str, Span> =

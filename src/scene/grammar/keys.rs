@@ -180,7 +180,8 @@ static SIMULATION: TableSpec = TableSpec {
             "contacts",
             Choice(contact_laws),
             "Bodies stop each other where they touch, and a ground that is not given lies at height 0; \
-             `\"event-driven\"` finds the time of each impact",
+             `\"event-driven\"` finds the time of each impact, for few bodies; `\"time-stepping\"` solves all contacts of a step \
+             together, for many",
         )
         .default("bodies pass through each other")
         .also(&["contact", "collisions", "collision", "collide", "collides"]),

@@ -5,7 +5,7 @@
 //! | what | type |
 //! | --- | --- |
 //! | the number of the frame, or 2³² − 1 between frames | `u32` |
-//! | time; kinetic, potential, total energy; drift; linear momentum; angular momentum; the accounts | `f64` each |
+//! | time; kinetic, potential, total energy; drift; linear momentum; angular momentum; the accounts; the penetration | `f64` each |
 //! | the number of runs, and of each run: a mask, and for how many bodies that holds | `u32`; `u8`, `u32` |
 //! | of each body, the numbers that its mask names | `f64` each |
 //! | where there are joints: runs of masks, and numbers, in the same way | |
@@ -32,7 +32,7 @@ use crate::dynamics::Accounts;
 use crate::scene::Scene;
 
 /// The numbers before the bodies.
-const HEAD: usize = 11 + Accounts::NAMES.len();
+const HEAD: usize = 12 + Accounts::NAMES.len();
 /// The numbers of a body.
 const NUMBERS: usize = 16;
 /// Where each column of a body begins, and after the last, where it ends.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Reader, words};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::Collection;
-use crate::scene::{BodyMeasure, JointMeasure, Measure};
+use crate::scene::{BodyMeasure, ContactLaw, JointMeasure, Measure};
 
 impl Reader<'_, '_, '_> {
     /// A formula in which `ball.speed` is one name, and what those names stand for. The formulas know no dots; another
@@ -169,6 +169,16 @@ impl Reader<'_, '_, '_> {
         };
         let its = || JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
         if let Some((_, known)) = its().find(|(known, _)| *known == measure) {
+            if known.is_reaction()
+                && self.root.table("simulation").text("contacts") == Some(ContactLaw::TimeStepping.name())
+            {
+                let message = format!("time stepping does not know the `{measure}` of a joint");
+                let help = "the other scheme does: `simulation.contacts = \"event-driven\"`";
+                let error = Diagnostic::error(Code::BadContacts, message).help(help);
+                let behind = begin + name.len() + 1;
+                self.report(error, behind..behind + measure.len(), "");
+                return None;
+            }
             return Some(Measure::Joint(number, known));
         }
         let names: Vec<&str> = its().map(|(name, _)| name).collect();

@@ -135,7 +135,14 @@ impl Head {
         };
         Entry {
             frame: self.frame,
-            snapshot: Snapshot { time: n[0], bodies, reactions, contacts: Vec::new(), balance },
+            snapshot: Snapshot {
+                time: n[0],
+                bodies,
+                reactions,
+                contacts: Vec::new(),
+                penetration: n[HEAD - 1],
+                balance,
+            },
             impacts: Vec::new(),
             counts: ImpactCounts::default(),
         }

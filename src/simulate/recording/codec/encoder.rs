@@ -46,6 +46,7 @@ impl Encoder {
         put(bytes, &linear_momentum.to_array());
         put(bytes, &angular_momentum.to_array());
         put(bytes, &accounts.to_array());
+        put(bytes, &[snapshot.penetration]);
 
         masks.clear();
         masks.resize(last.len(), ABSENT);

@@ -42,6 +42,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
             bodies: bodies.iter().map(body).collect(),
             reactions,
             contacts: vec![contact; usize::from(time > 0.5)],
+            penetration: 0.25 * time,
             balance,
         },
         impacts: vec![impact; usize::from(time > 1.5) * 2],

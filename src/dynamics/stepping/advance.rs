@@ -1,0 +1,230 @@
+//! How time goes on: equal steps, births and deaths between them, and looks within them.
+
+use glam::DVec3;
+
+use super::super::integrator::turn_freely;
+use super::super::{Balance, BodyId, Breakdown, Snapshot, State, steps_of};
+use super::{TimeStepping, bodies, set_step, spin};
+
+/// Angular velocities are the same where they differ by no more than this part.
+const SAME: f64 = 1e-14;
+
+/// Bodies may be so deep within each other at the start, as a part of the thickness of the thinnest.
+const DEEPEST: f64 = 0.1;
+
+impl TimeStepping {
+    /// Advances to time `t` in steps that end at each birth and death.
+    pub(super) fn advance_by_events(
+        &mut self,
+        t: f64,
+        moments: &[f64],
+        see: &mut dyn FnMut(Snapshot),
+    ) -> Result<(), Breakdown> {
+        let mut left = moments;
+        while self.time < t {
+            let due = self.calendar.depart(self.time);
+            self.change(&due);
+            let stop = self.calendar.next().map_or(t, |next| next.min(t));
+            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
+            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
+            left = later;
+            self.advance_evenly(stop, before, see)?;
+            let due = self.calendar.arrive(self.time);
+            self.change(&due);
+            self.ledger.close(&self.model, self.time, &self.state);
+            for _ in here {
+                let balance = self.ledger.peek(&self.model, self.time, &self.state);
+                see(self.picture(self.time, balance, None).checked()?);
+            }
+        }
+        Ok(())
+    }
+
+    fn advance_evenly(
+        &mut self,
+        t: f64,
+        moments: &[f64],
+        see: &mut dyn FnMut(Snapshot),
+    ) -> Result<(), Breakdown> {
+        let (start, interval) = (self.time, t - self.time);
+        let steps = steps_of(interval, self.step);
+        let dt = interval / f64::from(steps);
+        let mut left = moments;
+        for k in 0..steps {
+            let begin = start + f64::from(k) * dt;
+            let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
+            let (within, later) = left.split_at(left.partition_point(|&moment| moment <= end));
+            left = later;
+            if !within.is_empty() {
+                self.before.clone_from(&self.state);
+            }
+            self.make_step(begin, end, dt)?;
+            for &moment in within {
+                let balance = self.look_within((moment - begin) / dt);
+                see(self.picture(moment, balance.1, Some(&balance.0)).checked()?);
+            }
+        }
+        self.time = t;
+        Ok(())
+    }
+
+    /// A part of the way through the step that was made last: places in between, with the velocities that led to its end.
+    fn look_within(&self, part: f64) -> (State, Balance) {
+        let (before, mut within) = (&self.before, self.state.clone());
+        for i in 0..within.len() {
+            within.location[i] = before.location[i].lerp(self.state.location[i], part);
+            within.orientation[i] = before.orientation[i].slerp(self.state.orientation[i], part).normalize();
+        }
+        within.accounts = before.accounts;
+        let mut change = self.state.accounts;
+        change.add(-1.0, before.accounts);
+        within.accounts.add(part, change);
+        let balance = self.ledger.peek(&self.model, self.time, &within);
+        (within, balance)
+    }
+
+    /// Makes one step.
+    fn make_step(&mut self, begin: f64, end: f64, dt: f64) -> Result<(), Breakdown> {
+        self.ledger.close(&self.model, begin, &self.state);
+        self.model.place(begin, &mut self.state);
+        self.model.sum(begin, &self.state, &mut self.loads);
+        self.model.bear(&self.state, &mut self.loads);
+        self.state.accounts.add(dt, self.loads.power);
+        self.push(end, dt);
+        set_step(&mut self.engine.integration_parameters, dt);
+        self.engine.step_with_events(&self.mixing, &self.books.events);
+        self.steps += 1;
+        if let Some(body) = self.engine.quarantine().bodies().first() {
+            let body = BodyId::new(body.into_raw_parts().0 as usize);
+            let failure = Breakdown::Diverged { body, time: end };
+            self.failure = Some(failure);
+            return Err(failure);
+        }
+        self.pull(dt);
+        if self.steps == 1 {
+            self.check_start(begin)?;
+        }
+        self.books.close(&self.engine, &self.model, (&mut self.state, &self.loads), end);
+        Ok(())
+    }
+
+    /// Bodies that are deep within each other at the start are a mistake: they would shoot apart.
+    fn check_start(&mut self, time: f64) -> Result<(), Breakdown> {
+        let allowed = DEEPEST * self.engine.integration_parameters.length_unit;
+        let Some((bodies, depth)) = self.deepest().filter(|(_, depth)| *depth > allowed) else {
+            return Ok(());
+        };
+        let [one, two] = bodies;
+        let bodies = [one.min(two), one.max(two)].map(BodyId::new);
+        let failure = Breakdown::Overlapping { bodies, time, depth };
+        self.failure = Some(failure);
+        Err(failure)
+    }
+
+    /// Tells the engine what acts on the bodies, and how they turn.
+    fn push(&mut self, end: f64, dt: f64) {
+        let Self { model, state, loads, engine, handles, books, half_thickness, .. } = self;
+        for (i, handle) in handles.iter().enumerate() {
+            books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
+            books.places[i] = state.location[i];
+            if model.inverse_mass()[i] == 0.0 {
+                continue;
+            }
+            state.angular_momentum[i] += dt * loads.torque[i];
+            let (from, momentum) = (state.orientation[i], state.angular_momentum[i]);
+            let turning = if momentum == DVec3::ZERO {
+                DVec3::ZERO
+            } else {
+                let to = turn_freely(from, momentum, model.inverse_inertia()[i], dt);
+                spin::leading(from, to, dt)
+            };
+            books.mean[i].1 = turning;
+            // What is fast must not pass through what moves; the engine sees to what does not move.
+            let is_fast = dt * state.velocity[i].length() > half_thickness[i];
+            let Some(body) = engine.bodies.get(*handle) else { continue };
+            let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
+            let is_turning =
+                (body.angvel() - turning).length_squared() > SAME * SAME * turning.length_squared();
+            if is_same && !is_turning {
+                // What is changed by hand costs the engine time.
+                books.mean[i].1 = body.angvel();
+                continue;
+            }
+            let Some(body) = engine.bodies.get_mut(*handle) else { continue };
+            body.reset_forces(false);
+            body.add_force(loads.force[i], false);
+            body.set_angvel(turning, false);
+            body.enable_ccd(is_fast);
+        }
+        self.model.place(end, &mut self.state);
+        for i in (0..self.handles.len()).filter(|&i| self.model.is_guided(i)) {
+            if let Some(body) = self.engine.bodies.get_mut(self.handles[i]) {
+                body.set_next_kinematic_position(bodies::pose(&self.state, i));
+            }
+        }
+    }
+
+    /// Reads what has become of the bodies.
+    fn pull(&mut self, dt: f64) {
+        let Self { model, state, engine, handles, books, .. } = self;
+        let slop = engine.integration_parameters.allowed_linear_error();
+        let mut moved = Vec::new();
+        for (i, handle) in handles.iter().enumerate() {
+            if model.inverse_mass()[i] == 0.0 {
+                let after = (state.velocity[i], model.angular_velocity(i, state));
+                books.mean[i] = middle(books.before[i], after);
+                continue;
+            }
+            let Some(body) = engine.bodies.get(*handle) else { continue };
+            let from = state.orientation[i];
+            let mut pose = *body.position();
+            let way = dt * body.linvel();
+            if body.is_ccd_enabled()
+                && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
+            {
+                // It was stopped at a surface, or a little within it. What is within is soft, and the speed would carry it through: so it
+                // is put a little before the surface.
+                pose.translation -= 4.0 * slop * way.normalize();
+                moved.push((*handle, pose));
+            }
+            state.location[i] = pose.translation;
+            state.orientation[i] = pose.rotation;
+            state.velocity[i] = body.linvel();
+            // Contacts and joints act on the inertia at the beginning of the step.
+            let change = body.angvel() - books.mean[i].1;
+            if change != DVec3::ZERO {
+                let inertia = model.inertia()[i];
+                state.angular_momentum[i] += from * (inertia * (from.conjugate() * change));
+            }
+            let after = (state.velocity[i], model.angular_velocity(i, state));
+            books.mean[i] = middle(books.before[i], after);
+        }
+        for (handle, pose) in moved {
+            if let Some(body) = engine.bodies.get_mut(handle) {
+                body.set_position(pose, false);
+            }
+        }
+    }
+
+    /// Lets bodies come and go.
+    fn change(&mut self, due: &[(usize, bool)]) {
+        if due.is_empty() {
+            return;
+        }
+        self.ledger.open(&self.model, self.time, &self.state);
+        self.model.let_come_and_go(due, &mut self.state);
+        self.model.place(self.time, &mut self.state);
+        for &(i, comes) in due {
+            let Some(body) = self.engine.bodies.get_mut(self.handles[i]) else { continue };
+            body.set_enabled(comes);
+            if comes {
+                body.set_position(bodies::pose(&self.state, i), false);
+                body.set_linvel(self.state.velocity[i], false);
+            }
+        }
+    }
+}
+
+fn middle(one: (DVec3, DVec3), two: (DVec3, DVec3)) -> (DVec3, DVec3) {
+    (0.5 * (one.0 + two.0), 0.5 * (one.1 + two.1))
+}

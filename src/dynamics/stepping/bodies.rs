@@ -1,0 +1,119 @@
+//! The bodies of a world in the engine.
+
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::{
+    ActiveEvents, ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
+};
+
+use super::super::contact::Contacts;
+use super::super::shape::Shape;
+use super::super::{Model, State};
+use super::mixing::Mixing;
+use super::{plane, shape};
+
+/// Which bodies are moved by forces, be they there at present or not.
+pub(super) fn moving(model: &Model) -> Vec<bool> {
+    (0..model.len()).map(|i| model.is_moved_by_forces(i)).collect()
+}
+
+/// The thickness of the thinnest body that moves and touches others, m. It says what is near, and what is fast.
+pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool]) -> f64 {
+    let touches = |i: &usize| moves[*i] && contacts.surfaces.get(*i).is_some_and(Option::is_some);
+    let thickness = |i: usize| Some(2.0 * model.shape(i)?.half_thickness()?);
+    let thinnest = (0..model.len()).filter(touches).filter_map(thickness).min_by(f64::total_cmp);
+    thinnest.filter(|length| *length > 0.0).unwrap_or(1.0)
+}
+
+/// Half of what each body is thick, m; none for what has no form.
+pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
+    let of = |i: usize| model.shape(i).and_then(Shape::half_thickness).unwrap_or(f64::INFINITY);
+    (0..model.len()).map(of).collect()
+}
+
+/// Puts all bodies into the engine. Those that are not there yet are switched off.
+pub(super) fn insert(
+    engine: &mut PhysicsWorld,
+    model: &mut Model,
+    state: &mut State,
+    contacts: &Contacts,
+    mixing: &Mixing,
+    length: f64,
+) -> Vec<RigidBodyHandle> {
+    let mut handles = Vec::with_capacity(model.len());
+    let is_other = |i: usize| {
+        let touches = contacts.surfaces.get(i).is_some_and(Option::is_some);
+        touches && model.is_moved_by_forces(i) && model.shape(i).is_some_and(|shape| !plane::is_simple(shape))
+    };
+    let meets_others = (0..model.len()).any(is_other);
+    for i in 0..model.len() {
+        let is_present = model.is_present(i);
+        if !is_present {
+            model.bring(i, state);
+        }
+        let handle = engine.insert_body(body(model, state, i).enabled(is_present));
+        if contacts.surfaces.get(i).is_some_and(Option::is_some) {
+            for collider in colliders(model, state, i, (length, meets_others)) {
+                let collider = mixing.describe(i, collider.user_data(i as u128));
+                engine.insert_collider(collider, Some(handle));
+            }
+        }
+        handles.push(handle);
+        if !is_present {
+            model.take_away(i, state);
+        }
+    }
+    handles
+}
+
+/// A body without its form, in the frame of its principal axes.
+fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
+    let builder = if !model.movable()[i] {
+        RigidBodyBuilder::fixed()
+    } else if model.inverse_mass()[i] == 0.0 {
+        RigidBodyBuilder::kinematic_position_based()
+    } else {
+        RigidBodyBuilder::dynamic()
+    };
+    let mass = MassProperties {
+        local_com: DVec3::ZERO,
+        inv_mass: model.inverse_mass()[i],
+        inv_principal_inertia: model.inverse_inertia()[i],
+        principal_inertia_local_frame: DQuat::IDENTITY,
+    };
+    builder
+        .pose(pose(state, i))
+        .linvel(state.velocity[i])
+        .angvel(model.angular_velocity(i, state))
+        .additional_mass_properties(mass)
+        .can_sleep(false)
+        .allow_fast_rotation(true)
+        // The way bodies turn comes from us, see `spin`.
+        .gyroscopic_forces_enabled(false)
+}
+
+/// Where a body is, in the frame of its principal axes.
+pub(super) fn pose(state: &State, i: usize) -> Pose {
+    Pose::from_parts(state.location[i], state.orientation[i])
+}
+
+/// What others touch of a body.
+fn colliders(
+    model: &Model,
+    state: &State,
+    i: usize,
+    (length, meets_others): (f64, bool),
+) -> Vec<ColliderBuilder> {
+    let Some(form) = model.shape(i) else { return Vec::new() };
+    let from_body = Pose::from_parts(DVec3::ZERO, model.principal_axes(i).conjugate());
+    let build = |(pose, solid)| {
+        let collider = ColliderBuilder::new(solid).density(0.0).position(from_body * pose);
+        collider.active_events(ActiveEvents::COLLISION_EVENTS)
+    };
+    if let Shape::Plane { normal } = *form {
+        let solids = plane::solids(normal, state.orientation[i], length, meets_others).into_iter();
+        return solids.map(|(solid, groups)| build(solid).collision_groups(groups)).collect();
+    }
+    let moves = model.is_moved_by_forces(i);
+    let groups = plane::groups_of(form);
+    shape::solids(form, moves).into_iter().map(|solid| build(solid).collision_groups(groups)).collect()
+}

@@ -1,0 +1,188 @@
+//! Time stepping: contacts of many bodies at once, at fixed steps.
+//!
+//! Where hundreds of bodies touch, impacts cannot be followed one by one. Here all contacts of a step are solved together, as
+//! inequalities of velocities, by a few sweeps over all of them. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small
+//! Steps in Physics Simulation*, SCA 2019. The engine is rapier. It finds contacts, and solves for contacts and joints; forces,
+//! energies, guided bodies, births and deaths are those of every [`World`], whose bodies it takes over.
+//!
+//! A step is one of Euler–Cromer: without contacts and joints it gives the same numbers. All forces are evaluated at its beginning.
+
+mod advance;
+mod bodies;
+mod books;
+mod joint;
+mod mixing;
+mod plane;
+mod shape;
+mod snapshot;
+mod spin;
+#[cfg(test)]
+mod tests;
+
+use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
+
+use self::books::Books;
+use self::joint::Joints;
+use self::mixing::Mixing;
+use super::contact::{Contacts, Impact};
+use super::presence::Calendar;
+use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, World};
+
+pub use joint::{Link, LinkKind};
+
+/// How often all contacts of a step are solved, one after another: with the correction of places, and then without. Friction is solved for in the
+/// latter alone: with two of them, a block creeps down an incline that should hold it.
+const SWEEPS: usize = 2;
+const FINAL_SWEEPS: usize = 4;
+/// The stiffness of contacts, as the frequency at which they would swing, by that of the steps. The engine's authors find a quarter the stiffest
+/// that is stable.
+const STIFFNESS: f64 = 0.25;
+/// The damping of contacts, by that which just lets nothing swing.
+const DAMPING: f64 = 10.0;
+
+/// What is fast is stopped so near another body, or so deep within it, in typical lengths.
+const SLOP: f64 = 0.002;
+
+/// Bodies that move under forces and touch each other, advanced by steps of equal length in which all contacts are solved
+/// together.
+pub struct TimeStepping {
+    time: f64,
+    step: f64,
+    steps: u64,
+    model: Model,
+    state: State,
+    ledger: EnergyLedger,
+    calendar: Calendar,
+    /// What finds and solves contacts.
+    engine: PhysicsWorld,
+    /// The bodies of the model in the engine.
+    handles: Vec<RigidBodyHandle>,
+    /// Half of what a body is thick, m: what moves by more within a step is fast.
+    half_thickness: Vec<f64>,
+    mixing: Mixing,
+    joints: Joints,
+    books: Books,
+    /// Whether snapshots list the contacts.
+    shows_contacts: bool,
+    /// Room for the loads at one moment.
+    loads: Loads,
+    /// The state before the last step, for looks within it.
+    before: State,
+    failure: Option<Breakdown>,
+}
+
+impl TimeStepping {
+    /// Takes over the bodies of a world with their forces, motions and lifetimes. They touch each other as `contacts` says, and
+    /// `links` hold them together; constraints of the world itself do not count.
+    #[must_use]
+    pub fn new(world: World, contacts: &Contacts, links: &[Link]) -> TimeStepping {
+        let parts = world.into_parts();
+        let (mut model, mut state) = (parts.model, parts.state);
+        let moves: Vec<bool> = bodies::moving(&model);
+        let mixing = Mixing::new(contacts, &moves);
+        let mut engine = PhysicsWorld::new();
+        let length = bodies::typical_length(&model, contacts, &moves);
+        engine.gravity = glam::DVec3::ZERO;
+        engine.integration_parameters = parameters(length);
+        let handles = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
+        let joints = Joints::insert(&mut engine, links, &handles, &model);
+        TimeStepping {
+            time: parts.time,
+            step: parts.step,
+            steps: 0,
+            loads: Loads::default(),
+            before: State::default(),
+            ledger: parts.ledger,
+            calendar: parts.calendar,
+            books: Books::new(model.len(), length),
+            half_thickness: bodies::half_thickness(&model),
+            shows_contacts: true,
+            failure: None,
+            model,
+            state,
+            engine,
+            handles,
+            mixing,
+            joints,
+        }
+    }
+
+    /// Whether snapshots list the contacts of their moment. There may be many.
+    pub fn show_contacts(&mut self, shown: bool) {
+        self.shows_contacts = shown;
+    }
+
+    /// The longest step (s) with which bodies of some thickness (m) stand well under a gravity (m/s²). It divides 1/240 s.
+    ///
+    /// A contact that swings with ω is as soft as a spring of stiffness m ω². Under ten times its own weight, a body may sink in by 3 % of its
+    /// thickness.
+    #[must_use]
+    pub fn suitable_step(thickness: f64, gravity: f64) -> f64 {
+        const USUAL: f64 = 1.0 / 240.0;
+        // Half of a contact's sinking is that of the damper beside the spring.
+        let softest = (0.03 * thickness / (2.0 * 10.0 * gravity)).sqrt() * std::f64::consts::TAU * STIFFNESS;
+        let mut step = USUAL;
+        while step > softest && step > USUAL / 32.0 {
+            step *= 0.5;
+        }
+        step
+    }
+
+    /// Sets the longest step, s. It must be positive.
+    pub fn set_step(&mut self, step: f64) {
+        self.step = step;
+    }
+}
+
+/// What the engine does in a step. `length` is the thickness of the thinnest body that moves, m.
+fn parameters(length: f64) -> IntegrationParameters {
+    IntegrationParameters {
+        length_unit: length,
+        // One step of ours is one of the engine: so all forces are evaluated again for each, and all impulses can be read.
+        num_solver_iterations: 1,
+        num_internal_pgs_iterations: SWEEPS,
+        num_internal_stabilization_iterations: FINAL_SWEEPS,
+        normalized_allowed_linear_error: SLOP,
+        // Bodies may be as fast as they are.
+        normalized_max_linear_velocity: f64::MAX,
+        // Bodies that fall by their own thickness get out of each other at about the speed that they fall with.
+        normalized_max_corrective_velocity: 3.0 / length.sqrt(),
+        warmstart_joints: true,
+        ..IntegrationParameters::default()
+    }
+}
+
+/// Makes the step of the engine, and with it the stiffness of contacts.
+fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
+    let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
+    parameters.dt = dt;
+    parameters.contact_softness = soft;
+    parameters.static_contact_softness = soft;
+}
+
+impl Dynamics for TimeStepping {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown> {
+        if t > self.time && t.is_finite() {
+            self.advance_by_events(t, moments, see)?;
+        }
+        Ok(())
+    }
+
+    fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
+        self.failure.map_or(Ok(()), Err)?;
+        let balance = self.ledger.measure(&self.model, self.time, &self.state);
+        self.picture(self.time, balance, None).checked()
+    }
+
+    fn impacts(&mut self) -> Vec<Impact> {
+        self.books.take_impacts()
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+}

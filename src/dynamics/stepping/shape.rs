@@ -1,0 +1,133 @@
+//! Shapes as the engine knows them.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use rapier3d_f64::parry::shape::TriMeshFlags;
+use rapier3d_f64::prelude::{Pose, SharedShape};
+
+use super::super::shape::{Mesh, Shape, cone_base};
+
+/// A frustum is a pyramid of so many sides. Its corners lie as far outside as the middles of its sides lie inside, by a quarter
+/// of a percent of the radius.
+const SIDES: u32 = 32;
+/// A hull that has no more than this more volume than a mesh is the mesh: it is convex.
+const CONVEX: f64 = 1e-3;
+/// A torus is a ring of capsules, which deviate from it by this part of the radius of its tube.
+const TORUS: f64 = 0.01;
+
+/// A solid of the engine in the frame of its body.
+pub(super) type Solid = (Pose, SharedShape);
+
+/// The solids of which a shape consists, in its own frame. A plane has none here: see [`plane`](super::plane). What moves must be
+/// solid; what does not may be a surface.
+pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
+    let mut all = Vec::new();
+    collect(shape, moves, Pose::IDENTITY, &mut all);
+    // As one, so that the engine sees which of their contacts belong together.
+    if all.len() > 1 && all.iter().all(|(_, solid)| solid.as_composite_shape().is_none()) {
+        return vec![(Pose::IDENTITY, SharedShape::compound(all))];
+    }
+    all
+}
+
+fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
+    let at = |offset: DVec3| pose * Pose::from_parts(offset, DQuat::IDENTITY);
+    match *shape {
+        Shape::Sphere { radius } => all.push((pose, SharedShape::ball(radius))),
+        Shape::Box { size } => {
+            let half = 0.5 * size;
+            all.push((pose, SharedShape::cuboid(half.x, half.y, half.z)));
+        }
+        Shape::RoundedBox { size, rounding } => {
+            let half = 0.5 * size - rounding;
+            // A box that is round all over has no flat face left in some direction; the engine needs a little of one.
+            let half = half.max(DVec3::splat(1e-9 * rounding));
+            all.push((pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
+        }
+        Shape::Cylinder { radius, height } => {
+            all.push((pose, SharedShape::cylinder(0.5 * height, radius)));
+        }
+        Shape::Capsule { radius, height } => {
+            all.push((pose, SharedShape::capsule_y(0.5 * height - radius, radius)));
+        }
+        Shape::Cone { radius, top_radius: 0.0, height } => {
+            let middle = cone_base(radius, 0.0, height) + 0.5 * height;
+            all.push((at(middle * DVec3::Y), SharedShape::cone(0.5 * height, radius)));
+        }
+        Shape::Cone { radius, top_radius, height } => {
+            all.extend(frustum(radius, top_radius, height).map(|wedge| (pose, wedge)));
+        }
+        Shape::Torus { radius, tube_radius } => {
+            all.extend(torus(radius, tube_radius).map(|capsule| (pose, capsule)));
+        }
+        Shape::Plane { .. } | Shape::Axes { .. } => {}
+        Shape::Compound(ref compound) => {
+            for part in compound.parts() {
+                collect(&part.shape, moves, pose * Pose::from_parts(part.location, part.orientation), all);
+            }
+        }
+        Shape::Mesh { ref mesh, scale } => {
+            all.extend(mesh_solids(mesh, scale, moves).into_iter().map(|(own, solid)| (pose * own, solid)));
+        }
+    }
+}
+
+/// Wedges around the axis: of a face with more than four corners, the engine sees four.
+fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = SharedShape> {
+    let base = cone_base(radius, top_radius, height);
+    // Between the circle around the polygon and the one within it.
+    let outer = 2.0 / (1.0 + libm::cos(PI / f64::from(SIDES)));
+    let corner = move |i: u32, radius: f64, y: f64| {
+        let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(SIDES));
+        DVec3::new(outer * radius * cos, y, outer * radius * sin)
+    };
+    let ends = [(radius, base), (top_radius, base + height)];
+    (0..SIDES).filter_map(move |i| {
+        let corners = ends.map(|(radius, y)| [corner(i, radius, y), corner(i + 1, radius, y), y * DVec3::Y]);
+        SharedShape::convex_hull(corners.as_flattened())
+    })
+}
+
+/// Capsules around the ring.
+fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
+    // A chord is off its arc by radius · (1 − cos(π/n)), half of which is left where the chord is moved out by the other half.
+    let deviation = (2.0 * TORUS * tube_radius / radius).min(0.1);
+    let sides = (PI / libm::acos(1.0 - deviation)).ceil().clamp(12.0, 96.0);
+    let ring = radius * 2.0 / (1.0 + libm::cos(PI / sides));
+    let corner = move |i: f64| {
+        let (sin, cos) = libm::sincos(TAU * i / sides);
+        DVec3::new(ring * cos, 0.0, ring * sin)
+    };
+    (0..sides as u32)
+        .map(move |i| SharedShape::capsule(corner(f64::from(i)), corner(f64::from(i) + 1.0), tube_radius))
+}
+
+/// A mesh that moves is its hull, if it is convex, or convex parts of it; one that does not is its triangles.
+fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<Solid> {
+    let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| scale * *vertex).collect();
+    if !moves {
+        // Seen from outside of a closed surface, what is within it is inside; an open one has two sides.
+        let flags = match mesh.flaw() {
+            None => TriMeshFlags::FIX_INTERNAL_EDGES,
+            Some(_) => TriMeshFlags::MERGE_DUPLICATE_VERTICES,
+        };
+        let triangles = SharedShape::trimesh_with_flags(vertices, mesh.triangles().to_vec(), flags);
+        return triangles.map(|triangles| vec![(Pose::IDENTITY, triangles)]).unwrap_or_default();
+    }
+    let hull = SharedShape::convex_hull(&vertices);
+    let volume = Shape::volume(&Shape::Mesh { mesh: Arc::clone(mesh), scale }).unwrap_or(0.0);
+    match hull {
+        Some(hull) if hull.mass_properties(1.0).mass() <= volume * (1.0 + CONVEX) => {
+            vec![(Pose::IDENTITY, hull)]
+        }
+        hull => {
+            let parts = SharedShape::convex_decomposition(&vertices, mesh.triangles());
+            match parts.as_compound() {
+                Some(compound) => compound.shapes().to_vec(),
+                None => hull.into_iter().map(|hull| (Pose::IDENTITY, hull)).collect(),
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What can be known of a moment.
+
+use glam::DQuat;
+
+use super::super::contact::ContactSnapshot;
+use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
+use super::TimeStepping;
+use super::books::{Point, Touch};
+
+impl TimeStepping {
+    /// The bodies as they are, or as they are in another state; contacts and joints as in the step that was made last.
+    pub(super) fn picture(&mut self, time: f64, balance: Balance, state: Option<&State>) -> Snapshot {
+        let Self { model, state: own, loads, .. } = self;
+        let seen = state.unwrap_or(own);
+        model.sum(time, seen, loads);
+        model.bear(seen, loads);
+        model.guide(time, loads);
+        self.add_contact_forces();
+        let Self { model, state: own, loads, .. } = self;
+        let state = state.unwrap_or(own);
+        let present = (0..state.len()).filter(|&id| model.is_present(id));
+        let body = |id: usize| {
+            let axes = model.principal_axes(id);
+            let turned = axes != DQuat::IDENTITY;
+            let own = state.orientation[id];
+            BodySnapshot {
+                id,
+                location: state.location[id],
+                orientation: if turned { own * axes.conjugate() } else { own },
+                velocity: state.velocity[id],
+                angular_velocity: model.angular_velocity(id, state),
+                force: loads.force[id],
+            }
+        };
+        let bodies = present.map(body).collect();
+        let contacts = if self.shows_contacts { self.contacts() } else { Vec::new() };
+        let reactions = vec![Reaction::default(); self.joints.len()];
+        Snapshot { time, bodies, reactions, contacts, penetration: self.penetration(), balance }
+    }
+
+    /// Adds the mean forces of contacts in the step that was made last.
+    fn add_contact_forces(&mut self) {
+        let Self { engine, model, loads, steps, .. } = self;
+        if *steps == 0 {
+            return;
+        }
+        let dt = engine.integration_parameters.dt;
+        for touch in engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair) {
+            let Some(push) = touch.push() else { continue };
+            let force = (push.impulse * touch.normal() + push.friction) / dt;
+            let [one, two] = touch.bodies;
+            for (body, force) in [(one, -force), (two, force)] {
+                if model.inverse_mass()[body] != 0.0 {
+                    loads.force[body] += force;
+                }
+            }
+        }
+    }
+
+    /// Where bodies touched in the step that was made last.
+    fn contacts(&self) -> Vec<ContactSnapshot> {
+        let dt = self.engine.integration_parameters.dt;
+        let mut all = Vec::new();
+        if self.steps == 0 {
+            return all;
+        }
+        for pair in self.engine.narrow_phase.contact_pairs() {
+            for touch in Touch::of_pair(pair) {
+                let [one, two] = touch.bodies;
+                let sign = if one < two { 1.0 } else { -1.0 };
+                let pushing: Vec<Point> = touch.points().filter(|point| point.impulse > 0.0).collect();
+                let Some(push) = touch.push() else { continue };
+                all.extend(pushing.iter().map(|point| ContactSnapshot {
+                    bodies: [one.min(two), one.max(two)],
+                    place: self.state.location[one] + point.arms[0],
+                    normal: sign * touch.normal(),
+                    force: sign * point.impulse / dt * touch.normal(),
+                    // Friction is that of all points together: each has its share by how hard it presses.
+                    friction: sign * point.impulse / push.impulse / dt * push.friction,
+                }));
+            }
+        }
+        all.sort_by_key(|contact| contact.bodies);
+        all
+    }
+
+    /// How deep bodies are within each other at most, m.
+    #[must_use]
+    pub fn penetration(&self) -> f64 {
+        self.deepest().map_or(0.0, |(_, depth)| depth.max(0.0))
+    }
+
+    /// The two bodies that are deepest within each other, and how deep, m.
+    pub(super) fn deepest(&self) -> Option<([usize; 2], f64)> {
+        let Self { engine, model, state, .. } = self;
+        let pose = |i: usize| model.movable()[i].then(|| super::bodies::pose(state, i));
+        let touches = engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair);
+        touches.map(|touch| (touch.bodies, touch.depth(pose))).max_by(|one, two| one.1.total_cmp(&two.1))
+    }
+}

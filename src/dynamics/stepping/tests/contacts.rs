@@ -1,0 +1,140 @@
+//! Friction, stacks, rebounds and walls.
+
+use glam::{DQuat, DVec3};
+
+use super::super::super::*;
+use super::{GRAVITY, STEP, Scene, cube, run};
+
+/// A block at rest on an incline, where friction could just hold it and just could not.
+#[test]
+fn friction_holds_up_to_its_angle() {
+    let friction = 0.5_f64;
+    for (part, holds) in [(0.99, true), (1.01, false)] {
+        let tilt = part * libm::atan(friction);
+        let mut scene = Scene::default().with_ground(tilt);
+        let turn = DQuat::from_rotation_z(tilt);
+        let block = scene.add(Shape::Box { size: DVec3::new(1.0, 0.4, 1.0) }, |body| {
+            body.with_orientation(turn).with_location(turn * DVec3::new(0.0, 0.2, 0.0))
+        });
+        let mut stepping = scene.stepping();
+        let end = run(&mut stepping, 4.0).bodies[block.index()];
+        let way = -(turn.conjugate() * end.location).x;
+        let free = GRAVITY * (libm::sin(tilt) - friction * libm::cos(tilt));
+        let expected = if holds { 0.0 } else { 0.5 * free * 16.0 };
+        println!("{part}: slid {way} m, expected {expected} m");
+        assert!((way - expected).abs() < 0.03 * expected.abs() + 1e-3, "{way} {expected}");
+    }
+}
+
+/// v²/(2 μ g) to the end, where friction has taken all of ½ m v².
+#[test]
+fn what_friction_takes_is_booked() {
+    let mut scene = Scene::default().with_ground(0.0);
+    let block = scene.add(Shape::Box { size: DVec3::new(1.0, 0.2, 1.0) }, |body| {
+        body.with_location(0.1 * DVec3::Y).with_velocity(3.0 * DVec3::X)
+    });
+    let mut stepping = scene.stepping();
+    let end = run(&mut stepping, 2.0);
+    let expected = 9.0 / (2.0 * 0.5 * GRAVITY);
+    let way = end.bodies[block.index()].location.x;
+    println!("slid {way} m, expected {expected} m; {:?} drift {}", end.balance.accounts, end.balance.drift);
+    assert!((way / expected - 1.0).abs() < 0.01);
+    assert!((end.balance.accounts.friction / -4.5 - 1.0).abs() < 0.01);
+    assert!(end.balance.drift.abs() < 0.01);
+}
+
+/// Ten boxes of 1 m. They sink into each other a little, and stay where they are.
+#[test]
+fn ten_boxes_stand_for_a_minute() {
+    let mut scene = Scene::default().with_ground(0.0);
+    for k in 0..10 {
+        scene.add(cube(1.0), |body| body.with_location(DVec3::Y * (0.5 + f64::from(k))));
+    }
+    let mut stepping = scene.stepping();
+    run(&mut stepping, 1.0);
+    let early = run(&mut stepping, 10.0);
+    let end = run(&mut stepping, 60.0);
+    for k in 1..=10 {
+        let (body, ideal) = (end.bodies[k], DVec3::Y * (k as f64 - 0.5));
+        let moved = body.location - early.bodies[k].location;
+        println!("{k}: {} from {ideal}, moved by {moved} since 10 s", body.location - ideal);
+        assert!(moved.length() < 0.01, "{k} {moved}");
+    }
+    for k in 1..10 {
+        let gap = end.bodies[k + 1].location.y - end.bodies[k].location.y - 1.0;
+        assert!(gap.abs() < 0.03, "{k} {gap}");
+        assert!(end.bodies[k].location.with_y(0.0).length() < 0.03, "{k}");
+    }
+    println!("penetration {} m, drift {}", stepping.penetration(), end.balance.drift);
+}
+
+/// A ball of 2,000 m/s against a wall of 1 cm: within a step it flies 8 m.
+#[test]
+fn what_is_fast_does_not_pass_through_a_thin_wall() {
+    for fixed in [true, false] {
+        let mut scene = Scene::default();
+        let ball = scene.add(Shape::Sphere { radius: 0.02 }, |body| {
+            body.with_location(-20.3 * DVec3::X).with_velocity(2000.0 * DVec3::X)
+        });
+        scene.add(Shape::Box { size: DVec3::new(0.01, 4.0, 4.0) }, |body| {
+            RigidBody { mass: 1e4, ..body }.with_fixed(fixed)
+        });
+        let mut stepping = TimeStepping::new(scene.world(0.0), &scene.contacts(), &[]);
+        let end = run(&mut stepping, 0.1);
+        let (ball, wall) = (end.bodies[ball.index()], end.bodies[1]);
+        assert!(ball.location.x < wall.location.x, "{fixed} {} {}", ball.location, wall.location);
+    }
+}
+
+/// A ball with restitution 1 that falls from 1 m, with steps of 1/240 s. The warning of the check has these figures.
+#[test]
+fn a_rebound_loses_as_much_height_as_the_warning_says() {
+    let mut scene = Scene::default().with_ground(0.0);
+    let ball = scene.add(Shape::Sphere { radius: 0.1 }, |body| body.with_location(1.1 * DVec3::Y));
+    scene.surfaces[ball.index()] = Some(Surface { restitution: Some(1.0), ..Surface::default() });
+    let mut stepping = scene.stepping();
+    let (mut heights, mut rising) = (Vec::new(), false);
+    for k in 1..30_000 {
+        let ball = run(&mut stepping, STEP * f64::from(k)).bodies[ball.index()];
+        if rising && ball.velocity.y <= 0.0 {
+            heights.push(ball.location.y - 0.1);
+        }
+        rising = ball.velocity.y > 0.0;
+    }
+    println!("{} rebounds, the 10th {} m, the last {:?} m", heights.len(), heights[9], heights.last());
+    assert!((heights[9] - 0.82).abs() < 0.01, "{}", heights[9]);
+    assert!((90..=98).contains(&heights.len()), "{}", heights.len());
+}
+
+/// A torus and a frustum rest where their shapes say.
+#[test]
+fn shapes_that_are_fitted_are_right_to_a_percent() {
+    let mut scene = Scene::default().with_ground(0.0);
+    let ring =
+        scene.add(Shape::Torus { radius: 0.5, tube_radius: 0.1 }, |body| body.with_location(0.12 * DVec3::Y));
+    let bucket = Shape::Cone { radius: 0.3, top_radius: 0.2, height: 0.4 };
+    let base = -cone_base(0.3, 0.2, 0.4);
+    let frustum = scene.add(bucket, |body| body.with_location(DVec3::new(2.0, base + 0.02, 0.0)));
+    let end = run(&mut scene.stepping(), 2.0);
+    let [ring, frustum] = [ring, frustum].map(|id| end.bodies[id.index()].location.y);
+    assert!((ring - 0.1).abs() < 0.001, "{ring}");
+    assert!((frustum - base).abs() < 0.001, "{frustum} {base}");
+}
+
+/// Two boxes of 1 m that are 0.8 m apart, and two that are 0.98 m apart.
+#[test]
+fn bodies_that_overlap_at_the_start_are_a_mistake() {
+    for (apart, is_wrong) in [(0.8, true), (0.98, false)] {
+        let mut scene = Scene::default();
+        scene.add(cube(1.0), |body| body);
+        scene.add(cube(1.0), |body| body.with_location(apart * DVec3::X));
+        let found = scene.stepping().advance(0.1, &[], &mut |_| {});
+        match found {
+            Err(Breakdown::Overlapping { bodies, depth, time }) => {
+                assert!(is_wrong && (depth - 0.2).abs() < 0.02, "{depth}");
+                assert_eq!((bodies.map(BodyId::index), time), ([0, 1], 0.0));
+            }
+            other => assert!(!is_wrong && other.is_ok(), "{other:?}"),
+        }
+    }
+}

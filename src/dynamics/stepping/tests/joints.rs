@@ -1,0 +1,86 @@
+//! Joints against closed forms.
+
+use glam::{DQuat, DVec3};
+
+use super::super::super::*;
+use super::{GRAVITY, Scene, run};
+
+/// A bob 1 m below a point, turned out by some angle, rad, about z.
+fn bob(scene: &mut Scene, angle: f64) -> ([Anchor; 2], DVec3) {
+    let at = DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
+    let bob = scene.add(Shape::Sphere { radius: 0.1 }, |body| body.with_location(at));
+    ([Anchor::Point(DVec3::ZERO), Anchor::Body { id: bob, at: -at }], at)
+}
+
+fn swing(scene: &Scene, kind: LinkKind) -> TimeStepping {
+    TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &[Link { kind, collides: false }])
+}
+
+/// A pendulum of 30° for 20 s, with steps of 1/240 s: a rod keeps its energy to a percent, and so its height; pins and ropes lose a little.
+#[test]
+fn pendulums_keep_their_length_and_most_of_their_energy() {
+    let angle = std::f64::consts::FRAC_PI_6;
+    for (name, loss) in [("rod", 0.01), ("ball", 0.08), ("hinge", 0.08), ("rope", 0.08)] {
+        let mut scene = Scene::default();
+        let (ends, start) = bob(&mut scene, angle);
+        let between = [ends[0], Anchor::centre(BodyId::new(0))];
+        let kind = match name {
+            "rod" => LinkKind::Rod(Rod { between, length: 1.0 }),
+            "ball" => LinkKind::Ball(Ball { between: ends }),
+            "hinge" => LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY)),
+            _ => LinkKind::Rope(Rope { between, length: 1.0 }),
+        };
+        let mut stepping = swing(&scene, kind);
+        let (mut highest, mut worst) = (f64::NEG_INFINITY, 0.0_f64);
+        for k in 1..=2000 {
+            let at = run(&mut stepping, 0.01 * f64::from(k)).bodies[0].location;
+            worst = worst.max((at.length() - 1.0).abs());
+            if k > 1800 {
+                highest = highest.max(at.y);
+            }
+        }
+        // Of the energy above the lowest point.
+        let lost = (start.y - highest) / (1.0 + start.y);
+        println!("{name}: {lost} of the energy lost, length off by {worst} m");
+        assert!(lost.abs() < loss && worst < 1e-4, "{name} {lost} {worst}");
+    }
+}
+
+/// A hinge falls onto its limit, and a motor turns a wheel to its speed and no further.
+#[test]
+fn limits_stop_a_hinge_and_motors_turn_it() {
+    let mut scene = Scene::default();
+    let (ends, _) = bob(&mut scene, 1.2);
+    let freedom = Freedom { limits: Some([-0.7, 0.1]), motor: None };
+    let mut stepping =
+        swing(&scene, LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY).with(freedom)));
+    let end = run(&mut stepping, 5.0).bodies[0].location;
+    let angle = libm::atan2(end.x, -end.y);
+    assert!((angle - 0.5).abs() < 2e-3, "{angle}");
+
+    let mut scene = Scene::default();
+    let wheel = scene.add(Shape::Cylinder { radius: 1.0, height: 0.2 }, |body| body);
+    let ends = [Anchor::Point(DVec3::ZERO), Anchor::centre(wheel)];
+    let freedom = Freedom { limits: None, motor: Some(Motor::Speed { speed: 3.0, limit: 0.5 }) };
+    let kind = LinkKind::Hinge(Hinge::new(ends, DVec3::Y, DQuat::IDENTITY).with(freedom));
+    let mut stepping = swing(&scene, kind);
+    // α = M/I = 0.5/(½ · 1 · 1²) = 1 rad/s².
+    for (t, speed) in [(1.0, 1.0), (2.0, 2.0), (4.0, 3.0)] {
+        let turning = run(&mut stepping, t).bodies[0].angular_velocity;
+        assert!(turning.abs_diff_eq(speed * DVec3::Y, 0.02), "{t} {turning}");
+    }
+}
+
+/// What slides down an inclined rail falls with g sin α.
+#[test]
+fn a_slider_runs_along_its_axis() {
+    let mut scene = Scene::default();
+    let cart = scene.add(Shape::Box { size: DVec3::new(0.2, 0.1, 0.1) }, |body| body);
+    let axis = DVec3::new(libm::cos(0.4), -libm::sin(0.4), 0.0);
+    let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(cart)];
+    let slider = Slider { between, axis, turned: DQuat::IDENTITY, freedom: Freedom::default() };
+    let end = run(&mut swing(&scene, LinkKind::Slider(slider)), 1.0).bodies[0].location;
+    let way = 0.5 * GRAVITY * libm::sin(0.4);
+    assert!((end.dot(axis) - way).abs() < 0.01 * way, "{end}");
+    assert!(end.reject_from_normalized(axis).length() < 1e-4, "{end}");
+}

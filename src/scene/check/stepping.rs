@@ -1,0 +1,141 @@
+//! What `simulation.contacts = "time-stepping"` cannot do, or does badly.
+
+use super::Context;
+use super::counts::Counts;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::{METHODS, Motor, TimeStepping};
+use crate::scene::{Body, ContactLaw, Joint, JointKind, Simulation};
+
+/// From this restitution on, a rebound is meant to keep its height.
+const ELASTIC: f64 = 0.9;
+
+/// The help that names the other scheme.
+const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
+
+/// Where the scene does not say a step, takes one that suits the thinnest body that others touch.
+pub(super) fn choose_step(
+    root: &View<'_>,
+    simulation: Simulation,
+    counts: Counts,
+    bodies: &[Body],
+) -> (Simulation, Counts) {
+    let gravity = simulation.gravity.length();
+    let is_chosen = root.table("simulation").has("step");
+    if simulation.contacts != Some(ContactLaw::TimeStepping) || is_chosen || gravity == 0.0 {
+        return (simulation, counts);
+    }
+    let touches = |body: &&Body| body.collider.is_some() && !body.start.fixed && body.motion.is_none();
+    let thickness = bodies.iter().filter(touches).filter_map(|body| body.shape.half_thickness());
+    let Some(thinnest) = thickness.min_by(f64::total_cmp) else { return (simulation, counts) };
+    let step = TimeStepping::suitable_step(2.0 * thinnest, gravity).min(counts.step);
+    (Simulation { step, ..simulation }, Counts { step, ..counts })
+}
+
+/// Says which integrators and surfaces time stepping does not have.
+pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], context: &mut Context<'_>) {
+    let table = root.table("simulation");
+    let own = METHODS[0].name;
+    if simulation.method.name != own {
+        let message = format!("time stepping does not take the integrator `{}`", simulation.method.name);
+        let span = table.span("integrator").or(table.span("contacts"));
+        let help = format!(
+            "write `integrator = \"{own}\"`, or leave it out; with `contacts = \"event-driven\"`, any integrator will do"
+        );
+        let error = Diagnostic::error(Code::BadContacts, message).help(help);
+        let why = format!("it solves contacts and motion together, by steps of `{own}`");
+        context.diagnostics.extend(span.map(|span| error.at(span, why)));
+    }
+    let ground = root.table("environment").variant("ground");
+    let of_ground = |key: &str| {
+        let ground = ground.as_ref()?;
+        Some((ground.key_span(key)?, ground.number(key)?))
+    };
+    let mut rolling: Vec<Span> = Vec::new();
+    let mut elastic: Vec<(Span, f64)> = Vec::new();
+    let mut see = |key: &str, span: Span, value: f64| match key {
+        "rolling_friction" if value > 0.0 && !rolling.contains(&span) => rolling.push(span),
+        "restitution" if value >= ELASTIC && elastic.iter().all(|(other, _)| *other != span) => {
+            elastic.push((span, value));
+        }
+        _ => {}
+    };
+    for key in ["rolling_friction", "restitution"] {
+        for (body, checked) in root.bodies().zip(bodies) {
+            // Copies share their keys, and the value has been read.
+            let Some(surface) = checked.collider.as_ref().map(|collider| collider.surface) else { continue };
+            let value = if key == "restitution" { surface.restitution } else { surface.rolling_friction };
+            let span = value.and_then(|_| body.look(|view| view.key_span(key)));
+            span.zip(value).into_iter().for_each(|(span, value)| see(key, span, value));
+        }
+        of_ground(key).into_iter().for_each(|(span, value)| see(key, span, value));
+    }
+    for span in rolling {
+        let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
+        context.diagnostics.push(error.at(span, "").help(OTHER));
+    }
+    // Once is enough: it is the same with all.
+    if let Some((span, value)) = elastic.first() {
+        let message = format!("a rebound with restitution {} loses height in time stepping", figure(*value));
+        let label = "a rebound begins at the end of a step, and not at its own time";
+        let help = format!(
+            "with restitution 1 and steps of 1/240 s, a ball that falls from 1 m has {} m left at its 10th rebound, and lies still after \
+             some {}; `contacts = \"event-driven\"` keeps the height",
+            REBOUNDS[0], REBOUNDS[1]
+        );
+        context.diagnostics.push(Diagnostic::warning(Code::LosesHeight, message).at(*span, label).help(help));
+    }
+}
+
+/// The height of the 10th rebound, and how many there are: a test of the engine measures them.
+const REBOUNDS: [&str; 2] = ["0.82", "95"];
+
+/// Says which joints time stepping does not have.
+pub(super) fn check_joints(
+    root: &View<'_>,
+    simulation: &Simulation,
+    joints: &[Joint],
+    context: &mut Context<'_>,
+) {
+    if simulation.contacts != Some(ContactLaw::TimeStepping) {
+        return;
+    }
+    for (name, span, view) in root.named("joint") {
+        let Some(joint) = joints.iter().find(|joint| joint.name == name) else { continue };
+        let before = context.diagnostics.len();
+        let mut wrong = |what: String, span: Span, label: &str, help: &str| {
+            let error = Diagnostic::error(Code::BadContacts, what).at(span, label.to_owned());
+            context.diagnostics.push(error.help(help.to_owned()));
+        };
+        let motor = match &joint.kind {
+            JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
+            JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
+            JointKind::Pulley(_) => {
+                wrong(format!("time stepping has no pulley, as `{name}` is one"), span, "", OTHER);
+                None
+            }
+            JointKind::Gear(_) => {
+                wrong(format!("time stepping has no gear, as `{name}` is one"), span, "", OTHER);
+                None
+            }
+            _ => None,
+        };
+        let kind = super::joint::kind(&view);
+        if matches!(motor, Some(Motor::Value(_))) {
+            let place = kind.as_ref().and_then(|kind| kind.key_span("motor")).unwrap_or(span);
+            let help = "give the motor a `stiffness` and a `damping`, or take the other scheme: \
+                        `simulation.contacts = \"event-driven\"`";
+            wrong(format!("the motor of `{name}` cannot keep its value exactly"), place, "", help);
+        }
+        let arrows = kind.map(|kind| kind.table("arrows"));
+        for key in ["force", "torque"] {
+            let place = arrows.as_ref().and_then(|arrows| arrows.key_span(key));
+            if let Some(place) = place.filter(|_| joint.arrows.iter().any(Option::is_some)) {
+                let what = format!("time stepping does not know the {key} of the joint `{name}`");
+                wrong(what, place, "", OTHER);
+            }
+        }
+        context.once(before, name, span);
+    }
+}
