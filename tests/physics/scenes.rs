@@ -59,7 +59,7 @@ fn the_four_bar_linkage_stays_closed() {
 #[test]
 fn the_tippe_top_keeps_the_integral_of_jellett_and_turns_over() {
     use std::f64::consts::PI;
-    // In units of the radius, of the mass of its ball, and of the larger moment of inertia.
+    // Lengths in radii of the ball, masses in masses of the ball, moments of inertia relative to the largest one.
     let (stem, high) = (0.15_f64, 0.9);
     let ball = 4.0 / 3.0 * PI;
     let stem = (PI * stem * stem * (high - 2.0 * stem) + ball * (stem * stem * stem)) / ball;

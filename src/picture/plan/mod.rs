@@ -1,15 +1,20 @@
 //! What all frames of a run have in common, and with it what the picture of each shows.
 
 mod in_front;
+mod largest;
+#[cfg(test)]
+mod tests;
 mod written;
 
 use std::borrow::Cow;
 
+pub use largest::Largest;
 pub use written::Written;
 
+use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
-use super::camera::{Eye, Placed, half_width};
+use super::camera::{Eye, Placed};
 use super::ghosts::Ghosts;
 use super::grid::{Grid, Ruled, Ruler};
 use super::in_front::Planes;
@@ -17,12 +22,12 @@ use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::{Link, Links, PlannedLink};
 use super::not_drawn::{self, NotDrawn};
-use super::scope::{Part, Scope, largest};
+use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Body, Camera, GridPlane, Quantity, Scene};
+use crate::scene::{Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// What all frames of a run, seen by one camera, have in common; made once.
@@ -61,17 +66,6 @@ struct Sizes {
     /// The width of a line that is well seen, m.
     stroke: f64,
     arrows: ArrowSizes,
-}
-
-/// The largest body, and how small it is in the picture.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Largest {
-    /// Its name.
-    pub name: String,
-    /// How many pixels it is wide in the picture, where it is largest there.
-    pub pixels: f64,
-    /// How many pixels it would be wide if the camera framed the whole run.
-    pub pixels_in_whole: f64,
 }
 
 /// Whether a scene writes anything into its pictures.
@@ -147,7 +141,7 @@ impl Plan {
             bar,
             labels: Labels::new(scene, ink),
             screen: has_texts(scene).then(|| placed.screen()),
-            largest: largest_seen(scene, camera, survey, &eye),
+            largest: Largest::seen(scene, camera, survey, &eye),
             part: scope.part,
             sizes,
             stage,
@@ -311,137 +305,6 @@ impl Plan {
 
     /// The largest body, if it is too small to be seen, or would be if the camera framed the whole run.
     pub fn too_small(&self) -> Option<&Largest> {
-        let is_small = |largest: &&Largest| match self.part {
-            Part::Whole => largest.pixels < SMALLEST_SEEN,
-            Part::Start(_) => true,
-            Part::AroundBody(_) => largest.pixels_in_whole < SMALLEST_SEEN,
-        };
-        self.largest.as_ref().filter(is_small)
-    }
-}
-
-/// So many pixels across, a body is a dot.
-const SMALLEST_SEEN: f64 = 4.0;
-
-/// The narrowest view of a camera in a run that takes place within bounds, m. One that moves is looked through at 33 times.
-fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
-    let times = if eye.moves() { 32 } else { 0 };
-    let views = (0..=times).map(|number| {
-        let time = scene.simulation.duration * f64::from(number) / 32.0;
-        eye.early(time).width_of_view(bounds)
-    });
-    views.fold(f64::MAX, f64::min)
-}
-
-/// How wide the largest body is in the picture of a camera.
-fn largest_seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
-    let body: &Body = largest(scene)?;
-    let whole = survey.spans.last()?;
-    let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
-    let towards = framing::towards_camera(whole.moving, reads_ground(scene));
-    let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
-    Some(Largest {
-        name: body.name.to_string(),
-        pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
-        pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec3;
-
-    use super::*;
-    use crate::picture::Bearer;
-    use crate::simulate::{Frames, survey};
-
-    fn plan(keys: &str) -> (Plan, Frame) {
-        let text = format!(
-            "simulation = {{ duration = 1, gravity = [0, -10, 0] }}
-            [body.ball]\nshape.sphere.radius = 0.1\nvelocity = [1, 5, 0]\n{keys}"
-        );
-        let scene = Scene::parse(&text).unwrap();
-        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
-        let frame = Frames::at(&scene, 0.5).unwrap();
-        (plan, frame)
-    }
-
-    #[test]
-    fn what_nobody_asks_for_is_not_there() {
-        let (plan, frame) = plan("");
-        assert!(plan.arrows(&frame).is_empty() && plan.axes(&frame).is_empty());
-        assert!(plan.links(&frame).is_empty() && plan.trails(&frame).is_empty());
-        assert!(plan.texts(&frame).is_empty() && plan.ghosts(&frame).next().is_none());
-        assert!(plan.grid(&frame).is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
-        assert!(plan.lights(0.5).is_empty() && !plan.camera_moves() && !plan.lights_move());
-    }
-
-    #[test]
-    fn lengths_are_metres_whatever_the_unit_of_scripts_is() {
-        let keys = "arrows.velocity.scale = 0.2\naxes.length = 2\n[povray]\nunit = 0.001";
-        let (plan, frame) = plan(keys);
-        let ball = frame.bodies[0];
-        let [arrow] = plan.arrows(&frame)[..] else { panic!("one is asked for") };
-        assert_eq!((arrow.bearer, arrow.quantity), (Bearer::Body(0), Quantity::Velocity));
-        assert!((arrow.from.distance(ball.location) - 0.1).abs() < 1e-9);
-        assert!((arrow.to - arrow.from).abs_diff_eq(0.2 * ball.velocity, 1e-12));
-        let [axes] = plan.axes(&frame)[..] else { panic!("they are asked for") };
-        assert_eq!((axes.location, axes.length), (ball.location, 2.0));
-        assert!((1.0..5.0).contains(&plan.stage().size));
-    }
-
-    /// A ghost keeps the forces of its own time.
-    #[test]
-    fn ghosts_have_the_arrows_of_what_touched_them() {
-        let text = "[simulation]\nduration = 0.5\ngravity = [0, -10, 0]\ncontacts = 'event-driven'
-            integrator = 'rk4'\n[body.block]\nshape.box.size = [1, 1, 1]\nmass = 2\nlocation = [0, 0.5, 0]
-            velocity = [4, 0, 0]\nfriction = 0.2\nghosts = { every = 0.2, arrows = true }
-            arrows = { normal.scale = 0.1, friction.scale = 0.1 }";
-        let scene = Scene::parse(text).unwrap();
-        let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
-        let frame = Frames::at(&scene, 0.48).unwrap();
-        let ghosts: Vec<_> = plan.ghosts(&frame).filter(|ghost| ghost.time > 0.1).collect();
-        assert_eq!(ghosts.len(), 2);
-        for ghost in ghosts {
-            let [normal, friction] = plan.ghost_arrows(&frame, ghost)[..] else {
-                panic!("two are asked for")
-            };
-            let along = |arrow: Arrow| (arrow.to - arrow.from).normalize();
-            assert!(along(normal).dot(DVec3::Y) > 0.99, "{normal:?}");
-            assert!(along(friction).dot(DVec3::X) < -0.99, "{friction:?}");
-        }
-    }
-
-    #[test]
-    fn ghosts_have_their_arrows_and_are_not_where_their_body_is() {
-        let (plan, frame) = plan("arrows.velocity = true\nghosts.every = 0.25");
-        let ghosts: Vec<f64> = plan.ghosts(&frame).map(|ghost| ghost.time).collect();
-        assert_eq!(ghosts, [0.0, 0.25]);
-        for ghost in plan.ghosts(&frame) {
-            let [arrow] = plan.ghost_arrows(&frame, ghost)[..] else { panic!("they have arrows") };
-            assert!(arrow.from.distance(ghost.body.location) < 0.1 + 1e-9);
-        }
-    }
-
-    #[test]
-    fn texts_say_of_what_they_are_and_the_bar_is_below_its_number() {
-        let (plan, frame) = plan("[label.now]\ntext = '${t:.1} s'\n[scale_bar]\nlength = 1\n[grid]");
-        let texts = plan.texts(&frame);
-        let says = |name: &str| texts.iter().find(|text| text.name == name).map(|text| text.says.as_ref());
-        assert_eq!((says("now"), says("scale bar")), (Some("0.5 s"), Some("1 m")));
-        assert!(says("grid").is_some() && plan.grid(&frame).is_some_and(|grid| !grid.lines.is_empty()));
-        let (bar, number) = plan.written(&frame).unwrap().bar.unwrap();
-        assert_eq!(Some(bar), plan.bar(&frame));
-        assert!(number.y.above_middle(0.5) > bar.y.above_middle(0.5));
-        assert!((number.x - (bar.from + bar.to) / 2.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_camera_that_follows_looks_at_its_body() {
-        let (plan, frame) = plan("[camera]\nfollow = { body = 'ball' }\n[label.now]\ntext = 'x'");
-        assert!(plan.camera_moves());
-        assert_eq!(plan.camera(&frame).look_at(), frame.bodies[0].location);
-        let spot = plan.screen(&frame).unwrap().spot(frame.bodies[0].location).unwrap();
-        assert!(spot.x.abs() < 1e-12 && spot.y.abs() < 1e-12);
+        self.largest.as_ref().filter(|largest| largest.is_too_small(self.part))
     }
 }

@@ -56,15 +56,13 @@ pub(super) struct Grid {
 impl Grid {
     const NONE: u32 = u32::MAX;
 
-    pub(super) fn new(bodies: usize) -> Grid {
-        let places = if bodies == 0 { 0 } else { (2 * bodies).next_power_of_two() };
-        Grid { last: vec![Grid::NONE; places], before: vec![Grid::NONE; bodies] }
-    }
-
     /// Puts the bodies that have one into the cells with these keys, and what was in them is gone.
     #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
-    pub(super) fn fill(&mut self, keys: impl Iterator<Item = Option<u64>>) {
-        self.last.fill(Grid::NONE);
+    pub(super) fn fill(&mut self, keys: impl ExactSizeIterator<Item = Option<u64>>) {
+        let bodies = keys.len();
+        self.last.clear();
+        self.last.resize((2 * bodies).next_power_of_two(), Grid::NONE);
+        self.before.resize(bodies, Grid::NONE);
         for (body, key) in keys.enumerate() {
             let Some(key) = key else { continue };
             let place = self.place(key);

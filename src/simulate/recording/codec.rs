@@ -19,6 +19,7 @@
 
 mod decoder;
 mod encoder;
+mod last;
 #[cfg(test)]
 mod tests;
 

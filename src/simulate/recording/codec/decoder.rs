@@ -7,45 +7,36 @@ use glam::{DQuat, DVec3};
 use super::super::super::ImpactCounts;
 use super::super::super::simulation::Entry;
 use super::super::events::{CONTACT_NUMBERS, IMPACT_NUMBERS, contact_of, impact_of};
+use super::last::Last;
 use super::{
-    ABSENT, AT_REST, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS,
-    damaged,
+    ABSENT, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS, damaged,
 };
 use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 
 /// Reads a page from its beginning on.
 #[derive(Default)]
 pub(in super::super) struct Decoder {
-    last: Vec<[f64; NUMBERS]>,
-    joints: Vec<[f64; JOINT_NUMBERS]>,
-    impacts: Vec<f64>,
+    last: Last,
     at: usize,
 }
 
 impl Decoder {
     /// For so many bodies and joints, at the beginning of a page.
-    pub(in super::super) fn new(Counts { bodies, joints, impacts }: Counts) -> Decoder {
-        Decoder {
-            last: vec![AT_REST; bodies],
-            joints: vec![[0.0; JOINT_NUMBERS]; joints],
-            impacts: vec![0.0; impacts],
-            at: 0,
-        }
+    pub(in super::super) fn new(counts: Counts) -> Decoder {
+        Decoder { last: Last::new(counts), at: 0 }
     }
 
     /// Goes back to the beginning of a page, of this or another recording of so many.
     pub(in super::super) fn begin_page(&mut self) {
-        self.last.fill(AT_REST);
-        self.joints.fill([0.0; JOINT_NUMBERS]);
-        self.impacts.fill(0.0);
+        self.last.begin_page();
         self.at = 0;
     }
 
     /// The next moment.
     pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
         let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts } =
-            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
-        let mut bodies = Vec::with_capacity(self.last.len());
+            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
+        let mut bodies = Vec::with_capacity(self.last.bodies.len());
         let mut id = 0;
         for (mask, count) in runs {
             let ids = id..id + count;
@@ -53,7 +44,7 @@ impl Decoder {
             if mask == ABSENT {
                 continue;
             }
-            for (id, last) in ids.clone().zip(self.last.get_mut(ids).ok_or_else(damaged)?) {
+            for (id, last) in ids.clone().zip(self.last.bodies.get_mut(ids).ok_or_else(damaged)?) {
                 values = take_changed(values, mask, &COLUMNS, last)?;
                 bodies.push(body_of(id, last));
             }
@@ -61,7 +52,7 @@ impl Decoder {
         let (runs, mut values) = joints;
         let mut next = 0;
         for (mask, count) in runs {
-            let them = self.joints.get_mut(next..next + count).ok_or_else(damaged)?;
+            let them = self.last.joints.get_mut(next..next + count).ok_or_else(damaged)?;
             next += count;
             for last in them {
                 values = take_changed(values, mask, &JOINT_COLUMNS, last)?;
@@ -72,17 +63,17 @@ impl Decoder {
             force: DVec3::new(n[0], n[1], n[2]),
             torque: DVec3::new(n[3], n[4], n[5]),
         };
-        let mut entry = head.entry(bodies, self.joints.iter().map(reaction).collect());
+        let mut entry = head.entry(bodies, self.last.joints.iter().map(reaction).collect());
         entry.snapshot.contacts = numbers_in(contacts, contact_of)?;
         entry.impacts = numbers_in(impacts, impact_of)?;
-        entry.counts = ImpactCounts(self.impacts.clone());
+        entry.counts = ImpactCounts(self.last.impacts.clone());
         Ok(entry)
     }
 
     fn take_counts(&mut self, (runs, mut values): (Vec<Run>, &[u8])) -> io::Result<()> {
         let mut next = 0;
         for (mask, count) in runs {
-            for last in self.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
+            for last in self.last.impacts.get_mut(next..next + count).ok_or_else(damaged)? {
                 values = take_changed(values, mask, &COUNT_COLUMNS, std::slice::from_mut(last))?;
             }
             next += count;
@@ -90,16 +81,16 @@ impl Decoder {
         Ok(())
     }
 
-    /// Passes the next moment, and keeps only what is of one body, and the counts of impacts; whether the body is there. What is known of others, of joints and
-    /// of contacts is lost.
+    /// Reads of the next moment one body and the counts of impacts only, and says whether the body is there. What is known of other
+    /// bodies, of joints and of contacts is lost.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
         let Parts { head, bodies: (runs, mut values), counts, .. } =
-            parts(page, &mut self.at, (self.joints.len(), self.impacts.len()))?;
+            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
             if mask != ABSENT && (id..id + count).contains(&wanted) {
                 let skipped = values.get(8 * width(mask, &COLUMNS) * (wanted - id)..).ok_or_else(damaged)?;
-                let last = self.last.get_mut(wanted).ok_or_else(damaged)?;
+                let last = self.last.bodies.get_mut(wanted).ok_or_else(damaged)?;
                 take_changed(skipped, mask, &COLUMNS, last)?;
                 found = true;
                 break;
@@ -107,10 +98,10 @@ impl Decoder {
             values = values.get(8 * width(mask, &COLUMNS) * count..).ok_or_else(damaged)?;
             id += count;
         }
-        let body = if found { vec![body_of(wanted, &self.last[wanted])] } else { Vec::new() };
+        let body = if found { vec![body_of(wanted, &self.last.bodies[wanted])] } else { Vec::new() };
         self.take_counts(counts)?;
         let mut entry = head.entry(body, Vec::new());
-        entry.counts = ImpactCounts(self.impacts.clone());
+        entry.counts = ImpactCounts(self.last.impacts.clone());
         Ok((entry, found))
     }
 }

@@ -2,40 +2,30 @@
 
 use super::super::super::simulation::Entry;
 use super::super::events::{contact_numbers, impact_numbers};
-use super::{
-    ABSENT, AT_REST, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS,
-};
+use super::last::Last;
+use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
 use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
 
 /// Turns moments into bytes, one after another.
 pub(in super::super) struct Encoder {
-    last: Vec<[f64; NUMBERS]>,
-    joints: Vec<[f64; JOINT_NUMBERS]>,
-    impacts: Vec<f64>,
+    last: Last,
     masks: Vec<u8>,
 }
 
 impl Encoder {
     /// For so many bodies and joints.
-    pub(in super::super) fn new(Counts { bodies, joints, impacts }: Counts) -> Encoder {
-        Encoder {
-            last: vec![AT_REST; bodies],
-            joints: vec![[0.0; JOINT_NUMBERS]; joints],
-            impacts: vec![0.0; impacts],
-            masks: Vec::new(),
-        }
+    pub(in super::super) fn new(counts: Counts) -> Encoder {
+        Encoder { last: Last::new(counts), masks: Vec::new() }
     }
 
     /// A new page begins: it can be read without those before it.
     pub(in super::super) fn begin_page(&mut self) {
-        self.last.fill(AT_REST);
-        self.joints.fill([0.0; JOINT_NUMBERS]);
-        self.impacts.fill(0.0);
+        self.last.begin_page();
     }
 
     /// Appends a moment.
     pub(in super::super) fn encode(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
-        let Self { last, joints, masks, .. } = self;
+        let Self { last, masks } = self;
         let Entry { frame, snapshot, .. } = entry;
         let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
         bytes.extend_from_slice(&number.to_le_bytes());
@@ -49,25 +39,25 @@ impl Encoder {
         put(bytes, &[snapshot.penetration]);
 
         masks.clear();
-        masks.resize(last.len(), ABSENT);
+        masks.resize(last.bodies.len(), ABSENT);
         let start = bytes.len();
         for body in &snapshot.bodies {
             let numbers = numbers_of(body);
-            let last = &mut last[body.id];
+            let last = &mut last.bodies[body.id];
             masks[body.id] = put_changed(bytes, &COLUMNS, &numbers, last);
             *last = numbers;
         }
         put_runs(bytes, start, masks);
-        if !joints.is_empty() {
+        if !last.joints.is_empty() {
             self.encode_joints(snapshot, bytes);
         }
-        if !self.impacts.is_empty() {
+        if !self.last.impacts.is_empty() {
             self.encode_contacts(entry, bytes);
         }
     }
 
     fn encode_joints(&mut self, snapshot: &Snapshot, bytes: &mut Vec<u8>) {
-        let Self { joints, masks, .. } = self;
+        let Self { last: Last { joints, .. }, masks } = self;
         masks.clear();
         let start = bytes.len();
         // What has no reaction does nothing.
@@ -82,7 +72,7 @@ impl Encoder {
 
     /// The counts of impacts, the contacts of the moment, and the impacts since the one before.
     fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
-        let Self { impacts, masks, .. } = self;
+        let Self { last: Last { impacts, .. }, masks } = self;
         masks.clear();
         let start = bytes.len();
         let counts = entry.counts.0.iter().copied().chain(std::iter::repeat(0.0));

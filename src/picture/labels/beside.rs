@@ -1,0 +1,108 @@
+//! Labels beside bodies, where there is room.
+
+use super::super::room::{Rectangle, Room};
+use super::super::screen::{Screen, Spot};
+use super::super::text::{MARGIN, Text, Vertical};
+use super::said::Moment;
+use super::{LINE, Labels, Planned};
+use crate::dynamics::BodySnapshot;
+use crate::scene::Side;
+
+impl Labels {
+    /// Where a body or a ghost is seen, and the part of the picture that it takes: nothing, if it is a plane.
+    pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
+        let shape = self.bodies[at.id].drawn();
+        let spot = screen.spot(at.location)?;
+        let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0) * spot.metre;
+        let (up, right) = (screen.up(), screen.right());
+        let area = Rectangle {
+            left: spot.x - reach(-right),
+            right: spot.x + reach(right),
+            bottom: spot.y - reach(-up),
+            top: spot.y + reach(up),
+        };
+        Some((spot, area))
+    }
+
+    /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
+    /// or farther away where it would lie on an arrow or on another text; and on another side where it would lie on
+    /// another body, if it can stay near.
+    pub(super) fn beside<'a>(
+        &'a self,
+        planned: &'a Planned,
+        (at, side): (&BodySnapshot, Side),
+        moment: &Moment<'_>,
+        screen: &Screen,
+        (room, crowd): (&mut Room, &Room),
+    ) -> Option<Text<'a>> {
+        let (spot, area) = self.seen(at, screen)?;
+        if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
+            return None;
+        }
+        let height = planned.height;
+        let at_side = |side: Side, farther: f64| match side {
+            Side::Above => (spot.x, area.top + 0.3 * height + farther, 0.5),
+            Side::Below => (spot.x, area.bottom - 0.9 * height - farther, 0.5),
+            Side::Left => (area.left - 0.35 * height - farther, spot.y - 0.3 * height, 1.0),
+            Side::Right => (area.right + 0.35 * height + farther, spot.y - 0.3 * height, 0.0),
+        };
+        let said = self.said(&planned.label, moment);
+        let candidate = |side: Side, lines: f64| {
+            let (x, y, align) = at_side(side, lines * LINE * height);
+            self.kept_inside(planned.text(said.as_str().into(), (x, Vertical::Middle(y)), align))
+        };
+        let others = match side {
+            Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
+            Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
+        };
+        // A line farther on its own side, or on the opposite one, before the other two sides.
+        let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
+        let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
+        let candidates =
+            near.clone().chain(far.clone()).map(|(side, lines)| candidate(side, f64::from(lines)));
+        let aside = near.chain([(others[2], 0), (others[3], 0)]);
+        let aside = aside.map(|(side, lines)| candidate(side, f64::from(lines)));
+        let corners = [Side::Above, Side::Below].into_iter().flat_map(|side| {
+            let y = Vertical::Middle(at_side(side, 0.0).1);
+            [(area.right, 0.0), (area.left, 1.0)]
+                .map(|(x, align)| self.kept_inside(planned.text(said.as_str().into(), (x, y), align)))
+        });
+        let farther = far.filter(|(_, lines)| *lines <= 3);
+        let farther = farther.map(|(side, lines)| candidate(side, f64::from(lines)));
+        let free = aside
+            .chain(corners)
+            .chain(farther)
+            .find(|text| room.has_room_for(text) && crowd.has_room_for(text))
+            .or_else(|| candidates.into_iter().find(|text| room.has_room_for(text)));
+        let text = free.unwrap_or_else(|| candidate(side, 0.0));
+        room.take_text(&text);
+        let Text { x, y, align, .. } = text;
+        Some(planned.text(said.into(), (x, y), align))
+    }
+
+    /// A text that would leave the picture, moved to its edge.
+    fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
+        let area = text.area(self.aspect);
+        let edge = 1.0 - MARGIN / 2.0;
+        let shift = |low: f64, high: f64, edge: f64| {
+            if high - low > 2.0 * edge {
+                -(low + high) / 2.0
+            } else {
+                (edge - high).min(0.0) + (-edge - low).max(0.0)
+            }
+        };
+        let x = text.x + shift(area.left, area.right, edge);
+        let y = text.y.raised(shift(area.bottom, area.top, self.aspect - MARGIN / 2.0));
+        Text { x, y, ..text }
+    }
+}
+
+/// The other side of a body.
+fn opposite(side: Side) -> Side {
+    match side {
+        Side::Above => Side::Below,
+        Side::Below => Side::Above,
+        Side::Left => Side::Right,
+        Side::Right => Side::Left,
+    }
+}

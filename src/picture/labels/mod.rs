@@ -1,0 +1,138 @@
+//! Texts in the picture, with the numbers of the moment.
+
+mod beside;
+mod corner;
+mod said;
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use self::corner::{Taken, inset_without_overlap, under_bar};
+use self::said::{Moment, longest};
+use super::room::Room;
+use super::screen::Screen;
+use super::text::{MARGIN, Text, Vertical, least_height, width};
+use crate::dynamics::Coordinate;
+use crate::scene::{Body, Color, Label, LabelPlace, Scene};
+use crate::simulate::{Frame, Ghost};
+
+/// The usual height of a line, as part of the picture's height.
+const SIZE: f64 = 0.055;
+/// The least height of a line where none is given, pixels.
+const LEAST_PIXELS: f64 = 13.0;
+/// The distance from the base line of one line of text to the next, in heights of a line.
+const LINE: f64 = 1.15;
+
+/// The labels of a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Labels {
+    labels: Vec<Planned>,
+    /// The bodies of the scene, if labels look at any.
+    bodies: Vec<Body>,
+    /// The coordinates of hinges and sliders, by the numbers of the joints.
+    joints: Vec<Option<Coordinate>>,
+    /// The height of the picture, as part of its width.
+    aspect: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Planned {
+    label: Label,
+    /// The height of a line on the screen.
+    height: f64,
+    color: Color,
+    /// In a corner: how far its middle is from the edge, on the screen.
+    inset: f64,
+}
+
+impl Labels {
+    /// Plans the labels for pictures of a height, as part of their width.
+    pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
+        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let mut taken: Vec<Taken> =
+            scene.scale_bar.map(|bar| under_bar(bar.corner, aspect)).into_iter().collect();
+        let plan = |label: &Label| {
+            let usual = (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, scene.output));
+            let mut height = label.size.map_or(usual, |size| 2.0 * aspect * size);
+            let mut inset = 0.0;
+            if let LabelPlace::Corner(corner) = label.place {
+                // A line that is wider than the picture is made smaller.
+                let wide = width(&longest(label), 1.0);
+                height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
+                inset = inset_without_overlap(&mut taken, corner, [wide * height, height], 2.0 * aspect);
+            }
+            Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
+        };
+        let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
+        let bodies = if labels.is_empty() { Vec::new() } else { scene.bodies.clone() };
+        let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
+        Labels { labels, bodies, joints, aspect }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// A picture of which nothing is taken.
+    pub(super) fn room(&self) -> Room {
+        Room::new(self.aspect)
+    }
+
+    /// The labels of a frame that stand in corners, each with its number.
+    pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
+        let now = Moment::now(frame);
+        let labels = self.labels.iter().enumerate();
+        let text = |(number, planned)| Some((number, self.in_corner(planned, &now)?));
+        labels.filter_map(text).collect()
+    }
+
+    /// The labels of a frame that stand beside bodies, each with its number, on the plane before its camera. They keep
+    /// off what is taken.
+    pub(super) fn beside_bodies(
+        &self,
+        frame: &Frame,
+        screen: &Screen,
+        room: &mut Room,
+    ) -> Vec<(usize, Text<'_>)> {
+        let now = Moment::now(frame);
+        let ghosts_of = self.ghosts_by_body(frame);
+        let mut crowd = self.room();
+        let ghosts = frame.past.ghosts.iter().map(|ghost| &ghost.body);
+        for body in frame.bodies.iter().chain(ghosts) {
+            self.seen(body, screen).into_iter().for_each(|(_, area)| crowd.take(area));
+        }
+        let mut texts = Vec::new();
+        for (number, planned) in self.labels.iter().enumerate() {
+            let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
+            let here = frame.body(body);
+            let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, (room, &crowd)));
+            texts.extend(text.map(|text| (number, text)));
+            let its = ghosts_of.get(&body).filter(|_| ghosts);
+            for ghost in its.into_iter().flatten() {
+                let then = Moment::then(ghost);
+                let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
+                texts.extend(text.map(|text| (number, text)));
+            }
+        }
+        texts
+    }
+
+    /// The ghosts of a frame by the numbers of their bodies, if a label stands at ghosts.
+    fn ghosts_by_body<'a>(&self, frame: &'a Frame) -> HashMap<usize, Vec<&'a Ghost>> {
+        let mut by_body: HashMap<usize, Vec<&Ghost>> = HashMap::new();
+        let at_ghosts =
+            |planned: &Planned| matches!(planned.label.place, LabelPlace::Body { ghosts: true, .. });
+        if self.labels.iter().any(at_ghosts) {
+            frame.past.ghosts.iter().for_each(|ghost| by_body.entry(ghost.body.id).or_default().push(ghost));
+        }
+        by_body
+    }
+}
+
+impl Planned {
+    /// The label, with what it says.
+    fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
+        Text { name: &self.label.name, says, x, y, height: self.height, align, color: self.color }
+    }
+}

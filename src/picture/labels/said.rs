@@ -1,0 +1,200 @@
+//! What labels say at a moment: their words, with the numbers of then.
+
+use super::super::number;
+use super::Labels;
+use crate::dynamics::{Balance, BodyId, BodySnapshot, Reaction, find};
+use crate::scene::{Body, BodyMeasure, Format, Label, Measure, Piece, Quantity, RunMeasure};
+use crate::simulate::{Frame, Ghost, ImpactCounts, shown};
+
+/// The moment that a label speaks of.
+pub(super) struct Moment<'a> {
+    time: f64,
+    frame: usize,
+    balance: Option<&'a Balance>,
+    bodies: &'a [BodySnapshot],
+    /// What the joints do; of ghosts, that is not kept.
+    reactions: &'a [Reaction],
+    /// The impacts so far; of ghosts, they are not kept.
+    impacts: Option<&'a ImpactCounts>,
+}
+
+impl<'a> Moment<'a> {
+    /// The moment of a frame.
+    pub(super) fn now(frame: &'a Frame) -> Moment<'a> {
+        Moment {
+            time: frame.time,
+            frame: frame.index,
+            balance: Some(&frame.balance),
+            bodies: &frame.bodies,
+            reactions: &frame.reactions,
+            impacts: Some(&frame.impacts),
+        }
+    }
+
+    /// The moment of a ghost.
+    pub(super) fn then(ghost: &'a Ghost) -> Moment<'a> {
+        Moment {
+            time: ghost.time,
+            frame: 0,
+            balance: None,
+            bodies: std::slice::from_ref(&ghost.body),
+            reactions: &[],
+            impacts: None,
+        }
+    }
+}
+
+impl Labels {
+    /// What a label says at a moment.
+    pub(super) fn said(&self, label: &Label, moment: &Moment<'_>) -> String {
+        let mut said = String::new();
+        for piece in &label.text {
+            match piece {
+                Piece::Words(words) => said.push_str(words),
+                Piece::Value { formula, inputs, format } => {
+                    let inputs: Vec<f64> =
+                        inputs.iter().map(|measure| self.measure(*measure, moment)).collect();
+                    said.push_str(&written(formula.eval(&inputs), *format));
+                }
+            }
+        }
+        said
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
+    fn measure(&self, measure: Measure, moment: &Moment<'_>) -> f64 {
+        let energy = |of: fn(&Balance) -> f64| moment.balance.map_or(f64::NAN, of);
+        let impacts = |of: fn(&ImpactCounts) -> f64| moment.impacts.map_or(f64::NAN, of);
+        match measure {
+            Measure::Run(RunMeasure::Time) => moment.time,
+            Measure::Run(RunMeasure::Frame) => moment.frame as f64,
+            Measure::Run(RunMeasure::Energy) => energy(|balance| balance.total),
+            Measure::Run(RunMeasure::Kinetic) => energy(|balance| balance.kinetic),
+            Measure::Run(RunMeasure::Potential) => energy(|balance| balance.potential),
+            Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
+            Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
+            Measure::Body(number, BodyMeasure::Impacts) => {
+                moment.impacts.map_or(f64::NAN, |impacts| impacts.of_body(number))
+            }
+            Measure::Body(number, measure) => {
+                let at = find(moment.bodies, number);
+                at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
+            }
+            Measure::Joint(number, measure) => {
+                let Some(reaction) = moment.reactions.get(number) else { return f64::NAN };
+                let body = |id: BodyId| find(moment.bodies, id.index()).copied();
+                let coordinate = self.joints[number].and_then(|joint| joint.seen(body));
+                measure.of(reaction, coordinate.unwrap_or([f64::NAN; 2]))
+            }
+        }
+    }
+}
+
+/// A text as long as what a label may say at any moment: numbers have up to four digits before their point.
+pub(super) fn longest(label: &Label) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Words(words) => words.clone(),
+        Piece::Value { format: Format::Short, .. } => "0.0000".to_owned(),
+        Piece::Value { format: Format::Decimals(decimals), .. } => "0".repeat(decimals + 3),
+        Piece::Value { format: Format::Scientific(decimals), .. } => "0".repeat(decimals + 5),
+    };
+    label.text.iter().map(piece).collect()
+}
+
+fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
+    let acceleration = shown(Quantity::Acceleration, body, at);
+    let mass = body.start.mass;
+    match measure {
+        BodyMeasure::Location(axis) => at.location[axis],
+        BodyMeasure::Speed => at.velocity.length(),
+        BodyMeasure::Velocity(axis) => at.velocity[axis],
+        BodyMeasure::Accelerating => acceleration.length(),
+        BodyMeasure::Acceleration(axis) => acceleration[axis],
+        BodyMeasure::Pull => at.force.length(),
+        BodyMeasure::Force(axis) => at.force[axis],
+        BodyMeasure::Spin => at.angular_velocity.length(),
+        BodyMeasure::Mass => mass,
+        BodyMeasure::Momentum => mass * at.velocity.length(),
+        // Frames count them.
+        BodyMeasure::Impacts => f64::NAN,
+        BodyMeasure::Kinetic => {
+            let turned = at.orientation * body.start.principal_axes;
+            let spin = turned.conjugate() * at.angular_velocity;
+            0.5 * (mass * at.velocity.length_squared() + body.start.inertia.dot(spin * spin))
+        }
+    }
+}
+
+/// A number as a label has it, with a real minus sign. What is no number is shown as such.
+fn written(value: f64, format: Format) -> String {
+    if !value.is_finite() {
+        return "?".to_owned();
+    }
+    let text = match format {
+        Format::Short => short_of(value),
+        // Longer numbers are no easier to read, and what draws them may know short texts only.
+        Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
+        Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
+    };
+    // −0.00 would be a sign without a number.
+    let text = match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
+        _ => text,
+    };
+    text.replace('-', "–")
+}
+
+fn short_of(value: f64) -> String {
+    let mut out = String::new();
+    number::write(&mut out, value, 3);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn numbers_are_written_as_asked_for() {
+        for (value, format, expected) in [
+            (0.5, Format::Decimals(2), "0.50"),
+            (-1.25, Format::Decimals(1), "–1.2"),
+            (-0.001, Format::Decimals(2), "0.00"),
+            (12345.678, Format::Short, "12300"),
+            (-0.012345, Format::Short, "–0.0123"),
+            (1.5e-9, Format::Scientific(1), "1.5e–9"),
+            (1e300, Format::Decimals(1), "1.0e300"),
+            (f64::NAN, Format::Short, "?"),
+        ] {
+            assert_eq!(written(value, format), expected);
+        }
+    }
+
+    /// The kinetic energy of the only body that moves is that of the run, also while a compound tumbles.
+    #[test]
+    fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
+        let scene = Scene::parse(
+            "
+            simulation = { duration = 1, integrator = 'rk4' }
+            [body.hammer]
+            mass = 3
+            velocity = [1, 2, 0]
+            angular_velocity = [1, 2, 3]
+            shape.compound.parts = [
+                { box.size = [3, 1, 2] },
+                { sphere.radius = 0.5, location = [1, 2, 0] },
+            ]
+            ",
+        )
+        .unwrap();
+        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
+            let kinetic = of_body(&scene.bodies[0], &frame.bodies[0], BodyMeasure::Kinetic);
+            assert!(
+                (kinetic / frame.balance.kinetic - 1.0).abs() < 1e-9,
+                "{kinetic} {}",
+                frame.balance.kinetic
+            );
+        }
+    }
+}

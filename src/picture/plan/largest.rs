@@ -1,0 +1,57 @@
+//! How large the largest body is in the picture: a warning says if it is too small to be seen.
+
+use super::super::camera::{Eye, half_width};
+use super::super::framing;
+use super::super::scope::{Part, largest};
+use super::reads_ground;
+use crate::scene::{Body, Camera, Scene};
+use crate::simulate::{Bounds, Survey};
+
+/// So many pixels across, a body is a dot.
+const SMALLEST_SEEN: f64 = 4.0;
+
+/// The largest body, and how small it is in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Largest {
+    /// Its name.
+    pub name: String,
+    /// How many pixels it is wide in the picture, where it is largest there.
+    pub pixels: f64,
+    /// How many pixels it would be wide if the camera framed the whole run.
+    pub pixels_in_whole: f64,
+}
+
+impl Largest {
+    /// The largest body of a scene, with its size in the picture of a camera.
+    pub(super) fn seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
+        let body: &Body = largest(scene)?;
+        let whole = survey.spans.last()?;
+        let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
+        let towards = framing::towards_camera(whole.moving, reads_ground(scene));
+        let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
+        Some(Largest {
+            name: body.name.to_string(),
+            pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
+            pixels_in_whole: pixels(on_whole.placed().width_of_view(whole.bounds)),
+        })
+    }
+
+    /// Whether it is too small to be seen, or would be if the camera framed the whole run.
+    pub(super) fn is_too_small(&self, part: Part) -> bool {
+        match part {
+            Part::Whole => self.pixels < SMALLEST_SEEN,
+            Part::Start(_) => true,
+            Part::AroundBody(_) => self.pixels_in_whole < SMALLEST_SEEN,
+        }
+    }
+}
+
+/// The narrowest view of a camera in a run that takes place within bounds, m. One that moves is looked through at 33 times.
+pub(super) fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
+    let times = if eye.moves() { 32 } else { 0 };
+    let views = (0..=times).map(|number| {
+        let time = scene.simulation.duration * f64::from(number) / 32.0;
+        eye.early(time).width_of_view(bounds)
+    });
+    views.fold(f64::MAX, f64::min)
+}

@@ -1,0 +1,162 @@
+//! The columns of a CSV file: what they are called, where they stand, and their units.
+
+use csv::StringRecord;
+
+use super::super::view::View;
+use super::rows::Reader;
+use crate::diagnostic::{Code, nearest};
+use crate::scene::grammar::quoted;
+use crate::scene::units;
+
+/// What columns are called.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(in super::super) struct Columns {
+    pub(super) time: String,
+    pub(super) body: String,
+    pub(super) location: Vec<String>,
+    pub(super) orientation: Vec<String>,
+    pub(super) velocity: Vec<String>,
+    pub(super) angular_velocity: Vec<String>,
+    /// Those that a scene names must be there.
+    pub(super) given: [bool; 4],
+}
+
+impl Columns {
+    pub(in super::super) fn read(view: &View<'_>) -> Columns {
+        let one = |key: &str, usual: &str| view.text(key).unwrap_or(usual).to_owned();
+        let many = |key: &str, usual: &[&str]| {
+            let given =
+                view.list(key).map(|items| items.iter().filter_map(|item| item.as_str()).collect::<Vec<_>>());
+            given.unwrap_or_else(|| usual.to_vec()).into_iter().map(str::to_owned).collect()
+        };
+        Columns {
+            time: one("time", "t"),
+            body: one("body", "body"),
+            location: many("location", &["x", "y", "z"]),
+            orientation: many("orientation", &["qx", "qy", "qz", "qw"]),
+            velocity: many("velocity", &["vx", "vy", "vz"]),
+            angular_velocity: many("angular_velocity", &["wx", "wy", "wz"]),
+            given: ["body", "orientation", "velocity", "angular_velocity"].map(|key| view.has(key)),
+        }
+    }
+}
+
+/// A column with numbers: its place, and what its unit is worth in that of SI.
+pub(super) type Column = (usize, f64);
+
+/// The quantities of columns: by the scene language's unit for them, empty for one without a unit.
+pub(super) const TIME: &str = "s";
+pub(super) const LENGTH: &str = "m";
+pub(super) const VELOCITY: &str = "m/s";
+pub(super) const TURNING: &str = "rad/s";
+pub(super) const RATIO: &str = "";
+
+impl Reader<'_> {
+    /// The place of a column in the header, and its unit.
+    pub(super) fn find(&self, header: &StringRecord, name: &str) -> Option<(usize, String)> {
+        let called = |name: &str| {
+            header.iter().enumerate().find_map(|(i, field)| {
+                let (stem, unit) = unit_of(field);
+                let is_it = field.eq_ignore_ascii_case(name) || stem.eq_ignore_ascii_case(name);
+                is_it.then(|| (i, unit.to_owned()))
+            })
+        };
+        // Both words for the time are usual.
+        called(name).or_else(|| if name == "t" { called("time") } else { None })
+    }
+
+    pub(super) fn column(
+        &mut self,
+        header: &StringRecord,
+        start: usize,
+        name: &str,
+        of: &str,
+    ) -> Option<Column> {
+        let Some((i, unit)) = self.find(header, name) else {
+            self.missing(header, start, name);
+            return None;
+        };
+        let factor =
+            if unit.is_empty() || of == RATIO && unit == "1" { Some(1.0) } else { units::factor(&unit, of) };
+        if factor.is_none() {
+            let at = self.fields.field(start, i);
+            self.error(Code::CsvUnit, format!("the unit `{unit}` is not known here"), at);
+            let known = units::usual(of);
+            if let Some(wrong) = self.wrong.last_mut() {
+                wrong.help = Some(match known.as_slice() {
+                    [] => "this column has no unit".to_owned(),
+                    known => format!("there are {}", quoted(known)),
+                });
+            }
+        }
+        Some((i, factor?))
+    }
+
+    /// Columns that are there together, or not at all.
+    pub(super) fn columns(
+        &mut self,
+        header: &StringRecord,
+        start: usize,
+        names: &[String],
+        of: &str,
+        needed: bool,
+    ) -> Option<Vec<Column>> {
+        if !needed && names.iter().all(|name| self.find(header, name).is_none()) {
+            return None;
+        }
+        let found: Vec<_> = names.iter().map(|name| self.column(header, start, name, of)).collect();
+        found.into_iter().collect()
+    }
+
+    pub(super) fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
+        let line = self.fields.line(start);
+        if let Some((message, help)) = without_names(header) {
+            // Once for all columns.
+            if self.wrong.is_empty() {
+                self.error(Code::CsvColumn, message.to_owned(), line);
+                self.wrong.iter_mut().for_each(|wrong| wrong.help = Some(help.to_owned()));
+            }
+            return;
+        }
+        let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
+        self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
+        // Of one letter, any other would be near.
+        let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
+        if let Some(wrong) = self.wrong.last_mut() {
+            wrong.label = match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "these are the columns".to_owned(),
+            };
+            wrong.help = Some("`columns` says what columns are called in the file".to_owned());
+        }
+    }
+}
+
+/// What is wrong with a first line that names no columns, and what it should be.
+fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> {
+    let words: Vec<&str> = header.iter().flat_map(str::split_whitespace).collect();
+    let are_numbers = !words.is_empty() && words.iter().all(|word| word.parse::<f64>().is_ok());
+    let is_one = header.len() == 1 && words.len() > 2;
+    match (are_numbers, is_one) {
+        (true, true) => Some((
+            "the first line of the file names no columns",
+            "write `t,x,y,z` above it, and commas between the numbers",
+        )),
+        (true, false) => Some(("the first line of the file names no columns", "write `t,x,y,z` above it")),
+        (false, true) => Some((
+            "the columns stand without commas between them",
+            "write `t,x,y,z`, and commas in every line",
+        )),
+        (false, false) => None,
+    }
+}
+
+/// `x [m]` or `x (m)` → the name and the unit.
+fn unit_of(field: &str) -> (&str, &str) {
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((stem, unit)) = field.strip_suffix(close).and_then(|field| field.rsplit_once(open)) {
+            return (stem.trim(), unit.trim());
+        }
+    }
+    (field, "")
+}

@@ -1,0 +1,66 @@
+//! Where the lines and fields of a CSV file stand in its text, to say where a mistake is.
+
+use std::ops::Range;
+
+/// The text of a CSV file.
+pub(super) struct Fields<'a> {
+    pub(super) text: &'a str,
+    /// What stands between the fields.
+    pub(super) delimiter: u8,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn new(text: &'a str) -> Fields<'a> {
+        Fields { text, delimiter: delimiter(text) }
+    }
+
+    /// The line that begins at a byte, or behind line breaks and comments there.
+    pub(super) fn line(&self, start: usize) -> Range<usize> {
+        let rest = self.text.get(start..).unwrap_or_default();
+        let skipped: usize = rest
+            .split_inclusive('\n')
+            .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
+            .map(str::len)
+            .sum();
+        let start = start + skipped;
+        let line = self.text.get(start..).unwrap_or_default().lines().next().unwrap_or_default();
+        start..start + line.trim_end().len()
+    }
+
+    /// The place of a field in the record that begins at a byte.
+    pub(super) fn field(&self, start: usize, column: usize) -> Range<usize> {
+        let line = self.line(start);
+        let (mut from, mut field, mut quoted) = (line.start, 0, false);
+        for (i, byte) in self.text[line.clone()].bytes().enumerate() {
+            let here = line.start + i;
+            match byte {
+                b'"' => quoted = !quoted,
+                byte if byte == self.delimiter && !quoted => {
+                    if field == column {
+                        return self.trimmed(from..here);
+                    }
+                    (field, from) = (field + 1, here + 1);
+                }
+                _ => {}
+            }
+        }
+        if field == column { self.trimmed(from..line.end) } else { line.end..line.end }
+    }
+
+    fn trimmed(&self, range: Range<usize>) -> Range<usize> {
+        let text = &self.text[range.clone()];
+        let start = range.start + (text.len() - text.trim_start().len());
+        start..start + text.trim().len()
+    }
+}
+
+/// What stands between the fields of the first line.
+fn delimiter(text: &str) -> u8 {
+    let header =
+        text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
+    let count = |delimiter: char| header.matches(delimiter).count();
+    let (best, _) = [(b',', count(',')), (b';', count(';')), (b'\t', count('\t'))]
+        .into_iter()
+        .fold((b',', 0), |best, next| if next.1 > best.1 { next } else { best });
+    best
+}

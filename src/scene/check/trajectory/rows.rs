@@ -1,0 +1,166 @@
+//! The rows of a CSV file become the motions of bodies.
+
+use std::ops::Range;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+use glam::{DQuat, DVec3};
+
+use super::Recording;
+use super::columns::{Column, Columns, LENGTH, RATIO, TIME, TURNING, VELOCITY};
+use super::fields::Fields;
+use crate::diagnostic::Code;
+use crate::dynamics::Key;
+
+/// Something wrong in the file.
+pub(super) struct Wrong {
+    pub(super) code: Code,
+    pub(super) message: String,
+    pub(super) at: Range<usize>,
+    pub(super) label: String,
+    pub(super) help: Option<String>,
+}
+
+/// Reads a file, and notes what is wrong in it.
+pub(super) struct Reader<'a> {
+    pub(super) fields: Fields<'a>,
+    pub(super) wrong: Vec<Wrong>,
+}
+
+/// So many mistakes are shown of a file.
+const SHOWN: usize = 20;
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(text: &'a str) -> Reader<'a> {
+        Reader { fields: Fields::new(text), wrong: Vec::new() }
+    }
+
+    /// The rows of the file; none if something is wrong.
+    pub(super) fn read(&mut self, columns: &Columns) -> Option<Recording> {
+        let text = self.fields.text;
+        let mut csv = ReaderBuilder::new()
+            .delimiter(self.fields.delimiter)
+            .comment(Some(b'#'))
+            .trim(Trim::All)
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let header = match csv.headers() {
+            Ok(header) => header.clone(),
+            Err(error) => {
+                self.error(Code::CsvSyntax, format!("this is no CSV file: {error}"), 0..0);
+                return None;
+            }
+        };
+        let start = header.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
+        let time = self.column(&header, start, &columns.time, TIME);
+        let body = self.find(&header, &columns.body).map(|(i, _)| i);
+        if columns.given[0] && body.is_none() {
+            self.missing(&header, start, &columns.body);
+        }
+        let location = self.columns(&header, start, &columns.location, LENGTH, true);
+        let orientation = self.columns(&header, start, &columns.orientation, RATIO, columns.given[1]);
+        let velocity = self.columns(&header, start, &columns.velocity, VELOCITY, columns.given[2]);
+        let turning = self.columns(&header, start, &columns.angular_velocity, TURNING, columns.given[3]);
+        let (Some(time), Some(location)) = (time, location) else { return None };
+        if !self.wrong.is_empty() {
+            return None;
+        }
+
+        let mut recording = Recording { is_turned: orientation.is_some(), ..Recording::default() };
+        let mut record = StringRecord::new();
+        loop {
+            match csv.read_record(&mut record) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => {
+                    let at = error.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
+                    self.error(Code::CsvSyntax, format!("this is no row of a CSV file: {error}"), at..at);
+                    break;
+                }
+            }
+            let start = record.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
+            let name = body.map(|body| record.get(body).unwrap_or_default().to_owned());
+            let mut vector = |columns: &[Column]| -> Option<DVec3> {
+                let [x, y, z] = columns else { return None };
+                let numbers = [x, y, z].map(|column| self.number(&record, start, *column));
+                Some(DVec3::new(numbers[0]?, numbers[1]?, numbers[2]?))
+            };
+            let (place, speed, spin) = (
+                vector(&location),
+                velocity.as_deref().map(&mut vector),
+                turning.as_deref().map(&mut vector),
+            );
+            let time = self.number(&record, start, time);
+            let turned = match orientation.as_deref() {
+                Some(columns) => self.orientation(&record, start, columns),
+                None => Some(DQuat::IDENTITY),
+            };
+            if self.wrong.len() >= SHOWN {
+                break;
+            }
+            let (Some(time), Some(location), Some(orientation)) = (time, place, turned) else { continue };
+            let keys = recording.rows.entry(name).or_default();
+            if let Some(last) = keys.last().filter(|last| last.time >= time) {
+                let message =
+                    if last.time > time { "the time goes backwards" } else { "this time comes twice" };
+                let message = format!("{message}: {time} s after {} s", last.time);
+                let at = self.fields.field(start, self.find(&header, &columns.time).map_or(0, |(i, _)| i));
+                self.error(Code::CsvOrder, message, at);
+                if let Some(wrong) = self.wrong.last_mut() {
+                    wrong.help = Some("the rows of a body stand in the order of their times".to_owned());
+                }
+                continue;
+            }
+            keys.push(Key {
+                time,
+                location,
+                orientation,
+                velocity: speed.flatten(),
+                angular_velocity: spin.flatten(),
+            });
+        }
+        if recording.rows.is_empty() && self.wrong.is_empty() {
+            let end = text.len();
+            self.error(Code::CsvSyntax, "the file has no rows under its header".to_owned(), end..end);
+        }
+        recording.times = recording.rows.values().flatten().map(|key| key.time).collect();
+        recording.times.sort_unstable_by(f64::total_cmp);
+        recording.times.dedup();
+        self.wrong.is_empty().then_some(recording)
+    }
+
+    fn number(&mut self, record: &StringRecord, start: usize, (column, factor): Column) -> Option<f64> {
+        let field = record.get(column);
+        let number = field.and_then(|field| field.parse::<f64>().ok()).map(|number| number * factor);
+        if let Some(number) = number.filter(|number| number.is_finite() && number.abs() <= 1e100) {
+            return Some(number);
+        }
+        let found = match field {
+            None => "the end of the row".to_owned(),
+            Some("") => "nothing".to_owned(),
+            Some(field) => format!("`{}`", field.chars().take(40).collect::<String>().escape_debug()),
+        };
+        let at = self.fields.field(start, column);
+        self.error(Code::CsvNumber, format!("expected a number, found {found}"), at);
+        None
+    }
+
+    fn orientation(&mut self, record: &StringRecord, start: usize, columns: &[Column]) -> Option<DQuat> {
+        let mut parts = [0.0; 4];
+        for (part, column) in parts.iter_mut().zip(columns) {
+            *part = self.number(record, start, *column)?;
+        }
+        let quaternion = DQuat::from_array(parts);
+        if quaternion.length() > 1e-6 {
+            return Some(quaternion.normalize());
+        }
+        let at = self.fields.field(start, columns[0].0);
+        self.error(Code::CsvNumber, "a quaternion of zeros is no orientation".to_owned(), at);
+        None
+    }
+
+    pub(super) fn error(&mut self, code: Code, message: String, at: Range<usize>) {
+        if self.wrong.len() < SHOWN {
+            self.wrong.push(Wrong { code, message, at, label: String::new(), help: None });
+        }
+    }
+}
