@@ -1,6 +1,7 @@
 //! A tree held against the description of the language: everything that can be said without knowing what a
 //! scene is about.
 
+use super::habits::Owner;
 use super::{Context, habits, read, sdl, suggest};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
@@ -267,6 +268,8 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
             Some(inner) if context.is_hopeless(&entry.name.text) || is_known(inner, context) => {}
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);
+                let owner = Owner { table: inner, spec, at: entry.name.span, path: &path };
+                owner.mend_deep(before, context);
                 if word == "force" && context.has_errors(before) {
                     context.wrong_forces.insert(entry.name.text.clone());
                 }

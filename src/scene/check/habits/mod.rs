@@ -7,6 +7,7 @@ mod launch;
 mod missing;
 mod nameless;
 mod not_built;
+mod owner;
 mod table;
 mod text;
 mod together;
@@ -20,6 +21,7 @@ pub(super) use self::kind::{meant_kind, mend_word};
 pub(super) use self::missing::{insertion, mend_kind, mend_missing};
 pub(super) use self::nameless::{mend_array, mend_unnamed, nameless};
 
+pub(super) use self::owner::Owner;
 pub(super) use self::text::{before, is_file};
 pub(super) use self::together::together;
 pub(super) use self::unknown::{known_keys, unknown};

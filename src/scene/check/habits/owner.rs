@@ -1,0 +1,71 @@
+//! Keys that stand one table too deep: `repeat` among the keys of a joint's rod.
+
+use super::super::Context;
+use super::key_of;
+use super::missing::insertion;
+use super::text::{header_end, raw, removal, whole};
+use crate::diagnostic::{Code, Span};
+use crate::scene::grammar::{Key, TableSpec};
+use crate::scene::source::{Entry, Table};
+
+/// A named thing: a body, a force, a joint.
+pub(in crate::scene::check) struct Owner<'a> {
+    pub(in crate::scene::check) table: &'a Table,
+    pub(in crate::scene::check) spec: &'static TableSpec,
+    /// Where its name stands.
+    pub(in crate::scene::check) at: Span,
+    /// Its header: `[joint.string]`.
+    pub(in crate::scene::check) path: &'a str,
+}
+
+impl Owner<'_> {
+    /// Says of unknown keys in its inner tables that they are its own, and moves them there.
+    pub(in crate::scene::check) fn mend_deep(&self, before: usize, context: &mut Context<'_>) {
+        for number in before..context.diagnostics.len() {
+            let error = &context.diagnostics[number];
+            if error.code != Code::UnknownKey || error.fix.is_some() || error.labels.len() != 1 {
+                continue;
+            }
+            let Some(entry) = self.table.entries.iter().find_map(|entry| find(entry, error.labels[0].span))
+            else {
+                continue;
+            };
+            let Some(key) = key_of(&entry.name.text, self.spec) else { continue };
+            if !key.kind.takes(&entry.node.value) {
+                continue;
+            }
+            let edits = self.edits(entry, key, context);
+            let error = &mut context.diagnostics[number];
+            error.labels[0].text = format!("`{}` belongs in {}", key.name, self.path);
+            error.help = None;
+            let edits = edits.into_iter().flatten();
+            *error = edits.fold(error.clone(), |error, (span, text)| error.fix(span, text));
+        }
+    }
+
+    /// The pieces of text that move an entry to where it belongs, if that can be told.
+    fn edits(&self, entry: &Entry, key: &Key, context: &Context<'_>) -> Option<[(Span, String); 2]> {
+        if self.table.get(key.name).is_some() || entry.name.span.source != self.at.source {
+            return None;
+        }
+        let line = format!("{} = {}", key.name, raw(entry.node.span, context));
+        let place = insertion(self.at, &line, context).or_else(|| self.header_above(&line, context))?;
+        Some([(removal(whole(entry), context)?, String::new()), place])
+    }
+
+    /// A header of its own with a line, above that of its inner table, unless it has one.
+    fn header_above(&self, line: &str, context: &Context<'_>) -> Option<(Span, String)> {
+        let text = &context.sources.get(self.at.source).text;
+        header_end(self.at, context)?;
+        let has_header = text.lines().any(|line| line.trim_start().starts_with(self.path));
+        let start = text[..self.at.start].rfind('\n').map_or(0, |newline| newline + 1);
+        let place = Span { start, end: start, ..self.at };
+        (!has_header).then(|| (place, format!("{}\n{line}\n\n", self.path)))
+    }
+}
+
+/// The entry whose name stands at a place, in the tables below an entry.
+fn find(entry: &Entry, at: Span) -> Option<&Entry> {
+    let inner = entry.node.as_table()?;
+    inner.entries.iter().find_map(|entry| if entry.name.span == at { Some(entry) } else { find(entry, at) })
+}
