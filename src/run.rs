@@ -111,8 +111,7 @@ impl<'a> Run<'a> {
             .chain(grid)
             .chain(plan.not_drawn().iter().map(not_drawn::warning))
             .chain(
-                first_order(self.scene(), self.survey().drift)
-                    .or_else(|| drift(self.scene(), self.survey().drift)),
+                first_order(self.scene(), self.survey().drift).or_else(|| drift(self.scene(), self.survey())),
             )
             .collect()
     }
@@ -178,13 +177,19 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
 ];
 
 /// That the energy is wrong by more than anyone would draw knowingly.
-fn drift(scene: &Scene, drift: f64) -> Option<Diagnostic> {
+fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
-    let message = format!("the energy drifts by {:.0} % of the largest kinetic energy", drift * 100.0);
-    let help = match scene.simulation.contacts {
-        Some(ContactLaw::TimeStepping) => "take a smaller `simulation.step`",
-        _ => "take a smaller `simulation.step`, or an `integrator` of higher order",
+    let (drift, of, help) = match scene.simulation.contacts {
+        Some(ContactLaw::TimeStepping) => {
+            (survey.drift_of_turnover, "energy that was turned over", "take a smaller `simulation.step`")
+        }
+        _ => (
+            survey.drift,
+            "largest kinetic energy",
+            "take a smaller `simulation.step`, or an `integrator` of higher order",
+        ),
     };
+    let message = format!("the energy drifts by {:.0} % of the {of}", drift * 100.0);
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 

@@ -23,7 +23,7 @@ use crate::simulate::{Counts, Recording, Store};
 
 const FORMAT: &[u8; 8] = b"jabuka 1";
 /// The bytes of the entry of a page.
-const ENTRY: usize = 48;
+pub(super) const ENTRY: usize = 48;
 /// The bytes at the end.
 const TAIL: usize = 48;
 /// No page is larger, bytes: one has a single moment of all bodies, or about 1 MB.
@@ -47,7 +47,7 @@ impl At {
         if digest == self.digest { Ok(bytes.into()) } else { Err(damaged()) }
     }
 
-    fn to_bytes(self) -> [u8; ENTRY] {
+    pub(super) fn to_bytes(self) -> [u8; ENTRY] {
         let mut bytes = [0; ENTRY];
         bytes[..8].copy_from_slice(&self.offset.to_le_bytes());
         bytes[8..16].copy_from_slice(&self.bytes.to_le_bytes());
@@ -55,7 +55,7 @@ impl At {
         bytes
     }
 
-    fn from_bytes(bytes: &[u8; ENTRY]) -> At {
+    pub(super) fn from_bytes(bytes: &[u8; ENTRY]) -> At {
         let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         At { offset: number(0), bytes: number(8), digest: std::array::from_fn(|i| bytes[16 + i]) }
     }

@@ -8,7 +8,9 @@
 //! | what the name of a file says | `digest` |
 //! | what is in a file | `file` |
 //! | the pages of a run while it is simulated | `spill` |
+//! | from where a run goes on that was stopped | `checkpoint` |
 
+mod checkpoint;
 mod digest;
 mod file;
 mod spill;
@@ -32,6 +34,12 @@ const USUAL_LIMIT: u64 = 2_000_000_000;
 const KEPT: &str = "run";
 /// How the names of those end that are being written.
 const PART: &str = "part";
+/// How the names of checkpoints end, beside the pages that were written up to there.
+const STOPPED: &str = "checkpoint";
+/// How the names of checkpoints end that are being written.
+const SAVING: &str = "saving";
+/// A run that takes long is saved so often, unless the user says otherwise.
+const USUAL_INTERVAL: Duration = Duration::from_secs(30);
 
 /// Where runs are kept, and how much.
 #[derive(Clone, Debug)]
@@ -42,6 +50,8 @@ pub struct Cache {
     limit: u64,
     /// What is simulated faster is not kept.
     quick: Duration,
+    /// How often a run is saved that takes long.
+    interval: Duration,
 }
 
 /// What a cache holds.
@@ -49,6 +59,8 @@ pub struct Cache {
 pub struct Holding {
     /// The number of runs.
     pub runs: usize,
+    /// The number of runs that were stopped, and can go on.
+    pub stopped: usize,
     /// Their size, bytes.
     pub bytes: u64,
 }
@@ -57,13 +69,13 @@ impl Cache {
     /// One that keeps nothing.
     #[must_use]
     pub fn none() -> Cache {
-        Cache { folder: None, limit: 0, quick: QUICK }
+        Cache { folder: None, limit: 0, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
     /// One that keeps at most so many bytes in a folder, which is made when it is needed.
     #[must_use]
     pub fn new(folder: PathBuf, limit: u64) -> Cache {
-        Cache { folder: Some(folder), limit, quick: QUICK }
+        Cache { folder: Some(folder), limit, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
     /// The same, but runs are kept however fast they were simulated.
@@ -72,16 +84,28 @@ impl Cache {
         Cache { quick: Duration::ZERO, ..self }
     }
 
+    /// The same, but runs that take longer than this are saved so often, to go on from there if they are stopped.
+    #[must_use]
+    pub fn saving_every(self, interval: Duration) -> Cache {
+        Cache { interval, ..self }
+    }
+
     /// The user's: in `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`; at most `JABUKA_CACHE_SIZE` MB,
     /// or 2 GB. With `JABUKA_CACHE_ALL=1`, runs are kept however fast they were simulated.
     ///
     /// # Errors
-    /// Where `JABUKA_CACHE_SIZE` is not a number; the message says so.
+    /// Where `JABUKA_CACHE_SIZE` or `JABUKA_CHECKPOINT_SECONDS` is not a number; the message says so.
     pub fn of_user() -> Result<Cache, String> {
         let limit = match env::var("JABUKA_CACHE_SIZE") {
             Err(env::VarError::NotPresent) => USUAL_LIMIT,
             text => text.ok().and_then(|text| text.trim().parse::<u64>().ok()).map(|mb| mb.saturating_mul(1_000_000)).ok_or(
                 "JABUKA_CACHE_SIZE is a number of megabytes, as in JABUKA_CACHE_SIZE=500; with 0, nothing is kept",
+            )?,
+        };
+        let interval = match env::var("JABUKA_CHECKPOINT_SECONDS") {
+            Err(env::VarError::NotPresent) => USUAL_INTERVAL,
+            text => text.ok().and_then(|text| text.trim().parse().ok()).map(Duration::from_secs).ok_or(
+                "JABUKA_CHECKPOINT_SECONDS is a whole number of seconds, as in JABUKA_CHECKPOINT_SECONDS=60",
             )?,
         };
         let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
@@ -91,9 +115,9 @@ impl Cache {
         let folder = variable("JABUKA_CACHE_DIR").or_else(|| caches.map(|caches| caches.join("jabuka")));
         Ok(match folder {
             Some(folder) if limit > 0 && variable("JABUKA_CACHE_ALL").is_some() => {
-                Cache::new(folder, limit).keeping_all()
+                Cache::new(folder, limit).keeping_all().saving_every(interval)
             }
-            Some(folder) if limit > 0 => Cache::new(folder, limit),
+            Some(folder) if limit > 0 => Cache::new(folder, limit).saving_every(interval),
             _ => Cache::none(),
         })
     }
@@ -140,18 +164,45 @@ impl Cache {
             self.forget(scene, &moments);
         }
         let start = Instant::now();
-        let spill = self.spill(scene, &moments);
-        let mut recorder = Recorder::new(scene, moments, effort, Box::new(spill.clone()));
+        let (spill, mut recorder) = match self.resume(scene, &moments, effort, &mut seen) {
+            Some(stopped) => stopped,
+            None => {
+                let spill = self.spill(scene, &moments);
+                (spill.clone(), Recorder::new(scene, moments, effort, Box::new(spill)))
+            }
+        };
+        let was_stopped = recorder.resumed().is_some();
+        let mut saved = Instant::now();
         loop {
             match recorder.advance() {
                 Ok(Some(frame)) => seen(&frame),
                 Ok(None) => break,
                 Err(breakdown) => return recorder.finish_early(breakdown),
             }
+            if spill.has_name() && saved.elapsed() >= self.interval {
+                // A run that cannot be saved goes on without.
+                let _: io::Result<bool> = save(&spill, &mut recorder);
+                saved = Instant::now();
+            }
         }
         let recorded = recorder.finish()?;
-        self.keep(&spill, recorded.recording(), start.elapsed());
+        self.keep(&spill, recorded.recording(), if was_stopped { Duration::MAX } else { start.elapsed() });
         Ok(recorded)
+    }
+
+    /// A run of the scene that was stopped, at its last checkpoint; `seen` is told of every frame up to there.
+    fn resume<'a>(
+        &self,
+        scene: &'a Scene,
+        moments: &Moments,
+        effort: &Effort,
+        seen: &mut dyn FnMut(&Frame),
+    ) -> Option<(Spill, Recorder<'a>)> {
+        let folder = self.folder.clone().filter(|_| digest::is_worth_keeping(scene))?;
+        let (spill, checkpoint) = Spill::resume(folder, digest::of(scene, moments))?;
+        let store = Box::new(spill.clone());
+        let recorder = Recorder::resume(scene, moments.clone(), effort, (&checkpoint, store), seen)?;
+        Some((spill, recorder))
     }
 
     /// The run of a scene that is kept, if it is. What is damaged may only show when it is read.
@@ -204,8 +255,9 @@ impl Cache {
     /// Where the folder cannot be read.
     pub fn holding(&self) -> io::Result<Holding> {
         let Some(folder) = &self.folder else { return Ok(Holding::default()) };
-        let kept = files(folder, KEPT)?;
-        Ok(Holding { runs: kept.len(), bytes: kept.iter().map(|kept| kept.bytes).sum() })
+        let (kept, stopped) = (files(folder, KEPT)?, stopped(folder)?);
+        let bytes = kept.iter().chain(&stopped).map(|kept| kept.bytes).sum();
+        Ok(Holding { runs: kept.len(), stopped: stopped.len(), bytes })
     }
 
     /// Removes all that is kept, and says what that was.
@@ -216,20 +268,21 @@ impl Cache {
         let held = self.holding()?;
         let Some(folder) = &self.folder else { return Ok(held) };
         sweep(folder)?;
-        files(folder, KEPT)?.iter().try_for_each(|kept| remove(&kept.path))?;
+        files(folder, KEPT)?.iter().chain(&stopped(folder)?).try_for_each(Kept::remove)?;
         Ok(held)
     }
 
     fn tidy(&self, folder: &Path) -> io::Result<()> {
         sweep(folder)?;
         let mut kept = files(folder, KEPT)?;
+        kept.extend(stopped(folder)?);
         kept.sort_by(|a, b| (a.used, &a.path).cmp(&(b.used, &b.path)));
         let mut bytes: u64 = kept.iter().map(|kept| kept.bytes).sum();
         for oldest in kept {
             if bytes <= self.limit {
                 break;
             }
-            remove(&oldest.path)?;
+            oldest.remove()?;
             bytes -= oldest.bytes;
         }
         Ok(())
@@ -246,6 +299,35 @@ struct Kept {
     path: PathBuf,
     bytes: u64,
     used: SystemTime,
+}
+
+impl Kept {
+    fn remove(&self) -> io::Result<()> {
+        if self.path.extension().is_some_and(|extension| extension == PART) {
+            // Only with the lock, since a process may go on with it.
+            let locked = checkpoint::lock(&self.path);
+            locked.iter().for_each(|_| checkpoint::remove(&self.path));
+            return Ok(());
+        }
+        remove(&self.path)
+    }
+}
+
+/// Saves a run for the case that it is stopped; whether that was possible.
+fn save(spill: &Spill, recorder: &mut Recorder<'_>) -> io::Result<bool> {
+    let Some(checkpoint) = recorder.checkpoint()? else { return Ok(false) };
+    spill.save(&checkpoint)
+}
+
+/// The runs of a folder that were stopped and can go on: the files of their pages. Whoever simulates one has it locked.
+fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
+    let of_checkpoint = |found: Kept| {
+        let path = found.path.with_extension(PART);
+        let bytes = found.bytes + fs::metadata(&path).ok()?.len();
+        checkpoint::lock(&path)?;
+        Some(Kept { path, bytes, used: found.used })
+    };
+    Ok(files(folder, STOPPED)?.into_iter().filter_map(of_checkpoint).collect())
 }
 
 /// The files of a folder whose names end so; none if there is no folder.
@@ -270,12 +352,21 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
     Ok(files)
 }
 
-/// Removes what runs have left that were killed: nobody has locked it.
+/// Removes what runs have left that were killed and cannot go on: nobody has locked it.
 fn sweep(folder: &Path) -> io::Result<()> {
     for part in files(folder, PART)? {
         let is_left = fs::File::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());
-        if is_left {
+        if is_left && !checkpoint::beside(&part.path).exists() {
             remove(&part.path)?;
+        }
+    }
+    for ending in [STOPPED, SAVING] {
+        for left in files(folder, ending)? {
+            let part = left.path.with_extension(PART);
+            let is_left = !part.exists() || ending == SAVING && checkpoint::lock(&part).is_some();
+            if is_left {
+                remove(&left.path)?;
+            }
         }
     }
     Ok(())

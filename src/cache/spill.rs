@@ -9,10 +9,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use sha2::{Digest, Sha256};
 
-use super::PART;
+use super::checkpoint::{self, Stopped};
 use super::digest::Key;
 use super::file::{self, At};
-use crate::simulate::Store;
+use super::{PART, SAVING};
+use crate::simulate::{Checkpoint, Store};
 
 /// So much of a run stays in memory, bytes.
 const IN_MEMORY: usize = 1 << 20;
@@ -62,30 +63,46 @@ impl Spill {
         Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner: Mutex::default() }))
     }
 
+    /// The pages of a run that was stopped, and from where it goes on.
+    pub(super) fn resume(folder: PathBuf, key: Key) -> Option<(Spill, Checkpoint)> {
+        let Stopped { part: path, file, pages, checkpoint } = checkpoint::find(&folder, key)?;
+        let end = pages.iter().map(|at| at.offset + at.bytes).max().unwrap_or(0);
+        let part = Part { file, path: Some(path), end: end.max(file::begin(key).len() as u64) };
+        let pages = pages.into_iter().map(|at| Page::InFile(0, at)).collect();
+        let inner = Mutex::new(Inner { pages, in_memory: 0, files: vec![part] });
+        Some((Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner })), checkpoint))
+    }
+
+    /// Whether the run may be kept or saved.
+    pub(super) fn has_name(&self) -> bool {
+        self.0.to_keep.is_some()
+    }
+
+    /// Saves a run for the case that it is stopped. False if the folder has no room for it.
+    pub(super) fn save(&self, checkpoint: &Checkpoint) -> io::Result<bool> {
+        let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
+        let inner = &mut *self.inner();
+        let Some((path, pages)) = inner.settle(folder, *key)? else { return Ok(false) };
+        inner.files[0].has_room(checkpoint.index.len() + checkpoint.simulation.len())?;
+        checkpoint::write(&path, *key, &pages, checkpoint)?;
+        Ok(true)
+    }
+
     /// Makes the pages a file of the cache, with the description of what is where. False if they are not to be kept, or the
     /// folder has no room.
     pub(super) fn keep(&self, index: &[u8]) -> io::Result<bool> {
         let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
         let inner = &mut *self.inner();
-        if inner.files.is_empty() {
-            inner.files.push(Part::named(folder, *key)?);
-        }
-        let [part] = &mut inner.files[..] else { return Ok(false) };
-        let Some(path) = part.path.clone() else { return Ok(false) };
-        for page in &mut inner.pages {
-            if let Page::InMemory(bytes) = page {
-                *page = Page::InFile(0, part.append(bytes)?);
-            }
-        }
-        let places = inner.pages.iter().map(|page| match page {
-            Page::InFile(_, at) => *at,
-            Page::InMemory(_) => At::default(),
-        });
-        let places: Vec<At> = places.collect();
-        let end = file::end(&places, index, part.end);
+        let Some((path, pages)) = inner.settle(folder, *key)? else { return Ok(false) };
+        let part = &mut inner.files[0];
+        let end = file::end(&pages, index, part.end);
         part.file.write_all_at(&end, part.end)?;
+        // What was written behind the checkpoint of a run that was stopped may be longer.
+        part.file.set_len(part.end + end.len() as u64)?;
         fs::rename(&path, folder.join(file::name(*key)))?;
         part.path = None;
+        // If it stays, it is swept by the next run.
+        let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         Ok(true)
     }
 
@@ -100,6 +117,27 @@ impl Spill {
             (None, 0) | (Some(_), 1) => Some(Part::unnamed()),
             _ => None,
         }
+    }
+}
+
+impl Inner {
+    /// Puts all pages into the file with a name: its path, and where they are. None if there is no such file, or they are in several.
+    fn settle(&mut self, folder: &Path, key: Key) -> io::Result<Option<(PathBuf, Vec<At>)>> {
+        if self.files.is_empty() {
+            self.files.push(Part::named(folder, key)?);
+        }
+        let [part] = &mut self.files[..] else { return Ok(None) };
+        let Some(path) = part.path.clone() else { return Ok(None) };
+        let mut places = Vec::with_capacity(self.pages.len());
+        for page in &mut self.pages {
+            let at = match page {
+                Page::InFile(_, at) => *at,
+                Page::InMemory(bytes) => part.append(bytes)?,
+            };
+            *page = Page::InFile(0, at);
+            places.push(at);
+        }
+        Ok(Some((path, places)))
     }
 }
 
@@ -146,6 +184,8 @@ impl Part {
             folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
         file.try_lock().map_err(io::Error::from)?;
+        // What a run has left here that was killed is of no use now.
+        let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         file.set_len(0)?;
         let begin = file::begin(key);
         file.write_all_at(&begin, 0)?;
@@ -157,11 +197,14 @@ impl Part {
         Ok(Part { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
     }
 
-    fn append(&mut self, page: &[u8]) -> io::Result<At> {
+    fn has_room(&self, bytes: usize) -> io::Result<()> {
         let space = rustix::fs::fstatvfs(&self.file)?;
-        if space.f_bavail.saturating_mul(space.f_frsize) < RESERVE + page.len() as u64 {
-            return Err(full());
-        }
+        let is_full = space.f_bavail.saturating_mul(space.f_frsize) < RESERVE + bytes as u64;
+        if is_full { Err(full()) } else { Ok(()) }
+    }
+
+    fn append(&mut self, page: &[u8]) -> io::Result<At> {
+        self.has_room(page.len())?;
         self.file.write_all_at(page, self.end)?;
         let at = At { offset: self.end, bytes: page.len() as u64, digest: Sha256::digest(page).into() };
         self.end += at.bytes;
@@ -172,8 +215,9 @@ impl Part {
 impl Drop for Part {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
-            // It is no longer needed; what stays is swept by the next run.
-            let _: io::Result<()> = fs::remove_file(path);
+            // It is no longer needed.
+            let _: io::Result<()> = fs::remove_file(path.with_extension(SAVING));
+            checkpoint::remove(path);
         }
     }
 }

@@ -11,6 +11,9 @@ use super::{Failure, say};
 /// A scene whose bodies move as in an earlier command is not simulated again: its run is kept in JABUKA_CACHE_DIR, or else in
 /// the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept, unless JABUKA_CACHE_ALL is 1. Beyond JABUKA_CACHE_SIZE
 /// megabytes (2000 unless it says otherwise; 0 keeps nothing), the runs that were not used for longest go first.
+///
+/// A run with `contacts = "time-stepping"` that takes long is saved every 30 s (or as many as JABUKA_CHECKPOINT_SECONDS says). If it is stopped, the next
+/// command that needs it goes on from there.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// Remove all that is kept
@@ -25,13 +28,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     };
     let held = if arguments.clear { cache.clear() } else { cache.holding() };
-    let Holding { runs, bytes: size } = held.map_err(|error| {
+    let Holding { runs, stopped, bytes: size } = held.map_err(|error| {
         let message = format!("`{}`: {error}", visible_path(folder));
         say::report(&Report::of_error(Code::CannotWrite, message));
         Failure::Errors
     })?;
     let runs = if runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
     let removed = if arguments.clear { " removed" } else { "" };
-    say::result(&format!("{}: {runs}, {}{removed}\n", visible_path(folder), bytes(size)));
+    let stopped = match stopped {
+        0 => String::new(),
+        1 => " and 1 that was stopped".to_owned(),
+        stopped => format!(" and {stopped} that were stopped"),
+    };
+    say::result(&format!("{}: {runs}{stopped}, {}{removed}\n", visible_path(folder), bytes(size)));
     Ok(())
 }

@@ -117,7 +117,9 @@ pub(super) fn simulated<'a>(
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
-    Ok(cache.run(scene, moments, progress.effort(), |_| progress.step())?)
+    let recorded = cache.run(scene, moments, progress.effort(), |_| progress.step())?;
+    say_resumed(&recorded, progress);
+    Ok(recorded)
 }
 
 /// Like [`simulated`], but of a run that breaks down, the frames before.
@@ -127,7 +129,17 @@ pub(super) fn simulated_to_breakdown<'a>(
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
-    Ok(cache.run_to_breakdown(scene, Moments::of(scene), progress.effort(), |_| progress.step())?)
+    let recorded =
+        cache.run_to_breakdown(scene, Moments::of(scene), progress.effort(), |_| progress.step())?;
+    say_resumed(&recorded, progress);
+    Ok(recorded)
+}
+
+/// Says from where a run went on that had been stopped.
+fn say_resumed(recorded: &Recorded<'_>, progress: &Progress) {
+    if let Some(time) = recorded.resumed() {
+        progress.above(|| say::error(&format!("the run had been stopped; it went on from t = {time} s\n")));
+    }
 }
 
 /// The selected frames that can be drawn, where a run may have broken down.

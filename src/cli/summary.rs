@@ -94,6 +94,9 @@ fn percent(part: f64) -> String {
 
 /// A number to two digits.
 pub(super) fn two_digits(number: f64) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
     let rounded: f64 = format!("{number:.1e}").parse().unwrap_or(number);
     if (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }

@@ -1,6 +1,7 @@
 //! Energy and momentum, and how well a run keeps them.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::{Accounts, Model, State};
 
@@ -29,7 +30,7 @@ pub struct Balance {
 /// E₀ is the energy that was brought in from outside: by the bodies and forces at the start, and by every later
 /// change to them. A change is booked in two parts. [`open`](Self::open) notes the energy before the first change of
 /// several, [`close`](Self::close) the energy after the last: so adding ten thousand bodies takes two measurements.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLedger {
     brought_in: f64,
     /// The energy before the changes that are not yet booked.

@@ -140,4 +140,15 @@ pub trait Dynamics: Send {
 
     /// The number of steps that have been made.
     fn steps(&self) -> u64;
+
+    /// The present moment as bytes, from which [`resume`](Self::resume) goes on with the same bits; none where that is not
+    /// possible. Impacts must have been asked for.
+    fn checkpoint(&mut self) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Goes on from a checkpoint of the same run; false where it is not one. Nothing may have been advanced before.
+    fn resume(&mut self, _checkpoint: &[u8]) -> bool {
+        false
+    }
 }

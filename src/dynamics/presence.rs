@@ -134,6 +134,17 @@ impl Calendar {
         self.pass(|event| event.time <= t)
     }
 
+    /// How many births and deaths are over.
+    pub(super) fn over(&self) -> usize {
+        self.over
+    }
+
+    /// Goes to where so many births and deaths are over.
+    pub(super) fn set_over(&mut self, over: usize) {
+        self.sort();
+        self.over = over.min(self.events.len());
+    }
+
     fn pass(&mut self, is_over: impl Fn(&Event) -> bool) -> Vec<(usize, bool)> {
         self.sort();
         let begin = self.over;

@@ -1,12 +1,13 @@
 //! All that changes as time goes on.
 
 use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
 
 /// The state of all bodies at one moment: one list for each quantity, one entry for each body.
 ///
 /// Rotation is kept as angular momentum, not angular velocity: it is what torque changes, and a free body keeps it
 /// exactly. [`Model::angular_velocity`](super::Model::angular_velocity) gives the other.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Locations of the centres of mass, m.
     pub location: Vec<DVec3>,
@@ -24,7 +25,7 @@ pub struct State {
 
 /// The energy brought in so far by each thing that has no potential, J; negative where energy was taken out. To add an
 /// account, add a field here, in [`NAMES`](Self::NAMES), and in the two functions below.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accounts {
     /// The work of the forces without a potential: the integral of their power over time.
     pub work: f64,

@@ -53,7 +53,7 @@ pub use moments::Moments;
 pub use overlap::Overlap;
 pub use past::{Ghost, Passed, Past, Way};
 pub use reach::Reach;
-pub use record::{Recorded, Recorder};
+pub use record::{Checkpoint, Recorded, Recorder};
 pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use span::{Bounds, Span};

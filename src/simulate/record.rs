@@ -19,6 +19,8 @@ pub struct Recorded<'a> {
     survey: Survey,
     /// Why it ended before its last frame, if it did.
     breakdown: Option<SimulateError>,
+    /// Where it went on after it had been stopped, s.
+    resumed: Option<f64>,
 }
 
 impl<'a> Recorded<'a> {
@@ -46,7 +48,7 @@ impl<'a> Recorded<'a> {
 
     /// A run that was simulated and looked over by somebody else.
     pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
-        Recorded { scene, recording, survey, breakdown: None }
+        Recorded { scene, recording, survey, breakdown: None, resumed: None }
     }
 
     /// A run that was recorded earlier; `seen` is told of every frame. What is known of the run as a whole depends on what is
@@ -59,23 +61,12 @@ impl<'a> Recorded<'a> {
         recording: Arc<Recording>,
         mut seen: impl FnMut(&Frame),
     ) -> Result<Recorded<'a>, SimulateError> {
-        let lost = || SimulateError::Recording("the recording lacks frames".to_owned());
         if recording.frames() != scene.simulation.frames() {
-            return Err(lost());
+            return Err(SimulateError::Recording("the recording lacks frames".to_owned()));
         }
         let mut surveyor = Surveyor::new(scene);
-        let mut reader = recording.read();
-        for index in 0..recording.frames() {
-            reader.seek_frame(index);
-            let entry = reader.entry()?.ok_or_else(lost)?;
-            if entry.frame != Some(index) {
-                return Err(lost());
-            }
-            let frame = Frame::of_entry(index, entry);
-            surveyor.see(&frame);
-            seen(&frame);
-        }
-        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown: None })
+        see_all(&recording, &mut surveyor, &mut seen)?;
+        Ok(Recorded::of_parts(scene, recording, surveyor.finish()))
     }
 
     /// The scene.
@@ -96,6 +87,11 @@ impl<'a> Recorded<'a> {
     /// Why the run ended before its last frame, if it did.
     pub fn breakdown(&self) -> Option<&SimulateError> {
         self.breakdown.as_ref()
+    }
+
+    /// The time (s) from which the run went on, if it had been stopped before.
+    pub fn resumed(&self) -> Option<f64> {
+        self.resumed
     }
 
     /// How many frames can be drawn: all, unless the run broke down. A frame counts if all moments of its open shutters were
@@ -194,12 +190,42 @@ fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<
     Ok(Exposure::new(frame, history, (Arc::clone(recording), moment + 1)))
 }
 
+/// Looks over all frames of a recording.
+fn see_all(
+    recording: &Arc<Recording>,
+    surveyor: &mut Surveyor<'_>,
+    seen: &mut dyn FnMut(&Frame),
+) -> Result<(), SimulateError> {
+    let lost = || SimulateError::Recording("the recording lacks frames".to_owned());
+    let mut reader = recording.read();
+    for index in 0..recording.frames() {
+        reader.seek_frame(index);
+        let entry = reader.entry()?.ok_or_else(lost)?;
+        if entry.frame != Some(index) {
+            return Err(lost());
+        }
+        let frame = Frame::of_entry(index, entry);
+        surveyor.see(&frame);
+        seen(&frame);
+    }
+    Ok(())
+}
+
+/// A moment of a run from which it can go on.
+pub struct Checkpoint {
+    /// The description of the recording so far, as [`Recording::index`] gives it.
+    pub index: Vec<u8>,
+    /// The state of the run.
+    pub simulation: Vec<u8>,
+}
+
 /// Simulates and records a run, frame by frame.
 pub struct Recorder<'a> {
     scene: &'a Scene,
     simulation: Simulation<'a>,
     surveyor: Surveyor<'a>,
     recording: Arc<Recording>,
+    resumed: Option<f64>,
 }
 
 impl<'a> Recorder<'a> {
@@ -210,7 +236,37 @@ impl<'a> Recorder<'a> {
 
     fn of(scene: &'a Scene, simulation: Simulation<'a>, store: Box<dyn Store>) -> Recorder<'a> {
         let recording = Arc::new(Recording::new(Counts::of(scene), store));
-        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording }
+        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
+    }
+
+    /// Goes on from a checkpoint of the same run, of whose recording the store has all pages up to there; `seen` is told of every
+    /// frame that was recorded. None where the checkpoint is not one, or a page is damaged.
+    pub fn resume(
+        scene: &'a Scene,
+        moments: Moments,
+        effort: &Effort,
+        (checkpoint, store): (&Checkpoint, Box<dyn Store>),
+        seen: &mut dyn FnMut(&Frame),
+    ) -> Option<Recorder<'a>> {
+        let mut simulation = Simulation::new(scene, moments, effort);
+        if !simulation.resume(&checkpoint.simulation) {
+            return None;
+        }
+        let recording = Recording::to_be_continued(Counts::of(scene), &checkpoint.index, store).ok()?;
+        let recording = Arc::new(recording);
+        let mut surveyor = Surveyor::new(scene);
+        see_all(&recording, &mut surveyor, seen).ok()?;
+        let resumed = recording.frames().checked_sub(1).map(|frame| scene.simulation.time(frame));
+        Some(Recorder { scene, simulation, surveyor, recording, resumed })
+    }
+
+    /// The present moment, which must be that of a frame; none where the run cannot go on from it.
+    ///
+    /// # Errors
+    /// Where there is no room for the recording.
+    pub fn checkpoint(&mut self) -> io::Result<Option<Checkpoint>> {
+        let Some(simulation) = self.simulation.checkpoint() else { return Ok(None) };
+        Ok(Some(Checkpoint { index: self.recording.index()?, simulation }))
     }
 
     /// Like [`new`](Self::new), into a recording that is still empty.
@@ -221,7 +277,12 @@ impl<'a> Recorder<'a> {
         recording: Arc<Recording>,
     ) -> Recorder<'a> {
         let simulation = Simulation::new(scene, moments, effort);
-        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording }
+        Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
+    }
+
+    /// The time (s) from which the run goes on, if it had been stopped.
+    pub fn resumed(&self) -> Option<f64> {
+        self.resumed
     }
 
     /// The recording, which can be read while it grows.
@@ -282,8 +343,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn finish_after(self, breakdown: Option<SimulateError>) -> Result<Recorded<'a>, SimulateError> {
-        let Recorder { scene, surveyor, recording, .. } = self;
+        let Recorder { scene, surveyor, recording, resumed, .. } = self;
         recording.index()?;
-        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown })
+        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown, resumed })
     }
 }

@@ -54,6 +54,26 @@ impl<'a> Simulation<'a> {
         done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }
 
+    /// The present moment as bytes, from which [`resume`](Self::resume) goes on; none where that is not possible.
+    pub(super) fn checkpoint(&mut self) -> Option<Vec<u8>> {
+        if !self.waiting.is_empty() || self.next > self.intervals {
+            return None;
+        }
+        let dynamics = self.dynamics.checkpoint()?;
+        postcard::to_stdvec(&(self.next, &self.counts.0, dynamics)).ok()
+    }
+
+    /// Goes on from a checkpoint of the same run; false where it is not one.
+    pub(super) fn resume(&mut self, checkpoint: &[u8]) -> bool {
+        let Ok((next, counts, dynamics)) = postcard::from_bytes::<(usize, Vec<f64>, Vec<u8>)>(checkpoint)
+        else {
+            return false;
+        };
+        let is_ours = next <= self.intervals && counts.len() == self.counts.0.len();
+        (self.next, self.counts) = (next, ImpactCounts(counts));
+        is_ours && self.dynamics.resume(&dynamics)
+    }
+
     fn advance_to_next(&mut self, see: &mut dyn FnMut(Entry)) -> Result<(), Breakdown> {
         let simulation = &self.scene.simulation;
         if let Some(before) = self.next.checked_sub(1) {

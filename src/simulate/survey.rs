@@ -37,6 +37,9 @@ pub struct Survey {
     /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
     /// run begins at rest.)
     pub drift: f64,
+    /// The same error relative to the energy that was turned over: the largest kinetic energy, or what contacts have taken, if that is
+    /// more. Bodies that only settle hardly move, and a method of first order is wrong by ½ Δt F·v meanwhile.
+    pub drift_of_turnover: f64,
     /// What contacts have done up to the last frame; none without them.
     pub contacts: Option<ContactTotals>,
     /// The real timestep, s.
@@ -195,6 +198,8 @@ impl<'a> Surveyor<'a> {
         } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         let steps_per_frame = world(scene).steps_within(interval);
+        let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
+        let turnover = largest_kinetic.max(taken);
         Survey {
             spans: spans.finish(),
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
@@ -203,6 +208,7 @@ impl<'a> Surveyor<'a> {
             asked,
             contacts: contacts.map(|contacts| contacts.rounded(largest_kinetic)),
             drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
+            drift_of_turnover: if turnover > 0.0 { error / turnover } else { 0.0 },
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,
         }

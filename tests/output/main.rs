@@ -6,6 +6,7 @@ mod support;
 
 mod assets;
 mod check;
+mod checkpoint;
 mod edited;
 mod folder;
 mod frames;

@@ -68,6 +68,26 @@ impl Model {
         self.unmoved.extend((0..inverse.len()).filter(|&i| inverse[i] == 0.0));
     }
 
+    /// The bodies that are not there, each with the velocity (m/s) and the angular momentum (kg m²/s) that it will come with.
+    pub(in super::super) fn away(&self) -> Vec<(usize, DVec3, DVec3)> {
+        let away = self.away.iter().enumerate();
+        away.filter_map(|(i, away)| away.as_ref().map(|away| (i, away.velocity, away.angular_momentum)))
+            .collect()
+    }
+
+    /// Lets these bodies be away, and no others.
+    pub(in super::super) fn set_away(&mut self, away: &[(usize, DVec3, DVec3)], state: &mut State) {
+        let mut is_there = vec![true; self.inverse_mass.len()];
+        away.iter().for_each(|(i, ..)| is_there[*i] = false);
+        let changes: Vec<(usize, bool)> = is_there.into_iter().enumerate().collect();
+        self.let_come_and_go(&changes, state);
+        for &(i, velocity, angular_momentum) in away {
+            if let Some(Some(away)) = self.away.get_mut(i) {
+                (away.velocity, away.angular_momentum) = (velocity, angular_momentum);
+            }
+        }
+    }
+
     /// A body goes, if it is there.
     pub(in super::super) fn take_away(&mut self, i: usize, state: &mut State) {
         if !self.is_present(i) {

@@ -31,7 +31,7 @@ pub(super) struct Books {
     touched: Vec<bool>,
     impacts: Vec<Impact>,
     /// Colliders that have come near each other, and have not pushed yet.
-    near: Vec<[ColliderHandle; 2]>,
+    pub(super) near: Vec<[ColliderHandle; 2]>,
     pub(super) events: Events,
     slow: f64,
 }
@@ -170,6 +170,11 @@ impl Books {
             events: Events::default(),
             slow: SLOW * length,
         }
+    }
+
+    /// Whether there are impacts that nobody has taken.
+    pub(super) fn has_impacts(&self) -> bool {
+        !self.impacts.is_empty()
     }
 
     pub(super) fn take_impacts(&mut self) -> Vec<Impact> {

@@ -10,6 +10,7 @@
 mod advance;
 mod bodies;
 mod books;
+mod checkpoint;
 mod joint;
 mod mixing;
 mod plane;
@@ -184,5 +185,13 @@ impl Dynamics for TimeStepping {
 
     fn steps(&self) -> u64 {
         self.steps
+    }
+
+    fn checkpoint(&mut self) -> Option<Vec<u8>> {
+        self.save()
+    }
+
+    fn resume(&mut self, checkpoint: &[u8]) -> bool {
+        self.load(checkpoint)
     }
 }

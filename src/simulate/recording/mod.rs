@@ -64,6 +64,19 @@ impl Recording {
         Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
     }
 
+    /// Like [`with_index`](Self::with_index), of a run that goes on.
+    ///
+    /// # Errors
+    /// Where the description is not one.
+    pub(super) fn to_be_continued(
+        counts: Counts,
+        index: &[u8],
+        store: Box<dyn Store>,
+    ) -> io::Result<Recording> {
+        let recording = Recording::with_index(counts, index, store)?;
+        Ok(Recording { encoder: Mutex::new(Encoder::new(counts)), ..recording })
+    }
+
     /// Adds the next moment.
     pub(super) fn push(&self, entry: &Entry) -> io::Result<()> {
         let Entry { frame, snapshot, .. } = entry;

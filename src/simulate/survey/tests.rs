@@ -137,3 +137,24 @@ fn the_given_ground_counts_and_the_default_one_does_not() {
     assert_eq!(survey.crossings.len(), 1);
     assert_eq!(survey.crossings[0].plane, None);
 }
+
+/// A box that is let down into a contact hardly moves: its drift is large, but little of what contacts have taken.
+#[test]
+fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
+    let survey = surveyed(
+        "
+        [simulation]
+        duration = 2
+        gravity = [0, -10, 0]
+        contacts = 'time-stepping'
+        [body.box]
+        shape.box.size = [1, 1, 1]
+        location = [0, '0.5 + i', 0]
+        repeat = 8
+        ",
+    );
+    let taken = survey.contacts.unwrap();
+    assert!(survey.drift.abs() > 0.02, "{}", survey.drift);
+    assert!(survey.drift_of_turnover.abs() < 0.01, "{}", survey.drift_of_turnover);
+    assert!(taken.lost > 0.0);
+}
