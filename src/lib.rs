@@ -54,6 +54,7 @@ pub mod overwrite;
 pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;
+pub mod random;
 pub mod render;
 mod run;
 pub mod sandbox;

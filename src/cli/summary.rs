@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::time::Duration;
 
-use jabuka::Run;
 use jabuka::diagnostic::visible_path;
 use jabuka::output::Written;
 use jabuka::scene::ContactLaw;
 use jabuka::simulate::ContactTotals;
+use jabuka::{Run, Scene};
 
 use super::shell;
 
@@ -34,6 +34,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
     format!(
         "{folder}: {scripts} of {frames} frames{others}\n\
          bodies    {bodies}\n\
+         {particles}\
          timestep  {step} s, {steps} a frame, by {method}\n\
          {drift}\
          {contacts}\
@@ -45,6 +46,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         word = shell::path(folder),
         scripts = written.scripts,
         bodies = scene.bodies.len(),
+        particles = particles(scene),
         step = short(survey.timestep),
         steps = survey.steps_per_frame,
         method = scene.simulation.method.name,
@@ -57,6 +59,14 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
+}
+
+/// How many particles there can be at once; nothing where there are no emitters.
+fn particles(scene: &Scene) -> String {
+    let most: f64 = scene.emitters.iter().map(|emitter| emitter.most_alive(scene.simulation.end())).sum();
+    let count = scene.emitters.len();
+    let emitters = if count == 1 { "1 emitter".to_owned() } else { format!("{count} emitters") };
+    if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }
 }
 
 /// How right a run is.

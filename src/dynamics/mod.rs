@@ -18,6 +18,7 @@
 //! | what happens within a step | [`DenseOutput`] |
 //! | energy, momentum, drift | [`Balance`] |
 //! | all that can be known of one moment | [`Snapshot`] |
+//! | many small bodies that a source sends out | [`ParticleSource`], [`Cloud`] |
 //! | all of it together, with a clock | [`World`] |
 //! | many bodies in contact, at fixed steps | [`TimeStepping`] |
 //! | what the rest of the program sees of it | [`Dynamics`] |
@@ -81,6 +82,7 @@ mod integrator;
 mod loads;
 mod model;
 mod motion;
+mod particles;
 mod presence;
 mod shape;
 mod snapshot;
@@ -101,6 +103,7 @@ pub use integrator::{DenseOutput, Integrator, METHODS, Method, Step};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Kinematics, Motion};
+pub use particles::*;
 pub use presence::Presence;
 pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;

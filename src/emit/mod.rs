@@ -9,6 +9,7 @@ mod error;
 mod materials;
 mod meshes;
 mod names;
+mod particles;
 mod sdl;
 mod shapes;
 mod showing;
@@ -24,6 +25,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use self::bodies::Block;
 use self::meshes::Meshes;
+use self::particles::Particles;
 use self::sdl::Style;
 use self::showing::Showing;
 use self::stage::StageText;
@@ -49,14 +51,19 @@ pub struct Emitter {
     constants: FrameConstants,
     block: Block,
     showing: Showing,
+    particles: Particles,
     /// What the pictures show.
     plan: Plan,
     unit: Unit,
     digits: usize,
     /// The names of the bodies.
     names: Vec<Arc<str>>,
+    /// The names of the emitters.
+    emitters: Vec<Arc<str>>,
     /// The bytes of the longest block of bodies so far.
     longest: AtomicUsize,
+    /// The bytes of the longest block of what is beside them.
+    longest_beside: AtomicUsize,
 }
 
 impl Emitter {
@@ -86,11 +93,14 @@ impl Emitter {
             shared,
             block: Block::new(scene, &materials, &meshes, style),
             showing: Showing::new(scene, &plan, &materials, &meshes, style),
+            particles: Particles::new(scene, style),
             plan,
             unit,
             digits: scene.povray.digits,
             names: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+            emitters: scene.emitters.iter().map(|emitter| emitter.name.clone()).collect(),
             longest: AtomicUsize::new(0),
+            longest_beside: AtomicUsize::new(0),
             templates,
         })
     }
@@ -105,10 +115,11 @@ impl Emitter {
         &self.plan
     }
 
-    /// The name of a body that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
+    /// The name of a body, or of an emitter of particles, that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
     /// enough.
     pub fn too_thin(&self) -> Option<&str> {
-        self.unit.too_thin.map(|body| &*self.names[body])
+        let names = |number: usize| self.names.iter().chain(&self.emitters).nth(number);
+        self.unit.too_thin.and_then(names).map(|name| &**name)
     }
 
     /// The script of a frame.
@@ -129,9 +140,12 @@ impl Emitter {
         let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
         let written = self.block.write(&mut solids_sdl, frame);
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
-        let mut showing_sdl = String::new();
+        let mut showing_sdl = String::with_capacity(self.longest_beside.load(Ordering::Relaxed));
+        let written = self.particles.write(&mut showing_sdl, frame);
+        written.map_err(|emitter| out_of_range(format!("a particle of `{emitter}`")))?;
         self.showing.write(&mut showing_sdl, &self.plan, frame, &self.names);
         self.longest.fetch_max(solids_sdl.len(), Ordering::Relaxed);
+        self.longest_beside.fetch_max(showing_sdl.len(), Ordering::Relaxed);
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
     }
 

@@ -1,7 +1,7 @@
 //! The length of one unit of POV-Ray's.
 
 use crate::picture::{Lens, Plan, decimal_step, rounded_outward};
-use crate::scene::Scene;
+use crate::scene::{Emitter, Scene};
 use crate::simulate::Bounds;
 
 /// Half the thickness, in POV-Ray's units, below which it gets edges and shadows wrong, since places nearer than 0.001
@@ -13,7 +13,8 @@ const THINNEST: f64 = 0.01;
 pub(super) struct Unit {
     /// Its length, m.
     pub(super) length: f64,
-    /// The number of a body that POV-Ray may not draw, since it is too thin in this unit.
+    /// The number of a body that POV-Ray may not draw, since it is too thin in this unit. Those of emitters come behind those of
+    /// bodies.
     pub(super) too_thin: Option<usize>,
 }
 
@@ -33,7 +34,10 @@ impl Unit {
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let halves =
         scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
-    halves.min_by(|a, b| a.1.total_cmp(&b.1))
+    let largest = |emitter: &Emitter| emitter.radius * emitter.sizes.iter().copied().fold(0.0, f64::max);
+    let particles = scene.emitters.iter().enumerate();
+    let particles = particles.map(|(number, emitter)| (scene.bodies.len() + number, largest(emitter)));
+    halves.chain(particles.filter(|(_, radius)| *radius > 0.0)).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// How far a scene reaches.

@@ -12,6 +12,8 @@ pub struct Force {
     pub name: String,
     /// What it is.
     pub kind: ForceKind,
+    /// The numbers of the emitters on whose particles it acts.
+    pub emitters: Vec<usize>,
 }
 
 /// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the number of a body of the scene.

@@ -9,6 +9,8 @@ mod check;
 mod color;
 mod color_names;
 mod contact;
+pub mod drawn;
+mod emitter;
 mod expand;
 pub mod expression;
 mod force;
@@ -36,6 +38,7 @@ use std::path::{Path, PathBuf};
 pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use contact::{Collider, ContactLaw};
+pub use emitter::Emitter;
 pub use force::{Force, ForceKind};
 pub use joint::{Course, Joint, JointKind, JointLook};
 pub use label::{
@@ -78,6 +81,8 @@ pub struct Scene {
     pub forces: Vec<Force>,
     /// What holds bodies together, in the order of the file.
     pub joints: Vec<Joint>,
+    /// What sends out particles, in the order of the file.
+    pub emitters: Vec<Emitter>,
     /// The materials of the file in its order, then those of bodies' own, the library and the palette.
     pub materials: Vec<Material>,
     /// From where the scene is seen.

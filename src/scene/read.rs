@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::scene::Color;
+use crate::scene::drawn::Drawn;
 use crate::scene::grammar::{Bound, Kind};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
@@ -113,6 +114,15 @@ pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
     }
 }
 
+/// A number within a bound, or a formula with random numbers, whose values are looked at where it is used.
+pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
+    match &node.value {
+        Value::Drawn(formula) => Ok(Drawn::Formula(formula.clone())),
+        Value::Integer(_) | Value::Float(_) => number(node, bound).map(Drawn::Constant),
+        _ => Err(wrong_type(node, &Kind::Drawn(bound))),
+    }
+}
+
 /// Three numbers within a bound, or formulas of the time; every wrong one is an error of its own.
 pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec<Diagnostic>> {
     let items = items(node, &Kind::TimedNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
@@ -180,6 +190,22 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
         }
         _ => Err(vec![wrong_type(node, &Kind::Color)]),
     }
+}
+
+/// A color, or a list of at least one; every wrong one is an error of its own.
+pub(super) fn colors(node: &Node) -> Result<Vec<Color>, Vec<Diagnostic>> {
+    let Value::Array(items) = &node.value else { return color(node).map(|color| vec![color]) };
+    if items.first().is_none_or(|item| item.as_number().is_some()) {
+        return color(node).map(|color| vec![color]);
+    }
+    let (mut colors, mut errors) = (Vec::new(), Vec::new());
+    for item in items.iter() {
+        match color(item) {
+            Ok(color) => colors.push(color),
+            Err(wrong) => errors.extend(wrong),
+        }
+    }
+    if errors.is_empty() { Ok(colors) } else { Err(errors) }
 }
 
 /// The numbers of a color that someone gave from 0 to 255.

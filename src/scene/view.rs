@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
+use crate::scene::drawn::Drawn;
 use crate::scene::grammar::{DefaultValue, Key, Kind, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
@@ -133,6 +134,20 @@ impl<'a> View<'a> {
         };
         let default = |default: DefaultValue| default.number().map(Timed::Constant);
         self.read(name, |node| read::timed(node, *bound).ok(), default)
+    }
+
+    /// A number that each particle has of its own; none where it is absent and has no default.
+    pub(super) fn drawn(&self, name: &str) -> Option<Drawn> {
+        let Kind::Drawn(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Drawn(_)))? else {
+            return None;
+        };
+        let default = |default: DefaultValue| default.number().map(Drawn::Constant);
+        self.read(name, |node| read::drawn(node, *bound).ok(), default)
+    }
+
+    /// A color or several, without a default.
+    pub(super) fn colors(&self, name: &str) -> Option<Vec<Color>> {
+        read::colors(self.node(name)?).ok()
     }
 
     /// A vector that may change with time.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::particles::Clouds;
 use super::past::History;
 use super::recording::{Reader, Recording};
 use super::{Frame, SimulateError};
@@ -13,13 +14,19 @@ pub struct Exposure {
     pub frame: Frame,
     /// What has been up to there.
     history: History,
+    /// The particles of the last frame up to there.
+    clouds: Clouds,
     /// The recording, and the number of the moment that comes next in it.
     rest: (Arc<Recording>, usize),
 }
 
 impl Exposure {
-    pub(super) fn new(frame: Frame, history: History, rest: (Arc<Recording>, usize)) -> Exposure {
-        Exposure { frame, history, rest }
+    pub(super) fn new(
+        frame: Frame,
+        (history, clouds): (History, Clouds),
+        rest: (Arc<Recording>, usize),
+    ) -> Exposure {
+        Exposure { frame, history, clouds, rest }
     }
 
     /// The moments at which a camera looks while its shutter is open, each read when it is asked for. They may be later than
@@ -28,9 +35,11 @@ impl Exposure {
         let (recording, next) = &self.rest;
         let mut reader = recording.read();
         reader.seek(*next);
-        let mut history = self.history.clone();
+        let (mut history, clouds) = (self.history.clone(), self.clouds.clone());
         let index = self.frame.index;
-        shutter.moments(self.frame.time).map(move |time| moment(&mut reader, &mut history, index, time))
+        shutter
+            .moments(self.frame.time)
+            .map(move |time| moment(&mut reader, (&mut history, &clouds), index, time))
     }
 }
 
@@ -38,7 +47,7 @@ impl Exposure {
 #[allow(clippy::float_cmp, reason = "moments are recorded at these very times")]
 fn moment(
     reader: &mut Reader,
-    history: &mut History,
+    (history, clouds): (&mut History, &Clouds),
     index: usize,
     time: f64,
 ) -> Result<Frame, SimulateError> {
@@ -52,6 +61,7 @@ fn moment(
         if entry.snapshot.time == time {
             let mut frame = Frame::of_entry(index, entry);
             frame.past = history.before(&frame);
+            frame.particles = clouds.at(&frame);
             return Ok(frame);
         }
     }

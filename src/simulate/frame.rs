@@ -1,7 +1,7 @@
 //! What can be seen at one moment.
 
 use super::simulation::Entry;
-use super::{ImpactCounts, Past};
+use super::{ImpactCounts, Past, Swarm};
 use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot, find};
 
 /// What can be seen at one moment of a run.
@@ -23,16 +23,18 @@ pub struct Frame {
     pub balance: Balance,
     /// How many impacts there have been.
     pub impacts: ImpactCounts,
+    /// The particles that are alive, for each emitter in the order of the scene.
+    pub particles: Vec<Swarm>,
     /// What has been before, as far as the scene asks for it.
     pub past: Past,
 }
 
 impl Frame {
-    /// The frame of a moment, without what has been before, and without the impacts up to it.
+    /// The frame of a moment, without particles, what has been before, and the impacts up to it.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
         let Snapshot { time, bodies, reactions, contacts, penetration, balance } = moment;
-        let (impacts, past) = (ImpactCounts::default(), Past::default());
-        Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, past }
+        let (impacts, past, particles) = (ImpactCounts::default(), Past::default(), Vec::new());
+        Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, particles, past }
     }
 
     /// The frame of a moment of a run, without what has been before.

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::particles::Clouds;
 use super::past::History;
 use super::recording::{Reader, Recording};
 use super::simulation::{Entry, Simulation};
@@ -18,6 +19,7 @@ pub struct Frames<'a> {
     scene: &'a Scene,
     source: Source<'a>,
     history: History,
+    clouds: Clouds,
 }
 
 /// Where the moments come from.
@@ -42,13 +44,17 @@ impl<'a> Frames<'a> {
     fn with(scene: &'a Scene, moments: Moments, effort: &Effort) -> Frames<'a> {
         let simulation = Simulation::new(scene, moments, effort);
         let source = Source::Live(simulation, VecDeque::new());
-        Frames { scene, source, history: History::new(scene) }
+        Frames::from(scene, source)
+    }
+
+    fn from(scene: &'a Scene, source: Source<'a>) -> Frames<'a> {
+        Frames { scene, source, history: History::new(scene), clouds: Clouds::new(scene) }
     }
 
     /// The frames of a run that has been recorded.
     pub fn recorded(scene: &'a Scene, recording: &Arc<Recording>) -> Frames<'a> {
         let source = Source::Recorded(Arc::clone(recording), recording.read());
-        Frames { scene, source, history: History::new(scene) }
+        Frames::from(scene, source)
     }
 
     /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between
@@ -80,17 +86,21 @@ impl<'a> Frames<'a> {
         mut self,
         moment: usize,
         index: usize,
-    ) -> Result<(Frame, History), SimulateError> {
+    ) -> Result<(Frame, History, Clouds), SimulateError> {
+        self.clouds.begin_at(self.clouds.first_frame(index));
         if let Source::Recorded(_, reader) = &mut self.source
             && self.history.is_idle()
         {
-            reader.seek(moment);
+            match self.clouds.is_idle() {
+                true => reader.seek(moment),
+                false => _ = reader.seek_frame(self.clouds.first_frame(index)),
+            }
         }
         while let Some(entry) = self.entry()? {
             if self.position() > moment {
                 self.history.note_ghosts(&entry.snapshot);
                 let frame = self.see(entry.frame.is_some(), Frame::of_entry(index, entry));
-                return Ok((frame, self.history));
+                return Ok((frame, self.history, self.clouds));
             }
             self.remember(entry.frame, entry.snapshot);
         }
@@ -115,12 +125,29 @@ impl<'a> Frames<'a> {
         &self.history
     }
 
-    /// Goes on with a frame, without looking at those before, where nobody asks for what has been before.
+    /// The particles at the last frame.
+    pub(super) fn clouds(&self) -> &Clouds {
+        &self.clouds
+    }
+
+    /// Goes on with a frame, without looking at those before, where nobody asks for what has been before. Frames that its
+    /// particles need come before it.
     pub(super) fn pass_to(&mut self, frame: usize) {
-        if let Source::Recorded(_, reader) = &mut self.source
-            && self.history.is_idle()
-        {
-            reader.seek_frame(frame);
+        let Source::Recorded(recording, reader) = &mut self.source else { return };
+        if self.clouds.is_idle() {
+            if self.history.is_idle() {
+                reader.seek_frame(frame);
+            }
+            return;
+        }
+        let next = recording.frame_at(reader.position());
+        if self.clouds.go_on_to(frame, next) {
+            return;
+        }
+        let first = self.clouds.first_frame(frame);
+        self.clouds.begin_at(first);
+        if self.history.is_idle() {
+            reader.seek_frame(first);
         }
     }
 
@@ -148,17 +175,22 @@ impl<'a> Frames<'a> {
     }
 
     fn remember(&mut self, frame: Option<usize>, snapshot: Snapshot) {
-        if self.history.is_idle() {
-            return;
-        }
         self.history.note_ghosts(&snapshot);
         if let Some(index) = frame {
-            self.history.note(&Frame::of(index, snapshot));
+            let frame = Frame::of(index, snapshot);
+            self.clouds.note(&frame);
+            self.history.note(&frame);
         }
     }
 
-    /// Gives a moment its past.
+    /// Gives a moment its particles and its past.
     fn see(&mut self, is_frame: bool, mut moment: Frame) -> Frame {
+        if is_frame {
+            self.clouds.note(&moment);
+            moment.particles = self.clouds.now();
+        } else {
+            moment.particles = self.clouds.at(&moment);
+        }
         if self.history.is_idle() {
             return moment;
         }

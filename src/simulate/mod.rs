@@ -10,6 +10,7 @@
 //! | the run as it is computed | `simulation` |
 //! | all of its moments, to be read in any order | `recording`, `record` |
 //! | one frame after another, with what has been before | `frames`, `past`, `lag` |
+//! | the particles that emitters send out | `particles` |
 //! | what is seen while a shutter is open | `exposure` |
 //! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
 
@@ -24,6 +25,7 @@ mod lag;
 mod loads;
 mod moments;
 mod overlap;
+mod particles;
 mod past;
 mod reach;
 mod record;
@@ -51,6 +53,7 @@ pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
 pub use moments::Moments;
 pub use overlap::Overlap;
+pub use particles::Swarm;
 pub use past::{Ghost, Passed, Past, Way};
 pub use reach::Reach;
 pub use record::{Checkpoint, Recorded, Recorder};

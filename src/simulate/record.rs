@@ -4,6 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::frames::within;
+use super::particles::Clouds;
 use super::past::History;
 use super::recording::{Counts, MemoryStore, Recording, Store};
 use super::simulation::Simulation;
@@ -135,6 +136,7 @@ impl<'a> Recorded<'a> {
         selection: &Selection,
     ) -> impl Iterator<Item = Result<Exposure, SimulateError>> + Send + use<'a> {
         let (mut frames, recording) = (self.frames(), Arc::clone(&self.recording));
+        let scene = self.scene;
         let count = self.recording.frames();
         let mut cameras = self.scene.views.iter().map(|view| &view.camera).chain([&self.scene.camera]);
         let is_exposed = cameras.any(|camera| camera.shutter.is_some());
@@ -152,8 +154,11 @@ impl<'a> Recorded<'a> {
                     Ok(frame) => {
                         let rest = (Arc::clone(&recording), frames.position());
                         // Only who looks on from there needs to know what has been before.
-                        let history = if is_exposed { frames.history().clone() } else { History::default() };
-                        return Some(Ok(Exposure::new(frame, history, rest)));
+                        let before = match is_exposed {
+                            true => (frames.history().clone(), frames.clouds().clone()),
+                            false => (History::default(), Clouds::new(scene)),
+                        };
+                        return Some(Ok(Exposure::new(frame, before, rest)));
                     }
                     Err(error) => return Some(Err(error)),
                 }
@@ -186,8 +191,8 @@ impl<'a> Recorded<'a> {
 
 fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<Exposure, SimulateError> {
     let frames = Frames::recorded(scene, recording);
-    let (frame, history) = frames.recorded_moment(moment, recording.frame_at(moment))?;
-    Ok(Exposure::new(frame, history, (Arc::clone(recording), moment + 1)))
+    let (frame, history, clouds) = frames.recorded_moment(moment, recording.frame_at(moment))?;
+    Ok(Exposure::new(frame, (history, clouds), (Arc::clone(recording), moment + 1)))
 }
 
 /// Looks over all frames of a recording.

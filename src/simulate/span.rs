@@ -65,11 +65,7 @@ impl Spans {
         for frame in bodies {
             let body = &scene.bodies[frame.id];
             let Some(here) = Bounds::of(body, frame) else { continue };
-            let (span, moving) = self.now.get_or_insert_with(|| {
-                let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
-                let arrows = Default::default();
-                (Span { until: time, bounds: here, moving: here, seen, arrows }, None)
-            });
+            let (span, moving) = self.now.get_or_insert_with(|| Spans::begin(scene, time, here));
             span.bounds = span.bounds.union(here);
             if !body.start.fixed {
                 *moving = Some(moving.map_or(here, |all| all.union(here)));
@@ -78,11 +74,32 @@ impl Spans {
         }
         let Some((span, _)) = &mut self.now else { return };
         span.see_joints(joints);
+        self.keep(time);
+    }
+
+    /// The span that begins with the first that is seen.
+    fn begin(scene: &Scene, time: f64, here: Bounds) -> (Span, Option<Bounds>) {
+        let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
+        (Span { until: time, bounds: here, moving: here, seen, arrows: Default::default() }, None)
+    }
+
+    /// Keeps the span until now if it has grown.
+    fn keep(&mut self, time: f64) {
+        let Some((span, _)) = &mut self.now else { return };
         span.until = time;
         let grown = |last: &Span| span.seen.diagonal() > GROWTH * last.seen.diagonal();
         if self.kept.last().is_none_or(grown) {
             self.kept.extend(self.now());
         }
+    }
+
+    /// Adds the box around the particles of a frame at a time (s).
+    pub(super) fn see_particles(&mut self, scene: &Scene, time: f64, here: Bounds) {
+        let (span, moving) = self.now.get_or_insert_with(|| Spans::begin(scene, time, here));
+        span.bounds = span.bounds.union(here);
+        span.seen = span.seen.union(here);
+        *moving = Some(moving.map_or(here, |all| all.union(here)));
+        self.keep(time);
     }
 
     /// The box around all bodies so far; none if there is no body but planes.

@@ -13,6 +13,7 @@ use crossing::{Watched, free, planes};
 
 use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
+use super::particles::Clouds;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
 use super::{Bounds, Frame, Frames, SimulateError, Span, world};
@@ -86,6 +87,9 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Sim
     Ok(surveyor.finish())
 }
 
+/// So many particles of an emitter tell where all of them go.
+const SOME_PARTICLES: f64 = 500.0;
+
 /// Looks over a run whose frames somebody else makes.
 pub struct Surveyor<'a> {
     scene: &'a Scene,
@@ -99,6 +103,8 @@ pub struct Surveyor<'a> {
     /// For each body: whether it has gone through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
+    /// Some of the particles, for where they go.
+    clouds: Clouds,
     corrected: Option<Corrected>,
     asked: Asked,
     /// The arrows of joints: where they begin, what they show, and their scales.
@@ -127,6 +133,7 @@ impl<'a> Surveyor<'a> {
             awaited: free(scene).collect(),
             crossed: vec![false; scene.bodies.len()],
             overlaps: Watch::new(scene),
+            clouds: Clouds::thinned(scene, SOME_PARTICLES),
             corrected: None,
             asked: Asked::new(scene),
             joint_arrows: joint_arrows(scene),
@@ -166,6 +173,10 @@ impl<'a> Surveyor<'a> {
             vector: load.vector,
         });
         self.spans.see(scene, frame.time, frame.bodies.iter().filter(counts), joints.chain(loads));
+        self.clouds.note(frame);
+        if let Some(here) = self.clouds.bounds(scene) {
+            self.spans.see_particles(scene, frame.time, here);
+        }
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
             // They take energy; zero has no sign.
@@ -189,6 +200,7 @@ impl<'a> Surveyor<'a> {
             spans,
             planes,
             overlaps,
+            clouds,
             corrected,
             asked,
             contacts,
@@ -197,7 +209,8 @@ impl<'a> Surveyor<'a> {
             ..
         } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
-        let steps_per_frame = world(scene).steps_within(interval);
+        // Particles need steps also where no body does.
+        let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
         let turnover = largest_kinetic.max(taken);
         Survey {

@@ -124,7 +124,7 @@ impl Showing {
 }
 
 /// A color in the words of a macro's argument: `<0.1, 0.2, 0.3>`.
-fn color(color: Color, style: Style) -> String {
+pub(super) fn color(color: Color, style: Style) -> String {
     let mut out = String::new();
     style.vector(&mut out, glam::DVec3::from_array(color.0));
     out

@@ -8,6 +8,7 @@ mod consequence;
 mod contact;
 mod counts;
 mod effect;
+mod emitter;
 mod end;
 mod force;
 mod geometry;
@@ -200,6 +201,7 @@ struct Names {
     bodies: HashMap<Arc<str>, usize>,
     materials: HashMap<Arc<str>, usize>,
     joints: HashMap<Arc<str>, usize>,
+    emitters: HashSet<Arc<str>>,
 }
 
 impl Names {
@@ -211,12 +213,15 @@ impl Names {
         };
         let [bodies, materials, joints] =
             [Collection::Body, Collection::Material, Collection::Joint].map(collect);
-        Names { bodies, materials, joints }
+        let table = root.get("emitter").and_then(|entry| entry.node.as_table());
+        let emitters = table.into_iter().flat_map(|table| &table.entries);
+        let emitters = emitters.map(|entry| entry.name.text.clone()).collect();
+        Names { bodies, materials, joints, emitters }
     }
 
     fn get(&self, collection: Collection) -> &HashMap<Arc<str>, usize> {
         match collection {
-            Collection::Body => &self.bodies,
+            Collection::Body | Collection::Target => &self.bodies,
             Collection::Material => &self.materials,
             Collection::Joint => &self.joints,
         }
@@ -291,7 +296,8 @@ fn build(
     let bodies = body::read(&root, &simulation, &mut materials, context);
     let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);
     let before = context.diagnostics.len();
-    let forces = force::read(&root, &bodies, context);
+    let emitters = emitter::read(&root, &simulation, &bodies, context);
+    let forces = force::read(&root, &bodies, &emitters, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
     // A force that is wrong may be the one that needs them.
@@ -309,7 +315,7 @@ fn build(
         root.named("joint").into_iter().map(|(name, span, _)| (name, span)).collect();
     let places_of_joints =
         joints.iter().filter_map(|joint| spans.get(joint.name.as_str()).copied()).collect();
-    if bodies.is_empty() {
+    if bodies.is_empty() && emitters.is_empty() {
         let message = "the scene has no bodies";
         let help = "a body is two lines: `[body.ball]` and `shape.sphere.radius = 1`";
         context.diagnostics.push(Diagnostic::warning(Code::NoBodies, message).help(help));
@@ -336,6 +342,7 @@ fn build(
         bodies,
         forces,
         joints,
+        emitters,
         materials,
         povray,
         places: Places {
@@ -350,14 +357,14 @@ fn build(
     }
 }
 
-/// Whether a body is moved by forces, so that the world has to be advanced step by step.
+/// Whether a body is moved by forces, or particles are, which have to be advanced step by step.
 fn needs_steps(root: &View<'_>) -> bool {
     let is_free = |body: &View<'_>| {
         let shape = body.table("shape");
         let is_scenery = shape.has("plane") || shape.has("heightfield");
         !is_scenery && !body.has("motion") && body.boolean("fixed") != Some(true)
     };
-    root.bodies().any(|body| body.look(is_free))
+    root.bodies().any(|body| body.look(is_free)) || !root.named("emitter").is_empty()
 }
 
 /// A digest of all texts and other files that the scene was read from.

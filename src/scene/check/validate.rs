@@ -155,6 +155,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Text | Kind::Boolean => {}
         Kind::Number(bound) => keep(read::number(node, *bound), context),
         Kind::Timed(bound) => keep(read::timed(node, *bound), context),
+        Kind::Drawn(bound) => keep(read::drawn(node, *bound), context),
         Kind::TimedNumbers(_, bound) => keep_all(read::timed_vector(node, *bound), context),
         Kind::File if node.as_str().is_none() => context.diagnostics.push(read::wrong_type(node, kind)),
         Kind::File => keep(super::asset::asset(node, context.folder, context.trust), context),
@@ -165,6 +166,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Direction(4) => keep_all(read::direction::<4>(node), context),
         Kind::Direction(_) => keep_all(read::direction::<3>(node), context),
         Kind::Color => keep_all(read::color(node), context),
+        Kind::Colors => keep_all(read::colors(node), context),
         Kind::Identifier => keep(read::identifier(node), context),
         Kind::Sdl(place) => {
             sdl::check(node, *place, context);
@@ -352,10 +354,13 @@ fn reference(
     };
     let names = context.names.get(collection);
     let library: Vec<&str> = match collection {
-        Collection::Body | Collection::Joint => Vec::new(),
+        Collection::Body | Collection::Target | Collection::Joint => Vec::new(),
         Collection::Material => MATERIALS.iter().map(|material| material.name).collect(),
     };
-    let is_body = collection == Collection::Body;
+    let is_body = matches!(collection, Collection::Body | Collection::Target);
+    if collection == Collection::Target && context.names.emitters.contains(word) {
+        return;
+    }
     if names.contains_key(word) || library.contains(&word) || is_body && context.groups.may_hold(word) {
         return;
     }
@@ -387,7 +392,7 @@ fn reference(
         None => error.help(format!("names of the library need no table: {}", quoted(&library))),
     };
     context.diagnostics.push(match collection {
-        Collection::Body | Collection::Joint => error,
+        Collection::Body | Collection::Target | Collection::Joint => error,
         Collection::Material => habits::color_for_material(error, word, node, entry),
     });
 }

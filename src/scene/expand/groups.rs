@@ -54,7 +54,9 @@ impl Groups {
     /// How many copies a body or a joint has in each direction; `None` if it is not repeated.
     pub(super) fn counts(&self, of: Collection, original: &str) -> Option<&[usize]> {
         match of {
-            Collection::Body => self.bodies.get(original).map(|group| group.counts.as_slice()),
+            Collection::Body | Collection::Target => {
+                self.bodies.get(original).map(|group| group.counts.as_slice())
+            }
             Collection::Joint => self.joints.get(original).map(<[usize; 1]>::as_slice),
             Collection::Material => None,
         }

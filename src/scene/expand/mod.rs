@@ -13,7 +13,6 @@ mod index;
 mod links;
 mod merge;
 pub(super) mod place;
-mod random;
 mod repeat;
 #[cfg(test)]
 mod tests;
@@ -27,13 +26,14 @@ pub(super) use self::geometry::{Geometer, Geometry};
 pub(super) use self::groups::Groups;
 pub(super) use self::include::include;
 pub(super) use self::place::in_string;
-use self::random::Stream;
 use self::repeat::INDICES;
+use super::drawn::DrawnFormula;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
 use super::grammar::{Collection, Kind, SCENE, TableSpec};
 use super::source::{Entry, Node, Table, Value};
 use super::timed::{Formulas, TimeFormula};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
+use crate::random::Stream;
 
 /// Replaces every formula of a scene by its value, and everything that is repeated by its copies, after the defaults have
 /// been laid under everything.
@@ -177,9 +177,15 @@ impl Expander<'_> {
         match (kind, &mut node.value) {
             (Kind::Number(_), Value::String(_)) => self.number(node),
             (Kind::Timed(_), Value::String(_)) => self.timed(node),
+            (Kind::Drawn(_), Value::String(_)) => self.drawn_later(node),
             (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
-            (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color, Value::Array(_)) => {
+            (Kind::Colors, Value::Array(items)) if items.iter().any(|item| is_list(item)) => {
+                self.items(node, |this, item| this.value(item, &Kind::Color));
+            }
+            // Strings here are names of colors.
+            (Kind::Colors, Value::Array(items)) if items.iter().all(|item| item.as_str().is_some()) => {}
+            (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color | Kind::Colors, Value::Array(_)) => {
                 self.items(node, Expander::number);
             }
             (Kind::List { of, max, .. }, Value::Array(_)) => {
@@ -291,6 +297,34 @@ impl Expander<'_> {
         let read = self.keep(read, formula.text(), span)?;
         self.work += repeat::work_of_motion(&read);
         Some(read)
+    }
+
+    /// Like [`Expander::number`], where random numbers are drawn anew for each particle: such a formula is kept as a program.
+    fn drawn_later(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        let (text, span) = (text.clone(), node.span);
+        node.value = Value::Invalid;
+        if self.has_unit(&text, span) || self.asks_for_body(&text, span, true) {
+            return;
+        }
+        let Some(formula) = self.parsed(&text, span) else { return };
+        if formula.names().any(|(name, _)| self.broken.contains(name)) {
+            return;
+        }
+        self.look_at_angles(&formula, span);
+        self.scope.slot("t");
+        let resolved = formula.resolve(&self.scope);
+        self.scope.remove_slot("t");
+        let Some(resolved) = self.keep(resolved, &text, span) else { return };
+        let changes = formula.names().any(|(name, _)| name == "t") || !resolved.draws().is_empty();
+        if !changes {
+            node.value = self.value_of(&formula, span).map_or(Value::Invalid, Value::Float);
+            return;
+        }
+        let program = resolved.compile().map_err(|error| vec![error]);
+        let program = self.keep(program, &text, span);
+        let drawn = program.map(|program| Arc::new(DrawnFormula::new(text, program)));
+        node.value = drawn.map_or(Value::Invalid, Value::Drawn);
     }
 
     /// Like [`Expander::number`], where only a whole number will do.
@@ -426,16 +460,21 @@ fn has_work(table: &Table, spec: &TableSpec) -> bool {
     table.entries.iter().any(is_open)
 }
 
+fn is_list(node: &Node) -> bool {
+    matches!(node.value, Value::Array(_))
+}
+
 /// Whether a value has neither a formula nor the name of several bodies in it. Copies of a body share what is settled.
 fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {
-        (Kind::Number(_) | Kind::Timed(_) | Kind::Integer(..), Value::String(_)) => false,
+        (Kind::Number(_) | Kind::Timed(_) | Kind::Drawn(_) | Kind::Integer(..), Value::String(_)) => false,
         (Kind::Reference(_), Value::String(text)) => !index::is_formula(text),
         (
             Kind::TimedNumbers(..) | Kind::Numbers(..) | Kind::Direction(_) | Kind::Color,
             Value::Array(items),
         ) => items.iter().all(is_number),
+        (Kind::Colors, Value::Array(items)) => !items.iter().any(|item| is_list(item) || is_number(item)),
         (Kind::List { of, .. }, Value::Array(items)) => {
             let is_whole = |item: &Node| !matches!(item.value, Value::Invalid) && is_settled(item, of);
             !of.names(Collection::Body) && items.iter().all(is_whole)

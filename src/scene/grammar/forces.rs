@@ -9,7 +9,7 @@ use super::{Collection, Key, Kind, Rule, TableSpec};
 
 /// The key that names the bodies of a force.
 const fn on(meaning: &'static str, default: &'static str) -> Key {
-    Key::new("on", List { of: &Reference(Collection::Body), min: 1, max: usize::MAX }, meaning)
+    Key::new("on", List { of: &Reference(Collection::Target), min: 1, max: usize::MAX }, meaning)
         .default(default)
         .also(&["bodies", "body"])
 }

@@ -8,6 +8,7 @@ use super::Kind::{
 };
 use super::camera::CAMERA;
 use super::contact::{COLLIDES, COLLISION_GROUP, FRICTION, RESTITUTION, ROLLING_FRICTION};
+use super::emitters::EMITTER;
 use super::forces::FORCE;
 use super::joints::JOINT;
 use super::labels;
@@ -87,6 +88,12 @@ pub static SCENE: TableSpec = TableSpec {
             "joints",
             "constraint",
             "constraints",
+        ]),
+        Key::new("emitter", Named(&EMITTER), "What sends out particles, such as drops and sparks").also(&[
+            "emitters",
+            "particles",
+            "particle",
+            "particle_system",
         ]),
         Key::new("material", Named(&MATERIAL), "What bodies look like").also(&["materials", "texture"]),
         Key::new("camera", Table(&CAMERA), "From where the scene is seen"),

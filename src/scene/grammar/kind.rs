@@ -17,6 +17,8 @@ pub enum Kind {
     Integer(i64, i64),
     /// A number within a bound, or a formula of the time.
     Timed(Bound),
+    /// A number within a bound, or a formula with random numbers that are drawn anew for each particle.
+    Drawn(Bound),
     /// A list of so many numbers within a bound, or formulas of the time.
     TimedNumbers(usize, Bound),
     /// A list of so many numbers, each within a bound.
@@ -27,6 +29,8 @@ pub enum Kind {
     Direction(usize),
     /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
     Color,
+    /// A color, or a list of colors.
+    Colors,
     /// POV-Ray's own language, as it is, and where it stands in the script.
     Sdl(Where),
     /// A name that POV-Ray knows: letters, digits and underscores.
@@ -84,6 +88,8 @@ pub enum Collection {
     Material,
     /// `[joint.NAME]`
     Joint,
+    /// `[body.NAME]`, or `[emitter.NAME]` for its particles
+    Target,
 }
 
 impl Bound {
@@ -112,7 +118,7 @@ impl Collection {
     /// The key under which the things stand in a scene, which is also the word for one of them.
     pub fn key(self) -> &'static str {
         match self {
-            Collection::Body => "body",
+            Collection::Body | Collection::Target => "body",
             Collection::Material => "material",
             Collection::Joint => "joint",
         }
@@ -121,7 +127,7 @@ impl Collection {
     /// The word for all of them.
     pub fn plural(self) -> &'static str {
         match self {
-            Collection::Body => "bodies",
+            Collection::Body | Collection::Target => "bodies",
             Collection::Material => "materials",
             Collection::Joint => "joints",
         }
@@ -141,6 +147,7 @@ impl Kind {
     /// Whether a value of this kind is, or may be, the name of one of these things.
     pub fn names(&self, collection: Collection) -> bool {
         match self {
+            Kind::Reference(Collection::Target) => collection == Collection::Body,
             Kind::Reference(named) => *named == collection,
             Kind::Either(kinds) => kinds.iter().any(|kind| kind.names(collection)),
             _ => false,
@@ -163,6 +170,9 @@ impl Kind {
             Kind::Timed(_) => {
                 matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Formula(_))
             }
+            Kind::Drawn(_) => {
+                matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Drawn(_))
+            }
             Kind::Integer(..) => matches!(value, Value::Integer(_) | Value::String(_)),
             Kind::Numbers(..)
             | Kind::TimedNumbers(..)
@@ -171,7 +181,7 @@ impl Kind {
             | Kind::List { .. } => {
                 matches!(value, Value::Array(_))
             }
-            Kind::Color => matches!(value, Value::Array(_) | Value::String(_)),
+            Kind::Color | Kind::Colors => matches!(value, Value::Array(_) | Value::String(_)),
             Kind::Table(_) | Kind::Named(_) | Kind::Partial(_) | Kind::Variables => {
                 matches!(value, Value::Table(_))
             }
@@ -191,12 +201,14 @@ impl Kind {
                 bound => format!("a list of {count} numbers, each{}", bound.in_words()),
             },
             Kind::Timed(bound) => format!("a number{} or a formula of `t`", bound.in_words()),
+            Kind::Drawn(bound) => format!("a number{} or a formula", bound.in_words()),
             Kind::TimedNumbers(count, _) => format!("a list of {count} numbers or formulas of `t`"),
             Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
             Kind::Color => {
                 "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name of CSS)".to_owned()
             }
+            Kind::Colors => format!("{} or a list of such", Kind::Color.in_words()),
             Kind::Sdl(_) => "a string of POV-Ray's scene description language".to_owned(),
             Kind::Identifier => {
                 "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
@@ -207,6 +219,7 @@ impl Kind {
                 [only] => format!("`{only}`"),
                 words => format!("one of {}", quoted(words)),
             },
+            Kind::Reference(Collection::Target) => "the name of a body or an emitter".to_owned(),
             Kind::Reference(collection) => format!("the name of a {}", collection.key()),
             Kind::List { of, min, max } if min == max => {
                 format!("a list of {min} values, each {}", of.in_words())

@@ -7,6 +7,7 @@
 mod camera;
 mod contact;
 mod default;
+mod emitters;
 mod forces;
 mod joints;
 mod keys;
@@ -186,7 +187,7 @@ mod tests {
             let admits = |bound: &Bound| default.number().is_some_and(|number| bound.admits(number));
             match (kind, default) {
                 (_, DefaultValue::Nothing | DefaultValue::Words(_)) => true,
-                (Kind::Number(bound) | Kind::Timed(bound), _) => admits(bound),
+                (Kind::Number(bound) | Kind::Timed(bound) | Kind::Drawn(bound), _) => admits(bound),
                 (Kind::Integer(low, high), _) => {
                     default.integer().is_some_and(|number| (*low..=*high).contains(&number))
                 }

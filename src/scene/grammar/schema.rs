@@ -124,7 +124,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
         Kind::Integer(low, high) => {
             object(json!({ "type": ["integer", "string"], "minimum": low, "maximum": high }))
         }
-        Kind::Timed(bound) => number(*bound),
+        Kind::Timed(bound) | Kind::Drawn(bound) => number(*bound),
         Kind::Numbers(count, bound) | Kind::TimedNumbers(count, bound) => {
             list(number(*bound), *count, *count)
         }
@@ -143,6 +143,10 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
                 { "type": "string", "pattern": "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$" },
                 list(number(Bound::From(0.0, 1.0)), 3, 3),
             ] }))
+        }
+        Kind::Colors => {
+            let colors = list(self::kind(&Kind::Color, whole), 1, usize::MAX);
+            object(json!({ "anyOf": [self::kind(&Kind::Color, whole), colors] }))
         }
         Kind::Identifier => {
             object(json!({ "type": "string", "pattern": "^[A-Za-z_][A-Za-z0-9_]*$", "maxLength": 255 }))

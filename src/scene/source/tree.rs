@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::{CopiedTable, Shared};
 use crate::diagnostic::Span;
+use crate::scene::drawn::DrawnFormula;
 use crate::scene::timed::TimeFormula;
 
 /// A value and where it stands.
@@ -27,6 +28,8 @@ pub enum Value {
     Float(f64),
     /// A formula of the time, in place of a string.
     Formula(Arc<TimeFormula>),
+    /// A formula with random numbers that are drawn later, in place of a string.
+    Drawn(Arc<DrawnFormula>),
     /// `true` or `false`.
     Boolean(bool),
     /// A date or a time, for which a scene has no use.
@@ -123,7 +126,7 @@ impl Node {
         match &self.value {
             Value::String(_) => "a string",
             Value::Integer(_) | Value::Float(_) => "a number",
-            Value::Formula(_) => "a formula",
+            Value::Formula(_) | Value::Drawn(_) => "a formula",
             Value::Boolean(_) => "a boolean",
             Value::Datetime => "a date or time",
             Value::Array(_) => "a list",

@@ -11,7 +11,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, Lorentz};
 use crate::scene::source::Node;
-use crate::scene::{Body, Force, ForceKind};
+use crate::scene::{Body, Emitter, Force, ForceKind};
 
 /// What every kind of force is read with.
 struct Reader<'a, 'c> {
@@ -19,16 +19,28 @@ struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
+    emitters: &'a [Emitter],
+    /// Whether it acts on particles.
+    has_particles: bool,
     /// What has been said of which name: that of a body with a `repeat` means all of its copies, of which one is enough.
     told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
-pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Vec<Force> {
+pub(super) fn read(
+    root: &View<'_>,
+    bodies: &[Body],
+    emitters: &[Emitter],
+    context: &mut Context<'_>,
+) -> Vec<Force> {
     let tables = root.named("force");
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let before = context.diagnostics.len();
-        let kind = Reader { name, span, bodies, told: HashSet::new(), context }.kind(&view);
+        let mut reader =
+            Reader { name, span, bodies, emitters, has_particles: false, told: HashSet::new(), context };
+        let emitters = reader.emitters_of(&view);
+        reader.has_particles = !emitters.is_empty();
+        let kind = reader.kind(&view);
         if context.wrong_forces.contains(name) {
             // What is wrong about it may be what it lacks.
             let mut said = context.diagnostics.split_off(before);
@@ -37,7 +49,7 @@ pub(super) fn read(root: &View<'_>, bodies: &[Body], context: &mut Context<'_>) 
         }
         context.once(before, name, span);
         let kind = kind?;
-        Some(Force { name: name.to_owned(), kind })
+        Some(Force { name: name.to_owned(), kind, emitters })
     };
     tables.into_iter().filter_map(read).collect()
 }

@@ -6,8 +6,36 @@ use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::BodyId;
+use crate::scene::Emitter;
 
 impl Reader<'_, '_> {
+    /// The emitters on whose particles the force acts: those of `on`, or all. Springs act on none, and electric forces on none
+    /// without a charge.
+    pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
+        const KINDS: [&str; 5] = ["constant", "drag", "gravitation", "coulomb", "lorentz"];
+        let Some((kind, view)) = KINDS.iter().find_map(|kind| Some((*kind, force.variant(kind)?))) else {
+            return Vec::new();
+        };
+        let emitters = self.emitters;
+        let able = |i: &usize| !matches!(kind, "coulomb" | "lorentz") || emitters[*i].source.charge != 0.0;
+        if matches!(kind, "gravitation" | "coulomb") && view.has("between") {
+            return Vec::new();
+        }
+        let Some(items) = view.list("on") else { return (0..emitters.len()).filter(able).collect() };
+        let mut on = Vec::new();
+        for item in items {
+            let named = |emitter: &Emitter| item.as_str() == Some(&*emitter.name);
+            let Some(number) = emitters.iter().position(named) else { continue };
+            if !able(&number) {
+                let message = || format!("the force has no effect on `{}`", emitters[number].name);
+                self.no_effect(message, item.span, "its particles have no charge");
+            } else if !on.contains(&number) {
+                on.push(number);
+            }
+        }
+        on
+    }
+
     /// The bodies of `on`, or all that can move. A body that stays where it is in spite of the force is a warning.
     pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
@@ -75,7 +103,7 @@ impl Reader<'_, '_> {
 
     /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
-        if !self.bodies.is_empty() {
+        if !self.bodies.is_empty() && !self.has_particles {
             let name = self.name;
             self.no_effect(|| format!("the force `{name}` acts on no body"), self.span, why);
         }

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::Place;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::expand::random::Stream;
+use crate::random::Stream;
 use crate::scene::view::View;
 
 /// How copies are scattered.

@@ -7,25 +7,37 @@ use sha2::{Digest, Sha256};
 /// A stream of random numbers.
 ///
 /// Every place of a scene has its own, by its path and the scene's seed: what is added elsewhere changes none of its numbers.
-pub(super) struct Stream(ChaCha8Rng);
+#[derive(Clone, Debug)]
+pub struct Stream(ChaCha8Rng);
 
 impl Stream {
-    pub(super) fn new(seed: u64, path: &str) -> Stream {
+    /// The stream of a place.
+    #[must_use]
+    pub fn new(seed: u64, path: &str) -> Stream {
         let mut hash = Sha256::new();
         hash.update(seed.to_le_bytes());
         hash.update(path);
         Stream(ChaCha8Rng::from_seed(hash.finalize().into()))
     }
 
+    /// One of 2⁶⁴ streams of the same place, each from its beginning, whatever has been drawn from this one.
+    #[must_use]
+    pub fn branch(&self, number: u64) -> Stream {
+        let mut branch = self.0.clone();
+        branch.set_stream(number);
+        branch.set_word_pos(0);
+        Stream(branch)
+    }
+
     /// From 0 up to 1, which itself never comes.
     #[allow(clippy::cast_precision_loss, reason = "53 bits are what a number holds")]
-    pub(super) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 * SPACING
     }
 
     /// After the normal distribution around 0 with deviation 1, by Box and Muller's method.
-    pub(super) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         // The logarithm of 0 is none.
         let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
         radius * libm::cos(std::f64::consts::TAU * self.uniform())
@@ -42,6 +54,16 @@ mod tests {
         let numbers = [stream.uniform(), stream.uniform(), stream.normal()];
         // The same, but for the last digit of a logarithm, by a few lines of Python with the rounds of ChaCha8 written out.
         assert_eq!(numbers, [0.011158441926262475, 0.6062048921625598, -0.8852880506164754]);
+    }
+
+    #[test]
+    fn branches_do_not_depend_on_what_was_drawn_before() {
+        let mut stream = Stream::new(0, "a");
+        let first = |stream: &Stream, number| stream.branch(number).uniform();
+        let before = [0, 1, 2].map(|number| first(&stream, number));
+        stream.uniform();
+        assert_eq!([0, 1, 2].map(|number| first(&stream, number)), before);
+        assert!(before[0] != before[1] && before[1] != before[2]);
     }
 
     #[test]

@@ -1,0 +1,83 @@
+//! Where a body is between two moments that are known.
+
+use glam::{DQuat, DVec3};
+
+use super::Spot;
+use crate::dynamics::{BodySnapshot, Kinematics, Motion};
+
+/// The way of a body from one moment to a later one: a curve of third degree that meets locations and velocities at both, and a
+/// rotation that begins with the first angular velocity and ends as the body is turned then.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    begin: f64,
+    end: f64,
+    from: BodySnapshot,
+    to: BodySnapshot,
+    /// What the first angular velocity leaves to turn, as axis times angle, rad.
+    rest: DVec3,
+}
+
+impl Course {
+    /// The way from time `begin` to time `end`, s.
+    #[must_use]
+    pub fn new(begin: f64, from: BodySnapshot, end: f64, to: BodySnapshot) -> Course {
+        let turned = DQuat::from_scaled_axis(from.angular_velocity * (end - begin)) * from.orientation;
+        let mut rest = to.orientation * turned.conjugate();
+        if rest.w < 0.0 {
+            rest = -rest;
+        }
+        Course { begin, end, from, to, rest: rest.to_scaled_axis() }
+    }
+
+    /// A body that stays as it is.
+    #[must_use]
+    pub fn still(body: BodySnapshot) -> Course {
+        Course { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
+    }
+
+    /// The body at time `t`, s.
+    #[must_use]
+    pub fn spot(&self, t: f64) -> Spot {
+        let Kinematics { location, velocity, orientation, angular_velocity, .. } = self.at(t);
+        Spot { location, velocity, orientation, angular_velocity }
+    }
+}
+
+impl Motion for Course {
+    fn at(&self, t: f64) -> Kinematics {
+        let Course { begin, end, from, to, rest } = self;
+        let span = end - begin;
+        if span <= 0.0 {
+            return Kinematics {
+                location: from.location,
+                velocity: from.velocity,
+                acceleration: DVec3::ZERO,
+                orientation: from.orientation,
+                angular_velocity: from.angular_velocity,
+            };
+        }
+        let s = (t - begin) / span;
+        let (s2, s3) = (s * s, s * s * s);
+        // Hermite's polynomials and their derivatives.
+        let (way, d0, d1) = (to.location - from.location, from.velocity * span, to.velocity * span);
+        let location =
+            from.location + (3.0 * s2 - 2.0 * s3) * way + (s3 - 2.0 * s2 + s) * d0 + (s3 - s2) * d1;
+        let velocity =
+            ((6.0 * s - 6.0 * s2) * way + (3.0 * s2 - 4.0 * s + 1.0) * d0 + (3.0 * s2 - 2.0 * s) * d1) / span;
+        let acceleration =
+            ((6.0 - 12.0 * s) * way + (6.0 * s - 4.0) * d0 + (6.0 * s - 2.0) * d1) / (span * span);
+        let turned = DQuat::from_scaled_axis(from.angular_velocity * (t - begin)) * from.orientation;
+        Kinematics {
+            location,
+            velocity,
+            acceleration,
+            orientation: (DQuat::from_scaled_axis(s * *rest) * turned).normalize(),
+            angular_velocity: from.angular_velocity.lerp(to.angular_velocity, s),
+        }
+    }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        let span = self.end - self.begin;
+        if span <= 0.0 { DVec3::ZERO } else { (self.to.angular_velocity - self.from.angular_velocity) / span }
+    }
+}

@@ -1,0 +1,31 @@
+//! Particles: many small bodies that a source sends out, each with a life of its own.
+//!
+//! They are not bodies of a [`World`](super::World). Forces act on them as on bodies, by the same method and the same
+//! steps; they do not act on bodies nor on each other. Each follows from the seed of its source and its number alone, so any of
+//! them can be computed without the others.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | which particle is born when | [`Births`] |
+//! | where it begins | [`Origin`] |
+//! | all that a particle begins with | [`ParticleSource`] |
+//! | where a body is that sends them out or attracts them | [`Course`] |
+//! | those that are alive, and how they move | [`Cloud`] |
+
+mod births;
+mod cloud;
+mod course;
+mod origin;
+mod source;
+mod stepper;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use births::Births;
+pub use cloud::{Cloud, Particle};
+pub use course::Course;
+pub use origin::{Origin, Spot};
+pub use source::{Draw, ParticleSource};
+pub use stepper::Field;
+pub use surface::has_surface;

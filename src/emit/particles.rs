@@ -1,0 +1,161 @@
+//! The particles of emitters in POV-Ray's words: balls or streaks in groups of one color and size.
+//!
+//! A particle takes a short line, which POV-Ray parses fast: its place is rounded to a hundredth of its radius or finer.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::sdl::Style;
+use super::text;
+use crate::dynamics::Particle;
+use crate::picture::decimal_step;
+use crate::scene::{Color, Emitter, Scene};
+use crate::simulate::Frame;
+
+/// So many groups show how particles change over their lives.
+const GROUPS: usize = 32;
+/// The part of the radius to which places are rounded.
+const PRECISION: f64 = 0.01;
+
+/// What is the same in all frames about the particles of a scene.
+pub(super) struct Particles {
+    style: Style,
+    emitters: Vec<Looks>,
+}
+
+/// What the particles of an emitter look like.
+struct Looks {
+    name: Arc<str>,
+    /// From birth to death.
+    groups: Vec<Look>,
+    streak: f64,
+}
+
+/// Particles of one age.
+struct Look {
+    /// m.
+    radius: f64,
+    /// What stands behind the last particle.
+    usage: String,
+}
+
+impl Particles {
+    /// Writes what does not change.
+    pub(super) fn new(scene: &Scene, style: Style) -> Particles {
+        let looks = |emitter: &Emitter| Looks {
+            name: text::comment(&emitter.name).into(),
+            groups: groups(emitter, style),
+            streak: emitter.streak,
+        };
+        Particles { style, emitters: scene.emitters.iter().map(looks).collect() }
+    }
+
+    /// Appends the particles of a frame. The name of an emitter with one that cannot be written in these units is an error.
+    pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), &str> {
+        for (looks, particles) in self.emitters.iter().zip(&frame.particles) {
+            if particles.iter().any(|particle| !self.style.can_write(particle.location)) {
+                return Err(&looks.name);
+            }
+            self.emitter(out, looks, particles, frame.time);
+        }
+        Ok(())
+    }
+
+    fn emitter(&self, out: &mut String, looks: &Looks, particles: &[Particle], time: f64) {
+        let count = looks.groups.len();
+        let mut of_group: Vec<Vec<&Particle>> = vec![Vec::new(); count];
+        for particle in particles {
+            of_group[group(particle.age(time), count)].push(particle);
+        }
+        for (look, particles) in looks.groups.iter().zip(of_group) {
+            let is_seen = self.style.can_tell(DVec3::ZERO, DVec3::X * look.radius);
+            // POV-Ray warns of a union of one.
+            let opening = match particles.len() {
+                0 => continue,
+                _ if !is_seen => continue,
+                1 => "object {",
+                _ => "union {",
+            };
+            let _ = writeln!(out, "{opening} // {}", looks.name);
+            let step = decimal_step(look.radius * PRECISION);
+            let mut radius = String::new();
+            self.style.length(&mut radius, look.radius);
+            for particle in particles {
+                let head = rounded(particle.location, step);
+                let past = looks.streak.min(time - particle.born);
+                let tail = rounded(particle.location - past * particle.velocity, step);
+                if past > 0.0 && head.distance(tail) > look.radius && tail.is_finite() {
+                    out.push_str("  cone { ");
+                    self.style.point(out, tail);
+                    out.push_str(", 0, ");
+                } else {
+                    out.push_str("  sphere { ");
+                }
+                self.style.point(out, head);
+                out.push_str(", ");
+                out.push_str(&radius);
+                out.push_str(" }\n");
+            }
+            out.push_str(&look.usage);
+        }
+    }
+}
+
+/// A place on a lattice of this spacing, as far as there are digits for it.
+fn rounded(place: DVec3, step: f64) -> DVec3 {
+    let rounded = (place / step).round() * step;
+    if rounded.is_finite() { rounded } else { place }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "an age goes from 0 to 1, and groups are few"
+)]
+fn group(age: f64, groups: usize) -> usize {
+    ((age * groups as f64) as usize).min(groups - 1)
+}
+
+/// The looks of an emitter's particles from birth to death: one, where nothing changes.
+fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
+    let changes = emitter.colors.len() > 1 || emitter.sizes.len() > 1;
+    let count = if changes && emitter.source.longest_life.is_finite() { GROUPS } else { 1 };
+    let look = |number: usize| {
+        // A group has the look of the middle of its ages, and the first and the last one those of the ends.
+        #[allow(clippy::cast_precision_loss, reason = "groups are few")]
+        let age = if count == 1 { 0.0 } else { number as f64 / (count - 1) as f64 };
+        let channel = |i: usize| at_age(&emitter.colors, age, |color: &Color| color.0[i]);
+        let color = super::showing::color(Color([0, 1, 2].map(channel)), style);
+        let usage = if emitter.glow > 0.0 {
+            let mut glow = String::new();
+            Style { unit: 1.0, ..style }.length(&mut glow, emitter.glow);
+            format!(
+                "  pigment {{ color srgb {color} }}\n  finish {{ ambient 0 diffuse 0 emission {glow} }}\n  no_shadow\n}}\n"
+            )
+        } else {
+            format!(
+                "  pigment {{ color srgb {color} }}\n  finish {{ ambient 0.2 diffuse 0.75 specular 0.3 roughness 0.02 }}\n}}\n"
+            )
+        };
+        Look { radius: emitter.radius * at_age(&emitter.sizes, age, |size| *size), usage }
+    };
+    (0..count).map(look).collect()
+}
+
+/// What evenly spaced values from birth to death come to at an age from 0 to 1.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "values are few, and an age goes from 0 to 1"
+)]
+fn at_age<T>(values: &[T], age: f64, number: impl Fn(&T) -> f64) -> f64 {
+    let place = age * (values.len() - 1) as f64;
+    let before = (place as usize).min(values.len() - 1);
+    let after = (before + 1).min(values.len() - 1);
+    let (from, to) = (number(&values[before]), number(&values[after]));
+    from + (to - from) * (place - before as f64)
+}

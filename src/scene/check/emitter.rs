@@ -1,0 +1,231 @@
+//! `[emitter.NAME]`.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::Context;
+use super::read::figure;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, has_surface};
+use crate::random::Stream;
+use crate::scene::drawn::{Drawn, DrawnFormula};
+use crate::scene::expand::in_string;
+use crate::scene::{Body, Color, Emitter, Simulation};
+
+/// More particles at once than anybody wants to draw.
+const MAX_ALIVE: f64 = 1_000_000.0;
+/// So many values of a formula with random numbers are looked at.
+const DRAWS: u64 = 4096;
+
+/// What an emitter is read with.
+struct Reader<'a, 'c> {
+    name: &'a str,
+    span: Span,
+    view: &'a View<'a>,
+    simulation: &'a Simulation,
+    bodies: &'a [Body],
+    random: Stream,
+    context: &'a mut Context<'c>,
+}
+
+pub(super) fn read(
+    root: &View<'_>,
+    simulation: &Simulation,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Vec<Emitter> {
+    let usual_seed = root.integer("seed").unwrap_or_default();
+    let read = |(name, span, view): (&str, Span, View<'_>)| {
+        let seed = view.integer("seed").unwrap_or(usual_seed);
+        let random = Stream::new(seed.unsigned_abs(), &format!("emitter.{name}"));
+        Reader { name, span, view: &view, simulation, bodies, random, context }.emitter()
+    };
+    root.named("emitter").into_iter().map(read).collect()
+}
+
+impl Reader<'_, '_> {
+    fn emitter(&mut self) -> Emitter {
+        let view = self.view;
+        let births = self.births();
+        let (lifetime, longest_life) = self.lifetime(&births);
+        let speed = view.drawn("speed").unwrap_or(Drawn::Constant(0.0));
+        if let Drawn::Formula(formula) = &speed {
+            self.each_draw("speed", formula, &births, |_| None);
+        }
+        let direction = view.direction::<3>("direction").map(DVec3::from_array);
+        let (origin, carrier) = self.origin(direction);
+        let is_surface = matches!(origin, Origin::Surface(_));
+        let source = ParticleSource {
+            births,
+            lifetime: lifetime.shared(),
+            longest_life,
+            origin,
+            direction: direction.or((!is_surface).then_some(DVec3::Y)),
+            spread: view.number("spread").unwrap_or_default().to_radians(),
+            speed: speed.shared(),
+            mass: view.number("mass").unwrap_or_default(),
+            charge: view.number("charge").unwrap_or_default(),
+            random: self.random.clone(),
+        };
+        let emitter = Emitter {
+            name: self.name.into(),
+            source: Arc::new(source),
+            carrier,
+            radius: view.table("shape").table("sphere").number("radius").unwrap_or(1.0),
+            sizes: view.numbers("size").unwrap_or_else(|| vec![1.0]),
+            colors: view.colors("color").unwrap_or_else(|| vec![Color::WHITE]),
+            glow: view.number("glow").unwrap_or_default(),
+            streak: view.number("streak").unwrap_or_default(),
+        };
+        self.not_too_many(&emitter);
+        if view.boolean("collides") == Some(true) {
+            let message = format!("the particles of `{}` cannot collide yet", self.name);
+            let error = Diagnostic::error(Code::BadEmitter, message);
+            let help = "they pass through bodies and the ground: leave the line out, or let a body with \
+                        `repeat` stand for a few of them";
+            let span = view.span("collides").unwrap_or(self.span);
+            self.context.diagnostics.push(error.at(span, "only `false` is built yet").help(help));
+        }
+        emitter
+    }
+
+    /// When they are born.
+    fn births(&mut self) -> Births {
+        let (view, simulation) = (self.view, self.simulation);
+        let start = simulation.nearest_frame(view.number("start").unwrap_or_default());
+        let end = view.number("end").map_or(f64::INFINITY, |end| simulation.nearest_frame(end));
+        if end < start {
+            let message =
+                format!("`{}` starts at {} s and ends at {} s", self.name, figure(start), figure(end));
+            let error = Diagnostic::error(Code::EndBeforeStart, message);
+            let spans = [("end", "this must be later"), ("start", "than this")];
+            let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
+            self.context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
+        } else if start > simulation.end() {
+            let warning = Diagnostic::warning(Code::NeverThere, format!("`{}` sends out nothing", self.name));
+            let label = format!("the scene goes from 0 to {} s", figure(simulation.end()));
+            let span = view.span("start").unwrap_or(self.span);
+            self.context.diagnostics.push(warning.at(span, label));
+        }
+        let end = end.max(start);
+        let Some(burst) = view.count("burst").filter(|_| view.has("burst")) else {
+            if let Some(span) = view.key_span("every") {
+                let message = format!("`every` of `{}` has no effect", self.name);
+                let warning = Diagnostic::warning(Code::NoEffect, message);
+                self.context.diagnostics.push(warning.at(span, "it is the time between bursts"));
+            }
+            return Births::rate(view.number("rate").unwrap_or(1.0), start, end);
+        };
+        Births { start, end, at_once: u64::from(burst), every: view.number("every").unwrap_or(f64::INFINITY) }
+    }
+
+    /// How long they live, and at most, s.
+    ///
+    /// The longest life of a formula is the longest among many draws; one that is drawn later is cut to that.
+    fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
+        let lifetime = self.view.drawn("lifetime").unwrap_or(Drawn::Constant(f64::INFINITY));
+        let longest = match &lifetime {
+            Drawn::Constant(lifetime) => *lifetime,
+            Drawn::Formula(formula) => {
+                let too_short = |life: f64| (life <= 0.0).then(|| format!("a life of {} s", figure(life)));
+                self.each_draw("lifetime", formula, births, too_short)
+            }
+        };
+        (lifetime, longest)
+    }
+
+    /// Draws many values of a formula, and reports the first that is not finite or of which something is said. Gives the largest.
+    fn each_draw(
+        &mut self,
+        key: &str,
+        formula: &DrawnFormula,
+        births: &Births,
+        wrong: impl Fn(f64) -> Option<String>,
+    ) -> f64 {
+        let end = births.end.min(self.simulation.end()).max(births.start);
+        let mut largest = f64::MIN_POSITIVE;
+        let Some(span) = self.view.span(key) else { return largest };
+        for number in 0..DRAWS {
+            #[allow(clippy::cast_precision_loss, reason = "both are small")]
+            let t = births.start + (end - births.start) * number as f64 / (DRAWS - 1) as f64;
+            let value = formula.draw(t, &mut self.random.branch(u64::MAX - number));
+            if !value.is_finite() {
+                let error = formula.explain_non_finite(t, &mut self.random.branch(u64::MAX - number));
+                if let Some(error) = error {
+                    let raw = self.context.sources.get(span.source).text.get(span.start..span.end);
+                    let place = in_string(raw.unwrap_or_default(), formula.text(), &error.range, span);
+                    let diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
+                    self.context.diagnostics.push(diagnostic);
+                }
+                return largest;
+            }
+            if let Some(what) = wrong(value) {
+                let message = format!("this formula gives some particles of `{}` {what}", self.name);
+                let help = format!("keep it above 0: `{key} = \"max(0.1, {})\"`", formula.text());
+                let error = Diagnostic::error(Code::OutOfRange, message).at(span, "").help(help);
+                self.context.diagnostics.push(error);
+                return largest;
+            }
+            largest = largest.max(value);
+        }
+        largest
+    }
+
+    /// Where they begin, and the body that sends them out.
+    fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
+        let from = self.view.table("from");
+        let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
+        let (surface, body) = (number(from.text("surface")), number(from.text("body")));
+        let carrier = surface.or(body).map(BodyId::new);
+        if let (Some(_), Some(span)) = (surface, from.key_span("body")) {
+            let message = format!("`body` of `{}` has no effect", self.name);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
+            self.context.diagnostics.push(warning.at(span, "`surface` names the body"));
+        }
+        if let Some(surface) = surface {
+            let body = &self.bodies[surface];
+            if !has_surface(&body.shape) {
+                let message = format!("particles cannot come from the surface of `{}`", body.name);
+                let error = Diagnostic::error(Code::BadEmitter, message);
+                let label = "only from a sphere, box, cylinder, capsule, cone or torus";
+                let help = format!(
+                    "`from = {{ point = [0, 0, 0], body = \"{}\" }}` lets them come from a point of it",
+                    body.name
+                );
+                let span = from.span("surface").unwrap_or(self.span);
+                self.context.diagnostics.push(error.at(span, label).help(help));
+            }
+            return (Origin::Surface(body.shape.clone()), carrier);
+        }
+        if let Some(disc) = from.variant("disc") {
+            let normal = disc.direction::<3>("normal").map(DVec3::from_array);
+            let origin = Origin::Disc {
+                centre: disc.vector("location").unwrap_or_default(),
+                normal: normal.or(direction).unwrap_or(DVec3::Y),
+                radius: disc.number("radius").unwrap_or(1.0),
+            };
+            return (origin, carrier);
+        }
+        if let Some(view) = from.variant("box") {
+            let centre = view.vector("location").unwrap_or_default();
+            return (Origin::Box { centre, size: view.vector("size").unwrap_or(DVec3::ONE) }, carrier);
+        }
+        (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
+    }
+
+    fn not_too_many(&mut self, emitter: &Emitter) {
+        let most = emitter.most_alive(self.simulation.end());
+        if most <= MAX_ALIVE {
+            return;
+        }
+        let key = if self.view.has("burst") { "burst" } else { "rate" };
+        let message =
+            format!("`{}` would have {most:.0} particles at once; at most {MAX_ALIVE} are drawn", self.name);
+        let error = Diagnostic::error(Code::TooManyParticles, message);
+        let help = format!("let fewer be born by `{key}`, or let them live shorter by `lifetime`");
+        let span = self.view.span(key).unwrap_or(self.span);
+        self.context.diagnostics.push(error.at(span, "").help(help));
+    }
+}

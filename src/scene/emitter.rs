@@ -1,0 +1,39 @@
+//! The emitters of particles of a checked scene.
+
+use std::sync::Arc;
+
+use super::Color;
+use crate::dynamics::{BodyId, ParticleSource};
+
+/// What sends out particles, and what they look like.
+#[derive(Clone, Debug)]
+pub struct Emitter {
+    /// Its name, unique among emitters.
+    pub name: Arc<str>,
+    /// When, where and how its particles begin.
+    pub source: Arc<ParticleSource>,
+    /// The body that sends them out, and moves on.
+    pub carrier: Option<BodyId>,
+    /// The radius of a particle, m.
+    pub radius: f64,
+    /// How many times larger it is drawn over its life: the first at its birth, the last at its death, evenly between.
+    pub sizes: Vec<f64>,
+    /// Its color over its life, in the same way.
+    pub colors: Vec<Color>,
+    /// How brightly it shines by itself; 0 if it does not.
+    pub glow: f64,
+    /// It is drawn as a streak that is as long as its way in this time, s; 0: as a ball.
+    pub streak: f64,
+}
+
+impl Emitter {
+    /// The most particles that can be alive at once, as far as that is known before the run.
+    #[must_use]
+    pub fn most_alive(&self, duration: f64) -> f64 {
+        let births = self.source.births;
+        let life = self.source.longest_life.min(duration.max(0.0) - births.start.min(0.0));
+        #[allow(clippy::cast_precision_loss, reason = "counts of particles are far below 2^53")]
+        let at_once = births.at_once as f64;
+        at_once * ((life / births.every).floor() + 1.0)
+    }
+}

@@ -1,0 +1,252 @@
+//! The particles of a scene's emitters.
+//!
+//! They are no part of a recording. Each particle follows from its number, the recorded bodies and the forces alone, so they are
+//! computed along with the frames that are read: whoever begins at a later frame computes those that are alive then from their
+//! births on, and gets the same bits. Memory does not grow with time.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Bounds, Frame};
+use crate::dynamics::{
+    BodyId, BodySnapshot, Cloud, ConstantForce, Coulomb, Course, Drag, Field, Gravitation, Lorentz, Method,
+    Particle, RigidBody, UniformGravity, World, find,
+};
+use crate::scene::{Emitter, Force, ForceKind, Scene};
+
+/// The particles of one emitter at one moment, in the order of their births.
+pub type Swarm = Arc<[Particle]>;
+
+/// All particles of a scene as time goes on.
+#[derive(Clone)]
+pub(super) struct Clouds {
+    makers: Arc<[Maker]>,
+    method: &'static Method,
+    clouds: Vec<Cloud>,
+    /// Of so many particles, one is computed, for each emitter.
+    strides: Vec<u64>,
+    /// The time between two frames, s, and how many steps it has.
+    interval: f64,
+    steps: u32,
+    /// The bodies of the frame that was seen last.
+    before: Option<(f64, Arc<[BodySnapshot]>)>,
+    /// Frames before this one need not be seen.
+    begin: usize,
+}
+
+/// What makes the cloud of an emitter.
+struct Maker {
+    emitter: Emitter,
+    fields: Vec<Field>,
+}
+
+impl Clouds {
+    /// Those of a run that has not begun.
+    pub(super) fn new(scene: &Scene) -> Clouds {
+        let maker = |(number, emitter): (usize, &Emitter)| {
+            let fields = fields(scene, number);
+            Maker { emitter: emitter.clone(), fields }
+        };
+        let makers: Arc<[Maker]> = scene.emitters.iter().enumerate().map(maker).collect();
+        let interval = 1.0 / scene.simulation.frame_rate;
+        let steps = if makers.is_empty() { 1 } else { steps(scene, interval) };
+        Clouds {
+            strides: vec![1; makers.len()],
+            makers,
+            method: scene.simulation.method,
+            clouds: Vec::new(),
+            interval,
+            steps,
+            before: None,
+            begin: 0,
+        }
+    }
+
+    /// The same, but of each emitter only some particles, evenly chosen: at most some `most` at once.
+    pub(super) fn thinned(scene: &Scene, most: f64) -> Clouds {
+        let mut clouds = Clouds::new(scene);
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the check of a scene limits the number of particles"
+        )]
+        let stride =
+            |emitter: &Emitter| (emitter.most_alive(scene.simulation.end()) / most).ceil().max(1.0) as u64;
+        clouds.strides = scene.emitters.iter().map(stride).collect();
+        clouds
+    }
+
+    /// How many steps there are from one frame to the next.
+    pub(super) fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    fn step(&self) -> f64 {
+        self.interval / f64::from(self.steps)
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_idle(&self) -> bool {
+        self.makers.is_empty()
+    }
+
+    /// Whether a frame is reached best by going on with the frame that comes next.
+    pub(super) fn go_on_to(&self, frame: usize, next: usize) -> bool {
+        let first = self.first_frame(frame);
+        !self.clouds.is_empty() && self.begin <= first && first <= next && next <= frame
+    }
+
+    /// The first of the frames that must be seen for the particles of a frame to be right.
+    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the conversion saturates, and a frame too early is none too late"
+    )]
+    pub(super) fn first_frame(&self, frame: usize) -> usize {
+        let time = frame as f64 * self.interval;
+        let needed = |maker: &Maker| Cloud::needed_from(&maker.emitter.source, time);
+        let from = self.makers.iter().map(needed).fold(time, f64::min);
+        // One more, for what rounding does to a quotient.
+        ((from / self.interval).floor() as usize).saturating_sub(1).min(frame)
+    }
+
+    /// Forgets all, to see the frames from this one on.
+    pub(super) fn begin_at(&mut self, frame: usize) {
+        self.clouds.clear();
+        self.before = None;
+        self.begin = frame;
+    }
+
+    /// Goes on to the next frame.
+    pub(super) fn note(&mut self, frame: &Frame) {
+        if self.is_idle() || frame.index < self.begin {
+            return;
+        }
+        let bodies: Arc<[BodySnapshot]> = frame.bodies.as_slice().into();
+        match self.before.take() {
+            None => self.start(frame, &bodies),
+            Some(before) => self.advance(&before, frame.time, &bodies),
+        }
+        self.before = Some((frame.time, bodies));
+    }
+
+    /// Begins with a frame. What was born before the run has bodies around it that stand as they do at its beginning.
+    fn start(&mut self, frame: &Frame, bodies: &[BodySnapshot]) {
+        let step = self.step();
+        let Clouds { makers, method, interval, strides, .. } = self;
+        let course = |body: BodyId| find(bodies, body.index()).copied().map(Course::still);
+        let cloud = |(maker, stride): (&Maker, &mut u64)| {
+            let Maker { emitter: Emitter { source, carrier, .. }, fields } = maker;
+            let early = (frame.time - Cloud::needed_from(source, frame.time)) / *interval;
+            let early = if frame.index == 0 { early.max(0.0).ceil() } else { 0.0 };
+            let from = frame.time - early * *interval;
+            let mut cloud = Cloud::new(source.clone(), *carrier, fields, method, (from, *stride));
+            cloud.advance(frame.time, step, &course);
+            cloud
+        };
+        self.clouds = makers.iter().zip(strides).map(cloud).collect();
+    }
+
+    fn advance(&mut self, before: &(f64, Arc<[BodySnapshot]>), to: f64, bodies: &[BodySnapshot]) {
+        let (begin, last) = (before.0, &before.1);
+        let course = |body: BodyId| {
+            let (from, now) = (find(last, body.index()), find(bodies, body.index()));
+            match (from.copied(), now.copied()) {
+                (Some(from), Some(now)) => Some(Course::new(begin, from, to, now)),
+                // It comes or goes within the interval, and counts for the whole of it.
+                (Some(only), None) | (None, Some(only)) => Some(Course::still(only)),
+                (None, None) => None,
+            }
+        };
+        let step = self.step();
+        self.clouds.iter_mut().for_each(|cloud| cloud.advance(to, step, &course));
+    }
+
+    /// The box around the particles at the last frame that the ground does not hide; none where there are none.
+    pub(super) fn bounds(&self, scene: &Scene) -> Option<Bounds> {
+        let ground = scene.environment.ground.as_ref().and_then(|ground| ground.height);
+        let lowest = ground.unwrap_or(f64::NEG_INFINITY);
+        let of_cloud = |(maker, cloud): (&Maker, &Cloud)| {
+            let emitter = &maker.emitter;
+            let reach = DVec3::splat(emitter.radius * emitter.sizes.iter().copied().fold(0.0, f64::max));
+            let seen = cloud.particles().iter().map(|particle| particle.location);
+            let seen = seen.filter(|location| location.is_finite() && location.y + reach.y >= lowest);
+            let boxes = seen.map(|location| Bounds { min: location - reach, max: location + reach });
+            let Bounds { min, max } = boxes.reduce(Bounds::union)?;
+            Some(Bounds { min: min.with_y(min.y.max(lowest)), max })
+        };
+        self.makers.iter().zip(&self.clouds).filter_map(of_cloud).reduce(Bounds::union)
+    }
+
+    /// The particles at the last frame.
+    pub(super) fn now(&self) -> Vec<Swarm> {
+        self.clouds.iter().map(|cloud| cloud.particles().into()).collect()
+    }
+
+    /// The particles at a moment after the last frame and before the next one.
+    pub(super) fn at(&self, moment: &Frame) -> Vec<Swarm> {
+        let mut later = self.clone();
+        if let Some(before) = &self.before
+            && moment.time > before.0
+        {
+            later.advance(before, moment.time, &moment.bodies);
+        }
+        later.now()
+    }
+}
+
+/// How many steps particles make in an interval (s): as many as bodies that forces move.
+fn steps(scene: &Scene, interval: f64) -> u32 {
+    let mut world = World::new();
+    world.set_step(scene.simulation.step);
+    world.steps_within(interval)
+}
+
+/// The forces on the particles of an emitter.
+fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
+    let mut fields = Vec::new();
+    let acceleration = scene.simulation.gravity;
+    if acceleration != DVec3::ZERO {
+        fields.push(Field::new(move |_| Arc::new(UniformGravity { acceleration })));
+    }
+    let acting = scene.forces.iter().filter(|force| force.emitters.contains(&emitter));
+    fields.extend(acting.filter_map(|force| field(scene, force)));
+    fields
+}
+
+/// What a force is for particles; none if it does not act on them.
+fn field(scene: &Scene, force: &Force) -> Option<Field> {
+    let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
+        bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
+    };
+    Some(match &force.kind {
+        ForceKind::Constant(ConstantForce { force, .. }) => {
+            // What does not turn has no torque.
+            let (force, torque) = (*force, DVec3::ZERO);
+            Field::new(move |bodies| Arc::new(ConstantForce { bodies, force, torque }))
+        }
+        ForceKind::Drag(Drag { linear, quadratic, wind, .. }) => {
+            let (linear, quadratic, wind) = (*linear, *quadratic, *wind);
+            Field::new(move |bodies| Arc::new(Drag { bodies, linear, quadratic, wind }))
+        }
+        ForceKind::Lorentz(Lorentz { electric, magnetic, .. }) => {
+            let (electric, magnetic) = (*electric, *magnetic);
+            Field::new(move |bodies| Arc::new(Lorentz { bodies, electric, magnetic }))
+        }
+        ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
+            let (constant, softening) = (*constant, *softening);
+            Field::from_bodies(sources(bodies), move |bodies, against| {
+                Arc::new(Gravitation { bodies, against: Some(against), constant, softening })
+            })
+        }
+        ForceKind::Coulomb(Coulomb { bodies, constant, softening, .. }) => {
+            let (constant, softening) = (*constant, *softening);
+            Field::from_bodies(sources(bodies), move |bodies, against| {
+                Arc::new(Coulomb { bodies, against: Some(against), constant, softening })
+            })
+        }
+        ForceKind::Spring { .. } => return None,
+    })
+}
