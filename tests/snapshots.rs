@@ -5,7 +5,8 @@ use jabuka::{Run, Scene};
 #[test]
 fn scripts_of_the_gallery() {
     insta::glob!("../scenes", "*.toml", |path| {
-        let scene = Scene::from_path(path).unwrap_or_else(|report| panic!("{report}"));
+        let options = jabuka::scene::Options { overrides: fewer(path), ..Default::default() };
+        let scene = Scene::from_path_with(path, &options).unwrap_or_else(|report| panic!("{report}"));
         assert_eq!(scene.warnings.diagnostics.len(), 0, "{}", scene.warnings);
         let run = Run::new(&scene).unwrap();
         assert_eq!(run.survey().crossings, []);
@@ -18,6 +19,16 @@ fn scripts_of_the_gallery() {
             insta::assert_snapshot!(name, text);
         }
     });
+}
+
+/// What makes scripts of thousands of particles short.
+fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
+    let setting = match path.file_stem().and_then(std::ffi::OsStr::to_str) {
+        Some("fountain") => "variables.drops=40",
+        Some("sparks") => "variables.sparks=60",
+        _ => return Vec::new(),
+    };
+    vec![jabuka::scene::Override::new(setting)]
 }
 
 /// The figures that the tutorial's scene is known for.

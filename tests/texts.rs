@@ -56,13 +56,14 @@ const TRIED: [&str; 33] = [
 
 /// Those that take the name of a thing of jabuka's own making, and no text of anybody's: the names of frames, files and
 /// meshes, and options of POV-Ray.
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 14] = [
     "dynamics/shape/mesh/mod.rs: new",
     "dynamics/shape/mesh/mod.rs: surface",
     "emit/mod.rs: shutter",
     "emit/mod.rs: trail_files",
     "emit/showing/trails.rs: is_trail_file",
     "output/folder.rs: write",
+    "random.rs: new",
     "render/images.rs: copy_out",
     "render/images.rs: image",
     "render/record.rs: expected",

@@ -101,7 +101,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::report(&report(error, &arguments.output));
         Failure::Errors
     })?;
-    say::result(&format!("{}: {text}\n", visible_path(&arguments.output)));
+    let left_out = if scene.emitters.is_empty() { "" } else { "; particles are left out" };
+    say::result(&format!("{}: {text}{left_out}\n", visible_path(&arguments.output)));
     run_arguments::broken_down(&run, &selection)
 }
 

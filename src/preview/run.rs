@@ -170,7 +170,13 @@ impl Simulation {
         let views = scene.views.iter().map(|view| plan(&view.camera));
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
         let run = Run::of(recorded).map_err(failed)?;
-        let warnings = Report { diagnostics: run.warnings(), ..Report::default() };
+        let mut diagnostics = run.warnings();
+        if !scene.emitters.is_empty() {
+            let message = "this page does not show particles";
+            let help = "a rendered frame does: press `Render this`, or use `jabuka still`";
+            diagnostics.push(Diagnostic::warning(Code::NotDrawn, message).help(help));
+        }
+        let warnings = Report { diagnostics, ..Report::default() };
         Ok(Outcome { survey, plans, warnings })
     }
 

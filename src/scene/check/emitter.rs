@@ -16,6 +16,8 @@ use crate::scene::{Body, Color, Emitter, Simulation};
 
 /// More particles at once than anybody wants to draw.
 const MAX_ALIVE: f64 = 1_000_000.0;
+/// More timesteps before the run than anybody wants to wait for.
+const MAX_EARLY_STEPS: f64 = 100_000.0;
 /// So many values of a formula with random numbers are looked at.
 const DRAWS: u64 = 4096;
 
@@ -80,6 +82,7 @@ impl Reader<'_, '_> {
             streak: view.number("streak").unwrap_or_default(),
         };
         self.not_too_many(&emitter);
+        self.not_too_early(&emitter);
         if view.boolean("collides") == Some(true) {
             let message = format!("the particles of `{}` cannot collide yet", self.name);
             let error = Diagnostic::error(Code::BadEmitter, message);
@@ -213,6 +216,19 @@ impl Reader<'_, '_> {
             return (Origin::Box { centre, size: view.vector("size").unwrap_or(DVec3::ONE) }, carrier);
         }
         (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
+    }
+
+    /// What happens before the run is computed step by step, as the run is.
+    fn not_too_early(&mut self, emitter: &Emitter) {
+        let before = emitter.source.births.start.max(-emitter.source.longest_life);
+        let longest = MAX_EARLY_STEPS * self.simulation.step.min(1.0 / self.simulation.frame_rate);
+        if -before <= longest {
+            return;
+        }
+        let message = format!("`{}` starts {} s before the run", self.name, figure(-before));
+        let label = format!("at most {} s are computed before", figure(longest));
+        let error = Diagnostic::error(Code::OutOfRange, message);
+        self.context.diagnostics.push(error.at(self.view.span("start").unwrap_or(self.span), label));
     }
 
     fn not_too_many(&mut self, emitter: &Emitter) {
