@@ -25,6 +25,11 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "shapes", place: "`shape` of [body.NAME]", entries: || variants(&["body", "shape"]) },
     Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
     Category { name: "repeats", place: "`repeat` of [body.NAME]", entries: || variants(&["body", "repeat"]) },
+    Category {
+        name: "origins",
+        place: "`from` of [emitter.NAME]",
+        entries: || variants(&["emitter", "from"]),
+    },
     Category { name: "lights", place: "[light.NAME]", entries: || variants(&["light"]) },
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },

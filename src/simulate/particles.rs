@@ -24,7 +24,7 @@ pub(super) struct Clouds {
     makers: Arc<[Maker]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
-    /// Of so many particles, one is computed, for each emitter.
+    /// For each emitter: only every n-th particle is computed.
     strides: Vec<u64>,
     /// The time between two frames, s, and how many steps it has.
     interval: f64,

@@ -21,6 +21,7 @@ mod library;
 mod lights;
 mod looks;
 mod meshes;
+mod particles;
 mod pinhole;
 mod planes;
 mod povray;

@@ -43,7 +43,7 @@ pub struct Cloud {
     time: f64,
     /// The number of the particle that is born next.
     next: u64,
-    /// Only every so manieth particle is there.
+    /// Only every n-th particle is computed.
     stride: u64,
     alive: Vec<Particle>,
     wide: Stepper,

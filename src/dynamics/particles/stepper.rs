@@ -34,7 +34,7 @@ impl Field {
     }
 }
 
-/// The steps of an interval: from `begin`, so many of the same length; the last one ends at `end`.
+/// The steps of an interval: all of the same length from `begin` on; the last one ends at `end`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     pub(super) begin: f64,
@@ -67,7 +67,7 @@ impl Grid {
     }
 }
 
-/// Advances so many particles side by side.
+/// Advances a fixed number of particles side by side.
 #[derive(Clone)]
 pub(super) struct Stepper {
     lanes: usize,
@@ -141,7 +141,7 @@ impl Stepper {
         self.rest();
     }
 
-    /// Leaves nothing in the lanes that could leave the numbers.
+    /// Stops what is left in lanes that the next particles may not fill: it would fly on, and become non-finite.
     fn rest(&mut self) {
         self.state.velocity[..self.lanes].fill(DVec3::ZERO);
     }

@@ -132,7 +132,7 @@ impl Reader<'_, '_> {
         let longest = match &lifetime {
             Drawn::Constant(lifetime) => *lifetime,
             Drawn::Formula(formula) => {
-                let too_short = |life: f64| (life <= 0.0).then(|| format!("a life of {} s", figure(life)));
+                let too_short = |life: f64| (life <= 0.0).then(|| format!("a life of {life:.3} s"));
                 self.each_draw("lifetime", formula, births, too_short)
             }
         };

@@ -364,7 +364,8 @@ fn reference(
     if names.contains_key(word) || library.contains(&word) || is_body && context.groups.may_hold(word) {
         return;
     }
-    let noun = collection.key();
+    let has_emitters = collection == Collection::Target && !context.names.emitters.is_empty();
+    let noun = if has_emitters { "body or emitter" } else { collection.key() };
     let copies = context.groups.ends(collection, word);
     let is_body_for_joint = collection == Collection::Joint && context.names.bodies.contains_key(word);
     let label = if is_body_for_joint {
@@ -376,7 +377,12 @@ fn reference(
     } else {
         let mut known: Vec<&str> = names.keys().map(AsRef::as_ref).collect();
         known.sort_unstable_by_key(|name| names[*name]);
-        context.comparisons -= known.len() + library.len();
+        if has_emitters {
+            let mut emitters: Vec<&str> = context.names.emitters.iter().map(AsRef::as_ref).collect();
+            emitters.sort_unstable();
+            known.extend(emitters);
+        }
+        context.comparisons = context.comparisons.saturating_sub(known.len() + library.len());
         suggest::label(word, &known, &library, noun, collection.plural())
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));

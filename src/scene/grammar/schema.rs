@@ -79,7 +79,10 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
         }
         Rule::ExactlyOne(names) if whole == Whole::No => {
             let pairs: Vec<_> = pairs(names).collect();
-            schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
+            // A single kind excludes none.
+            if !pairs.is_empty() {
+                schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
+            }
         }
         Rule::ExactlyOne(names) => {
             let one: Vec<_> = names.iter().map(|name| json!({ "required": [name] })).collect();

@@ -55,7 +55,8 @@ fn collection(name: &str) -> Option<&'static TableSpec> {
 /// A table that is called after a kind of thing or of shape: `[drag]`, `[spring.left]`, `[sphere.ball]`.
 fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let (word, table) = (&*entry.name.text, entry.node.as_table()?);
-    let things = collections().filter(|(_, spec)| matches!(spec.rule, Rule::ExactlyOne(_)));
+    let is_kind = |spec: &TableSpec| matches!(&spec.rule, Rule::ExactlyOne(kinds) if kinds.contains(&word));
+    let things = collections().filter(|(_, spec)| is_kind(spec));
     for (name, spec) in things {
         let Some(inner) = spec.key(word).and_then(|key| key.kind.table()) else { continue };
         let is_one = |entry: &Entry| {
