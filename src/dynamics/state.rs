@@ -31,7 +31,8 @@ pub struct Accounts {
     pub work: f64,
     /// The work of the motors of joints.
     pub motors: f64,
-    /// What is taken when a joint runs into a limit, or a rope becomes taut; never positive.
+    /// What is taken when a joint runs into a limit, or a rope becomes taut; never positive. In time stepping, also what joints take and
+    /// give as they give way.
     pub limits: f64,
     /// What is lost at impacts; never positive.
     pub impacts: f64,

@@ -104,7 +104,8 @@ impl TimeStepping {
         if self.steps == 1 {
             self.check_start(begin)?;
         }
-        self.books.close(&self.engine, &self.model, (&mut self.state, &self.loads), end);
+        let bodies = (&self.model, &self.joints);
+        self.books.close(&self.engine, bodies, (&mut self.state, &self.loads), end);
         Ok(())
     }
 
@@ -166,7 +167,8 @@ impl TimeStepping {
 
     /// Reads what has become of the bodies.
     fn pull(&mut self, dt: f64) {
-        let Self { model, state, engine, handles, books, .. } = self;
+        let Self { model, state, engine, handles, books, joints, .. } = self;
+        books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
         let mut moved = Vec::new();
         for (i, handle) in handles.iter().enumerate() {
@@ -192,9 +194,11 @@ impl TimeStepping {
             state.velocity[i] = body.linvel();
             // Contacts and joints act on the inertia at the beginning of the step.
             let change = body.angvel() - books.mean[i].1;
+            books.turned[i] = DVec3::ZERO;
             if change != DVec3::ZERO {
                 let inertia = model.inertia()[i];
-                state.angular_momentum[i] += from * (inertia * (from.conjugate() * change));
+                books.turned[i] = from * (inertia * (from.conjugate() * change));
+                state.angular_momentum[i] += books.turned[i];
             }
             let after = (state.velocity[i], model.angular_velocity(i, state));
             books.mean[i] = middle(books.before[i], after);

@@ -1,4 +1,4 @@
-//! What contacts give and take: energies for the balance, and impacts.
+//! What contacts and joints give and take: energies for the balance, and impacts.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -10,6 +10,7 @@ use rapier3d_f64::prelude::{
 
 use super::super::contact::Impact;
 use super::super::{Accounts, Loads, Model, State};
+use super::joint::{Joints, MotorPush};
 
 /// What meets more slowly than by this many of its thicknesses in a second has no impact.
 const SLOW: f64 = 0.03;
@@ -29,6 +30,12 @@ pub(super) struct Books {
     pub(super) places: Vec<DVec3>,
     /// The bodies that touched something, or came near it, in the step that was made last.
     touched: Vec<bool>,
+    /// The bodies that joints hold.
+    held: Vec<bool>,
+    /// What contacts and joints did to the angular momentum of each body that is held, in the step that was made last, N m s.
+    pub(super) turned: Vec<DVec3>,
+    /// What motors have done in the step that was made last.
+    pub(super) motors: Vec<MotorPush>,
     impacts: Vec<Impact>,
     /// Colliders that have come near each other, and have not pushed yet.
     pub(super) near: Vec<[ColliderHandle; 2]>,
@@ -158,9 +165,12 @@ impl<'a> Touch<'a> {
 }
 
 impl Books {
-    pub(super) fn new(bodies: usize, length: f64) -> Books {
+    pub(super) fn new(bodies: usize, length: f64, held: Vec<bool>) -> Books {
         let still = vec![(DVec3::ZERO, DVec3::ZERO); bodies];
         Books {
+            held,
+            turned: vec![DVec3::ZERO; bodies],
+            motors: Vec::new(),
             before: still.clone(),
             places: vec![DVec3::ZERO; bodies],
             touched: vec![false; bodies],
@@ -181,7 +191,7 @@ impl Books {
         std::mem::take(&mut self.impacts)
     }
 
-    /// Books what contacts have done in the step that was made last, and the impacts in it. `time` is that of its end, s.
+    /// Books what contacts and joints have done in the step that was made last, and the impacts in it. `time` is that of its end, s.
     ///
     /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, whatever
     /// else acts at the same time. What is left over between two bodies is lost; what a guided body puts in is work.
@@ -191,30 +201,56 @@ impl Books {
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
-        model: &Model,
+        (model, joints): (&Model, &Joints),
         (state, loads): (&mut State, &Loads),
         time: f64,
     ) {
         self.touched.fill(false);
         let mut accounts = Accounts::default();
+        // What contacts give the bodies that joints hold, J.
+        let mut pressed = 0.0;
         for touch in engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair) {
             touch.bodies.into_iter().for_each(|body| self.touched[body] = true);
-            let Some([normal, friction]) = self.lost(&touch, model, &mut accounts) else { continue };
-            accounts.impacts += normal;
-            accounts.friction += friction;
+            let Some([one, two]) = self.rates(&touch) else { continue };
+            accounts.impacts += two[0] - one[0];
+            accounts.friction += two[1] - one[1];
+            for (body, work) in touch.bodies.into_iter().zip([one[0] + one[1], -(two[0] + two[1])]) {
+                if model.is_guided(body) {
+                    accounts.work += work;
+                }
+                if self.held[body] && model.inverse_mass()[body] != 0.0 {
+                    pressed -= work;
+                }
+            }
         }
         let dt = engine.integration_parameters.dt;
-        for i in (0..self.touched.len()).filter(|&i| self.touched[i]) {
+        let mut pulled = 0.0;
+        for i in (0..self.touched.len()).filter(|&i| self.touched[i] || self.held[i]) {
             let shift = state.location[i] - self.places[i] - dt * state.velocity[i];
-            accounts.impacts -= loads.force[i].dot(shift);
+            let account = if self.touched[i] { &mut accounts.impacts } else { &mut pulled };
+            *account -= loads.force[i].dot(shift);
+            if self.held[i] && model.inverse_mass()[i] != 0.0 {
+                // All that is no force on it comes from contacts and joints.
+                let change = model.mass()[i] * (state.velocity[i] - self.before[i].0) - dt * loads.force[i];
+                pulled += change.dot(self.mean[i].0) + self.turned[i].dot(self.mean[i].1);
+            }
+        }
+        let motors: f64 = self.motors.iter().map(|push| push.work(|body| self.mean[body])).sum();
+        accounts.motors += motors;
+        // What joints do is what is left: they give way, and run into limits; what guides one of their ends works through them.
+        let others = pulled - pressed - motors;
+        if joints.has_guide {
+            accounts.work += others;
+        } else {
+            accounts.limits += others;
         }
         state.accounts.add(1.0, accounts);
-        self.find_impacts(engine, model, time);
+        self.find_impacts(engine, time);
     }
 
-    /// The energy that a touch gives, by normal impulses and by friction, J; mostly negative; none where it does not push. Adds the work of
-    /// guided bodies.
-    fn lost(&self, touch: &Touch<'_>, model: &Model, accounts: &mut Accounts) -> Option<[f64; 2]> {
+    /// The energy that a touch takes from its first body and gives to its second, each by the normal impulses and by friction, J; none
+    /// where it does not push.
+    fn rates(&self, touch: &Touch<'_>) -> Option<[[f64; 2]; 2]> {
         let push = touch.push()?;
         let normal = touch.normal();
         let rate = |side: usize| {
@@ -223,17 +259,11 @@ impl Books {
             let at = velocity + turning.cross(push.arms[side]);
             Some([along, push.friction.dot(at) + push.twist * normal.dot(turning)])
         };
-        let [one, two] = [rate(0)?, rate(1)?];
-        for (body, work) in touch.bodies.into_iter().zip([one[0] + one[1], -(two[0] + two[1])]) {
-            if model.is_guided(body) {
-                accounts.work += work;
-            }
-        }
-        Some([two[0] - one[0], two[1] - one[1]])
+        Some([rate(0)?, rate(1)?])
     }
 
     /// Finds the impacts of pairs that have come near each other.
-    fn find_impacts(&mut self, engine: &PhysicsWorld, model: &Model, time: f64) {
+    fn find_impacts(&mut self, engine: &PhysicsWorld, time: f64) {
         let events = std::mem::take(&mut *self.events.0.lock().unwrap_or_else(PoisonError::into_inner));
         for event in events {
             match event {
@@ -246,13 +276,13 @@ impl Books {
         let mut near = std::mem::take(&mut self.near);
         near.retain(|&[one, two]| {
             let Some(pair) = engine.narrow_phase.contact_pair(one, two) else { return true };
-            !self.note_impact(pair, model, time)
+            !self.note_impact(pair, time)
         });
         self.near = near;
     }
 
     /// Notes the impact of a pair, if it has pushed at last; whether it has.
-    fn note_impact(&mut self, pair: &ContactPair, model: &Model, time: f64) -> bool {
+    fn note_impact(&mut self, pair: &ContactPair, time: f64) -> bool {
         let (mut hardest, mut fastest) = (0.0, 0.0_f64);
         let (mut impulse, mut energy) = (DVec3::ZERO, 0.0);
         let mut found = None;
@@ -272,8 +302,7 @@ impl Books {
                 }
             }
             impulse += touch.push().map_or(DVec3::ZERO, |push| push.friction);
-            let lost = self.lost(&touch, model, &mut Accounts::default());
-            energy -= lost.map_or(0.0, |[normal, friction]| normal + friction);
+            energy += self.rates(&touch).map_or(0.0, |[one, two]| one[0] + one[1] - two[0] - two[1]);
         }
         let Some((bodies, normal, arm)) = found else { return false };
         if fastest > self.slow {

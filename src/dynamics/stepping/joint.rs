@@ -6,7 +6,8 @@ use rapier3d_f64::prelude::{
     PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
 };
 
-use super::super::{Anchor, Ball, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider};
+use super::super::{Anchor, Ball, BodyId, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State};
+use super::books::Motion;
 
 /// The stiffness of the motor that keeps the length of a rod, N/m, and that of one that keeps a speed, N s/m or N m s: so stiff that the
 /// step alone says how soft they are.
@@ -41,6 +42,33 @@ pub enum LinkKind {
 /// The joints of a run.
 pub(super) struct Joints {
     handles: Vec<ImpulseJointHandle>,
+    /// The numbers of the bodies at the ends of each; none: the world.
+    bodies: Vec<[Option<usize>; 2]>,
+    /// The free axis of each that has a motor.
+    motors: Vec<Option<JointAxis>>,
+    /// Whether a body whose motion is given is at an end of some joint.
+    pub(super) has_guide: bool,
+}
+
+/// What a motor has done within a step: its impulse on the first body, N s or N m s, and the row that it acts by.
+pub(super) struct MotorPush {
+    bodies: [Option<usize>; 2],
+    impulse: f64,
+    /// The direction of a motor that moves along an axis; zero for one that turns.
+    direction: DVec3,
+    /// For each body, what its angular velocity is multiplied with.
+    arms: [DVec3; 2],
+}
+
+impl MotorPush {
+    /// The energy that the motor has given, J; the closure gives the mean motion of a body within the step.
+    pub(super) fn work(&self, mean: impl Fn(usize) -> Motion) -> f64 {
+        let rate = |side: usize| {
+            let Some((velocity, turning)) = self.bodies[side].map(&mean) else { return 0.0 };
+            self.direction.dot(velocity) + self.arms[side].dot(turning)
+        };
+        self.impulse * (rate(0) - rate(1))
+    }
 }
 
 /// An end of a link: its body in the engine, and the rotation from the axes of the body to the engine's.
@@ -51,6 +79,18 @@ struct End {
 }
 
 impl LinkKind {
+    /// The axis of the motor that keeps its speed, if it has one.
+    fn motor(&self) -> Option<JointAxis> {
+        let of = |freedom: &Freedom, axis: JointAxis| {
+            matches!(freedom.motor, Some(Motor::Speed { .. })).then_some(axis)
+        };
+        match self {
+            LinkKind::Hinge(hinge) => of(&hinge.freedom, JointAxis::AngX),
+            LinkKind::Slider(slider) => of(&slider.freedom, JointAxis::LinX),
+            _ => None,
+        }
+    }
+
     /// Its two ends.
     #[must_use]
     pub fn between(&self) -> [Anchor; 2] {
@@ -84,15 +124,53 @@ impl Joints {
             (Anchor::Point(_), None) => None,
         };
         let mut handles = Vec::with_capacity(links.len());
+        let (mut ends, mut motors) = (Vec::new(), Vec::new());
         for link in links {
             let [one, two] = link.kind.between().map(end);
             if let (Some(one), Some(two)) = (one, two) {
                 let mut joint = joint(&link.kind, &one, &two);
                 joint.set_contacts_enabled(link.collides);
+                ends.push(link.kind.between().map(|end| end.body().map(BodyId::index)));
+                motors.push(link.kind.motor());
                 handles.push(engine.insert_impulse_joint(one.body, two.body, joint));
             }
         }
-        Joints { handles }
+        let has_guide = ends.iter().flatten().flatten().any(|&body: &usize| model.is_guided(body));
+        Joints { handles, bodies: ends, motors, has_guide }
+    }
+
+    /// For each of so many bodies, whether a joint holds it.
+    pub(super) fn held(&self, bodies: usize) -> Vec<bool> {
+        let mut held = vec![false; bodies];
+        self.bodies.iter().flatten().flatten().for_each(|&body| held[body] = true);
+        held
+    }
+
+    /// What the motors have done in the step that was made last. `state` is that of its beginning.
+    ///
+    /// A motor is the first row that the engine makes of a joint, so its impulse acts along its axis. The rows behind it are made
+    /// orthogonal to each other, and their impulses have no such meaning.
+    pub(super) fn motor_pushes(&self, engine: &PhysicsWorld, state: &State) -> Vec<MotorPush> {
+        let with_motor = self.motors.iter().enumerate().filter_map(|(k, axis)| Some((k, (*axis)?)));
+        let push = |(k, axis): (usize, JointAxis)| {
+            let joint = engine.impulse_joints.get(self.handles[k])?;
+            let impulse = joint.data.motors[axis as usize].impulse;
+            let bodies = self.bodies[k];
+            let place = |side: usize, frame: Pose| {
+                bodies[side].map_or(frame, |body| super::bodies::pose(state, body) * frame)
+            };
+            let (first, second) = (place(0, joint.data.local_frame1), place(1, joint.data.local_frame2));
+            let along = first.rotation * DVec3::X;
+            if axis == JointAxis::AngX {
+                return Some(MotorPush { bodies, impulse, direction: DVec3::ZERO, arms: [along; 2] });
+            }
+            let arm = |side: usize| {
+                let centre = bodies[side].map_or(DVec3::ZERO, |body| state.location[body]);
+                (second.translation - centre).cross(along)
+            };
+            Some(MotorPush { bodies, impulse, direction: along, arms: [arm(0), arm(1)] })
+        };
+        with_motor.filter_map(push).collect()
     }
 
     /// How many there are.

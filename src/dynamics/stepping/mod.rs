@@ -95,7 +95,7 @@ impl TimeStepping {
             before: State::default(),
             ledger: parts.ledger,
             calendar: parts.calendar,
-            books: Books::new(model.len(), length),
+            books: Books::new(model.len(), length, joints.held(model.len())),
             half_thickness: bodies::half_thickness(&model),
             shows_contacts: true,
             failure: None,

@@ -96,8 +96,8 @@ machines of thousands of bodies can be simulated. All keys mean the same as in t
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Energy**: what contacts take is known contact by contact, and is no part of the drift. Joints that give way lose energy, which is. The drift is
-  relative to the largest kinetic energy, so it may be large where bodies only settle: they hardly move.
+- **Energy**: what contacts, joints and motors take and give is booked, and is no part of the drift. The drift is relative to the largest kinetic
+  energy, so it may be large where bodies only settle: they hardly move.
 - **The step**: accuracy follows from `step`. Contacts are as stiff as the step allows, so half the step makes piles sink a quarter as deep. Where the scene
   does not say a step, it is 1/240 s, or so short that the thinnest body sinks in by at most 3 % of its thickness under ten times its weight: 1/480 s for
   10 cm, 1/1920 s for 1 cm.

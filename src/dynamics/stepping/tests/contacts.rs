@@ -163,3 +163,69 @@ fn bodies_that_overlap_at_the_start_are_a_mistake() {
         }
     }
 }
+
+/// Five floors of cards that lean against each other at 20° from upright. Friction alone holds them: with a tenth of it, they slide apart.
+#[test]
+fn a_house_of_cards_stands_by_friction() {
+    const FLOORS: u32 = 5;
+    let (length, thick, lean) = (1.0, 0.02, 20_f64.to_radians());
+    let (sin, cos) = (libm::sin(lean), libm::cos(lean));
+    let (half, storey) = (0.5 * (length * sin + thick * cos), length * cos + thick * sin);
+    for (friction, stands) in [(0.6, true), (0.06, false)] {
+        let mut scene = Scene::default().with_ground(0.0);
+        for floor in 0..FLOORS {
+            let (pairs, base) = (FLOORS - floor, f64::from(floor) * (storey + thick));
+            let middle = 0.5 * f64::from(pairs - 1);
+            for pair in 0..pairs {
+                for side in [-1.0, 1.0] {
+                    let at =
+                        DVec3::new(0.98 * (f64::from(pair) - middle) + side * half, base + 0.5 * storey, 0.0);
+                    let turn = DQuat::from_rotation_z(side * lean);
+                    scene.add(Shape::Box { size: DVec3::new(thick, length, 0.7) }, |body| {
+                        body.with_location(at).with_orientation(turn)
+                    });
+                }
+            }
+            for deck in 1..pairs {
+                let at =
+                    DVec3::new(0.98 * (f64::from(deck) - 0.5 - middle), base + storey + 0.5 * thick, 0.0);
+                scene.add(Shape::Box { size: DVec3::new(0.97, thick, 0.7) }, |body| body.with_location(at));
+            }
+        }
+        scene
+            .surfaces
+            .iter_mut()
+            .for_each(|surface| *surface = Some(Surface { friction: Some(friction), ..Surface::default() }));
+        let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &[]);
+        stepping.set_step(1.0 / 960.0);
+        let end = run(&mut stepping, 5.0);
+        let moved = |(body, start): (&BodySnapshot, &RigidBody)| (body.location - start.location).length();
+        let moved = end.bodies.iter().zip(&scene.bodies).map(moved).fold(0.0, f64::max);
+        assert_eq!(moved < 0.01, stands, "{friction}: {moved} m");
+    }
+}
+
+/// Twenty dominoes of which the first is pushed: all have fallen in the end, one after another.
+#[test]
+fn dominoes_fall_to_the_last() {
+    let mut scene = Scene::default().with_ground(0.0);
+    for k in 0..20 {
+        scene.add(Shape::Box { size: DVec3::new(0.1, 0.8, 0.4) }, |body| {
+            let body = body.with_location(DVec3::new(0.4 * f64::from(k), 0.4, 0.0));
+            if k > 0 {
+                return body;
+            }
+            body.with_velocity(DVec3::X).with_angular_velocity(-2.5 * DVec3::Z)
+        });
+    }
+    let mut stepping = scene.stepping();
+    let has_fallen = |body: &BodySnapshot| (body.orientation * DVec3::Y).y < 0.6;
+    let mut fallen = Vec::new();
+    for k in 1..=40 {
+        let seen = run(&mut stepping, 0.1 * f64::from(k));
+        fallen.push(seen.bodies[1..].iter().take_while(|body| has_fallen(body)).count());
+    }
+    assert!(fallen.is_sorted(), "{fallen:?}");
+    assert!(fallen[9] < 15, "{fallen:?}");
+    assert_eq!(fallen[39], 20, "{fallen:?}");
+}

@@ -84,3 +84,55 @@ fn a_slider_runs_along_its_axis() {
     assert!((end.dot(axis) - way).abs() < 0.01 * way, "{end}");
     assert!(end.reject_from_normalized(axis).length() < 1e-4, "{end}");
 }
+
+/// A wheel that a motor brings to 3 rad/s has ½ · ½ · 9 J; a cart that a motor pushes up a slope has ½ v² and the height. All of it is the motor's.
+#[test]
+fn what_motors_give_is_booked() {
+    let mut scene = Scene::default();
+    let wheel = scene.add(Shape::Cylinder { radius: 1.0, height: 0.2 }, |body| body);
+    let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(wheel)];
+    let freedom = Freedom { limits: None, motor: Some(Motor::Speed { speed: 3.0, limit: 0.5 }) };
+    let hinge = Hinge::new(between, DVec3::Y, DQuat::IDENTITY).with(freedom.clone());
+    let balance = run(&mut swing(&scene, LinkKind::Hinge(hinge)), 4.0).balance;
+    assert!((balance.accounts.motors - 2.25).abs() < 1e-3, "{:?}", balance.accounts);
+    assert!(balance.drift.abs() < 1e-3, "{}", balance.drift);
+
+    let axis = DVec3::new(libm::cos(0.4), libm::sin(0.4), 0.0);
+    let freedom = Freedom { limits: None, motor: Some(Motor::Speed { speed: 3.0, limit: 8.0 }) };
+    let slider = Slider { between, axis, turned: DQuat::IDENTITY, freedom };
+    let mut stepping = swing(&scene, LinkKind::Slider(slider));
+    stepping.snapshot().unwrap();
+    let end = run(&mut stepping, 2.0);
+    let given = 4.5 + GRAVITY * end.bodies[0].location.y;
+    assert!(end.bodies[0].location.y > 1.0);
+    assert!((end.balance.accounts.motors / given - 1.0).abs() < 0.01, "{given} {:?}", end.balance.accounts);
+    assert!(end.balance.drift.abs() < 0.01, "{}", end.balance.drift);
+}
+
+/// A chain of eight links falls from level, and swings over the ground. Its joints take energy, which is booked; what is left is the error of
+/// Euler–Cromer.
+#[test]
+fn what_joints_take_is_booked() {
+    let mut scene = Scene::default().with_ground(0.0);
+    let mut links = Vec::new();
+    let mut before = Anchor::Point(DVec3::new(0.0, 1.9, 0.0));
+    for k in 0..8 {
+        let at = DVec3::new(0.25 * (f64::from(k) + 0.5), 1.9, 0.0);
+        let link =
+            scene.add(Shape::Box { size: DVec3::new(0.25, 0.06, 0.06) }, |body| body.with_location(at));
+        let end = |x: f64| Anchor::Body { id: link, at: x * DVec3::X };
+        links.push(Link { kind: LinkKind::Ball(Ball { between: [before, end(-0.125)] }), collides: false });
+        before = end(0.125);
+    }
+    let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
+    let (mut error, mut largest, mut taken) = (0.0_f64, 0.0_f64, 0.0);
+    for k in 1..=80 {
+        let balance = run(&mut stepping, 0.05 * f64::from(k)).balance;
+        largest = largest.max(balance.kinetic);
+        error = error.max((balance.drift * largest).abs());
+        taken = balance.accounts.limits;
+    }
+    println!("error {error} J, taken {taken} J, largest kinetic energy {largest} J");
+    assert!(error < 0.01 * largest, "{error} {largest}");
+    assert!(taken < -0.05 * largest, "{taken} {largest}");
+}

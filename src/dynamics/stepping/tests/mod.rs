@@ -232,3 +232,43 @@ fn a_guided_body_takes_others_along_and_does_work() {
     assert!((accounts.work - 1.0).abs() < 0.02, "{accounts:?}");
     assert!((accounts.friction + 0.5).abs() < 0.02, "{accounts:?}");
 }
+
+/// A pile in which bodies come and go, with a pendulum, stopped at several moments: what goes on has the same bits.
+#[test]
+fn a_run_goes_on_from_a_checkpoint_with_the_same_bits() {
+    let mut scene = Scene::default().with_ground(0.0);
+    for k in 0..30 {
+        let at = DVec3::new(0.3 * f64::from(k % 3), 0.5 + 0.9 * f64::from(k), 0.2 * f64::from(k % 4));
+        let shape = if k % 2 == 0 { cube(0.8) } else { Shape::Sphere { radius: 0.4 } };
+        scene.add(shape, |body| body.with_location(at));
+    }
+    let bob = scene.add(Shape::Sphere { radius: 0.3 }, |body| body.with_location(DVec3::new(3.0, 1.0, 0.0)));
+    let between =
+        [Anchor::Point(DVec3::new(2.0, 1.0, 0.0)), Anchor::Body { id: bob, at: DVec3::new(-1.0, 0.0, 0.0) }];
+    let links = [Link { kind: LinkKind::Ball(Ball { between }), collides: true }];
+    let build = || {
+        let mut world = scene.world(GRAVITY);
+        // One dies, one is born, and one is away for a while.
+        for (body, intervals) in
+            [(3, &[[0.0, 0.7]][..]), (10, &[[0.4, f64::INFINITY]]), (5, &[[0.0, 0.6], [1.3, 9.0]])]
+        {
+            world.limit(BodyId::new(body), &Presence::during(intervals));
+        }
+        TimeStepping::new(world, &scene.contacts(), &links)
+    };
+    let stops = [0.1, 0.5, 0.9];
+    let mut whole = build();
+    for (k, stop) in stops.into_iter().enumerate() {
+        run(&mut whole, stop);
+        whole.impacts();
+        let saved = whole.checkpoint().unwrap();
+        let mut again = build();
+        assert!(!again.resume(&saved[..saved.len() / 2]), "half of a checkpoint is none");
+        assert!(again.resume(&saved));
+        let end = run(&mut again, 2.0);
+        let mut undisturbed = build();
+        stops[..=k].iter().for_each(|&stop| drop((run(&mut undisturbed, stop), undisturbed.impacts())));
+        assert_eq!(run(&mut undisturbed, 2.0), end, "stopped at {stop} s");
+        assert_eq!(undisturbed.impacts(), again.impacts());
+    }
+}
