@@ -2,6 +2,7 @@
 
 mod away;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -23,6 +24,8 @@ pub struct Model {
     principal_axes: Sparse<DQuat>,
     shapes: Vec<Shape>,
     movable: Vec<bool>,
+    /// The inverse masses and moments of the bodies that are held at rest.
+    frozen: BTreeMap<usize, (f64, DVec3)>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
     /// What the bodies are that are not there. Those behind the last of them take no memory.
@@ -101,8 +104,31 @@ impl Model {
 
     /// Whether no body is moved by forces, be it there or not.
     pub(super) fn is_given(&self) -> bool {
-        self.inverse_mass.iter().all(|&inverse| inverse == 0.0)
+        self.frozen.is_empty()
+            && self.inverse_mass.iter().all(|&inverse| inverse == 0.0)
             && self.away.iter().flatten().all(|away| away.is_given())
+    }
+
+    /// Whether loads move a body, as long as it is not held at rest.
+    pub(super) fn can_move(&self, body: usize) -> bool {
+        self.inverse_mass[body] != 0.0 || self.frozen.contains_key(&body)
+    }
+
+    /// Holds a body at rest: no load moves it, until it is let go again.
+    pub(super) fn freeze(&mut self, body: usize, state: &mut State) {
+        let constants = (self.inverse_mass[body], self.inverse_inertia[body]);
+        self.frozen.insert(body, constants);
+        (self.inverse_mass[body], self.inverse_inertia[body]) = (0.0, DVec3::ZERO);
+        (state.velocity[body], state.angular_momentum[body]) = (DVec3::ZERO, DVec3::ZERO);
+        self.unmoved.push(body);
+    }
+
+    /// Lets a body go that was held at rest.
+    pub(super) fn thaw(&mut self, body: usize) {
+        if let Some(constants) = self.frozen.remove(&body) {
+            (self.inverse_mass[body], self.inverse_inertia[body]) = constants;
+            self.unmoved.retain(|&other| other != body);
+        }
     }
 
     /// A body's own constant force, N.

@@ -1,7 +1,10 @@
 //! Bodies, forces, a method of integration and a clock.
 
 mod advance;
+mod crowd;
+mod event;
 mod piece;
+mod rest;
 
 pub(super) use advance::steps_of;
 
@@ -9,6 +12,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use self::rest::Rest;
 use super::constraint::Solver;
 use super::contact::Collider;
 use super::presence::Calendar;
@@ -40,9 +44,13 @@ pub struct World {
     calendar: Calendar,
     /// The bodies that touch each other, if they do.
     collider: Option<Collider>,
+    /// Those that are held at rest.
+    rest: Rest,
     steps: u64,
     /// Room for the loads at one moment.
     loads: Loads,
+    /// The end of the present step, s.
+    end: f64,
     /// Room for the state before a step that is looked into.
     before: State,
 }
@@ -74,8 +82,10 @@ impl World {
             ledger: EnergyLedger::new(),
             calendar: Calendar::default(),
             collider: None,
+            rest: Rest::default(),
             steps: 0,
             loads: Loads::default(),
+            end: 0.0,
             before: State::default(),
         }
     }
@@ -183,6 +193,7 @@ impl World {
 
     /// Must stand before every change by hand: the books of energy and the integrator rely on it.
     fn about_to_change(&mut self) {
+        self.let_all_go();
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
         self.solver.forget();
@@ -353,7 +364,8 @@ impl Dynamics for World {
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
         let mut system = System::new(&self.model, &mut self.solver);
-        let snapshot = picture(&mut system, self.time, &self.state, balance, &mut self.loads).checked();
+        let snapshot =
+            picture(&mut system, self.time, &self.state, (balance, &self.rest), &mut self.loads).checked();
         self.solver.take_failure().map_or(snapshot, Err)
     }
 
@@ -371,7 +383,7 @@ fn picture(
     system: &mut System<'_>,
     time: f64,
     state: &State,
-    balance: Balance,
+    (balance, rest): (Balance, &Rest),
     loads: &mut Loads,
 ) -> Snapshot {
     let model = system.model();
@@ -388,8 +400,10 @@ fn picture(
     };
     let reactions = system.reactions();
     let present = (0..state.len()).filter(|&id| model.is_present(id));
-    let (bodies, contacts) = (present.map(body).collect(), system.contacts());
-    Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
+    let mut contacts = system.contacts();
+    contacts.extend(rest.contacts());
+    contacts.sort_by_key(|contact| contact.bodies);
+    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts, penetration: 0.0, balance }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

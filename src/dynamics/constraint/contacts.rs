@@ -1,5 +1,6 @@
 //! The contacts among the constraints: which there are, what they do, and the joints alone while bodies hit each other.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -36,7 +37,56 @@ impl Solver {
         !are_same
     }
 
-    /// For each row, the rate below which it is at rest whatever others are, m/s.
+    /// Leaves the constraints of some bodies to somebody else.
+    pub(in crate::dynamics) fn leave(&mut self, bodies: &BTreeSet<usize>) {
+        if self.away != *bodies {
+            self.away.clone_from(bodies);
+            self.forget();
+        }
+    }
+
+    /// Moves bodies the shortest way to where what holds them has no gap.
+    pub(in crate::dynamics) fn close_gaps(&mut self, model: &Model, t: f64, state: &mut State) {
+        if !self.is_idle(model) {
+            // Some rows are measured from the beginning of a step.
+            self.begin(model, t, state);
+            self.is_ready = false;
+            self.measure(t, state);
+            let (before, gaps) = (self.worst(), state.clone());
+            self.settle_places(t, state);
+            self.measure(t, state);
+            // Where rows contradict each other, gaps stay.
+            if self.worst().is_nan() || self.worst() > before {
+                state.clone_from(&gaps);
+            }
+        }
+    }
+
+    /// The same where all contacts are to hold, whatever they did.
+    pub(in crate::dynamics) fn close_all(&mut self, model: &Model, t: f64, state: &mut State) {
+        if self.is_idle(model) {
+            return;
+        }
+        self.begin(model, t, state);
+        for (mode, law) in self.modes.iter_mut().zip(&self.laws) {
+            *mode = match law {
+                Law::Stop => Mode::Held,
+                _ => Mode::first(law),
+            };
+        }
+        let joints = model.constraints().len();
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            if place.constraint < joints {
+                for row in (place.row..place.row + place.rows).filter(|&row| self.laws[row] == Law::Stop) {
+                    self.modes[row] = if self.rows[row].violation < 0.0 { Mode::Held } else { Mode::Open };
+                }
+            }
+        }
+        self.hold();
+        self.settle_places(t, state);
+    }
+
+    /// For each row, the speed below which it counts as at rest, m/s.
     pub(super) fn stills(&self, model: &Model) -> Vec<f64> {
         let mut stills = vec![0.0; self.rows.len()];
         let places = self.structure.iter().flat_map(|structure| &structure.places);

@@ -39,7 +39,7 @@ impl Solver {
             }
             None => return (f64::INFINITY, 0),
         };
-        self.largest_rate = self.largest_rate.max(size);
+        self.seen = [size, 0.0];
         let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Tie;
         if self.modes.iter().zip(&self.laws).any(pulls) {
             self.factorise(false);
@@ -47,9 +47,10 @@ impl Solver {
             model.sum(t, state, loads);
             let mut accelerations = vec![0.0; n];
             let size = self.react_seeing(t, state, loads, &mut accelerations);
-            self.largest_acceleration = self.largest_acceleration.max(size);
+            self.seen[1] = size;
         }
-        let (size, force) = (self.largest_rate, self.largest_acceleration);
+        let (size, force) =
+            (self.largest_rate.max(self.seen[0]), self.largest_acceleration.max(self.seen[1]));
         let part = |value: f64, of: f64, tolerated: f64| {
             if of > 0.0 { value / of / tolerated + 1.0 } else { 1.0 }
         };
@@ -76,10 +77,45 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
+    /// Told that the state whose margin was asked for last is the end of a piece. Others were only tried: where a step was too long for
+    /// what holds, nothing of it must be a measure of what is slight.
+    pub(in crate::dynamics) fn accept(&mut self) {
+        let [rate, acceleration] = std::mem::take(&mut self.seen);
+        self.largest_rate = self.largest_rate.max(rate);
+        self.largest_acceleration = self.largest_acceleration.max(acceleration);
+    }
+
+    /// By how much forces change rates within a time, s.
+    pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
+        let change = self.largest_acceleration * time;
+        if change.is_finite() { change } else { 0.0 }
+    }
+
+    /// The bodies of a row's constraint.
+    pub(in crate::dynamics) fn bodies_of(&self, row: usize) -> Vec<usize> {
+        let Some(structure) = &self.structure else { return Vec::new() };
+        let place = structure.place_of_row(row);
+        place
+            .map_or(Vec::new(), |place| place.bodies.iter().map(|&member| structure.bodies[member]).collect())
+    }
+
+    /// Whether no forces of friction were found in the step that was made last.
+    pub(in crate::dynamics) fn is_unsolved(&self) -> bool {
+        self.is_unsolved
+    }
+
+    /// The bodies of a contact for which nothing was right when it was decided last what it does.
+    pub(in crate::dynamics) fn take_undecided(&mut self, model: &Model) -> Option<Vec<usize>> {
+        let row = self.undecided.take()?;
+        let joints = model.constraints().len();
+        let place = self.structure.as_ref()?.place_of_row(row)?;
+        (place.constraint >= joints).then(|| self.bodies_of(row))
+    }
+
     /// Notes that the run cannot go on, since a row changes its mode again and again.
     pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
-        let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));
+        let place = structure.place_of_row(row);
         let missing = self.rows.get(row).map_or(0.0, |row| row.violation.abs());
         if let (None, Some(place)) = (self.failure, place) {
             self.failure = Some(self.broken(model, place.constraint, time, missing));

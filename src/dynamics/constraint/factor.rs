@@ -54,7 +54,7 @@ struct Entry {
     value: f64,
 }
 
-/// A product of two directions of one body, from the row of a column and from an earlier row.
+/// Two directions of one body, in the row of a column and in an earlier row. Their product is a part of an entry.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
     /// The entry of the matrix to which it is added.

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::super::{Loads, Model};
+use super::super::Loads;
 use super::events::PASSED;
 use super::modes::{Mode, TOUCHED};
 use super::solver::Solver;
@@ -20,10 +20,6 @@ const UNLIKE: f64 = 10.0;
 
 /// Directions are about the same where the cosine of their angle is larger.
 const ABOUT: f64 = 0.99;
-
-/// So many times friction between two bodies may change what it does in a step. Where it needs to be at its limit in several places
-/// that imply each other, it would change without end.
-const RESTLESS: u32 = 4;
 
 /// What is restless sticks below this part of the largest rate.
 const RESTING: f64 = 1e-5;
@@ -46,6 +42,8 @@ pub(super) struct Grip {
     pub(super) heading: DVec2,
     /// Whether it has just begun to slide, and does not yet move.
     pub(super) is_beginning: bool,
+    /// Whether friction can stop it within the step. Its direction is kept until then, or it would turn and not end.
+    pub(super) is_slow: bool,
     /// Whether the two bodies touch at other places as well.
     pub(super) is_shared: bool,
     /// Whether it is caught at once, since no force fits its slip.
@@ -75,6 +73,7 @@ impl Grip {
                         push,
                         heading,
                         is_beginning: false,
+                        is_slow: false,
                         is_shared: structure
                             .places
                             .iter()
@@ -109,40 +108,6 @@ impl Grip {
 }
 
 impl Solver {
-    /// Told at the beginning of a step: what was restless in the one before may change once.
-    pub(in crate::dynamics) fn calm(&mut self) {
-        self.changes.retain(|_, changes| *changes > RESTLESS);
-        self.changes.values_mut().for_each(|changes| *changes = RESTLESS);
-        self.grips.iter_mut().for_each(|grip| grip.is_restless = false);
-    }
-
-    /// Notes that a row changes what it does.
-    pub(in crate::dynamics) fn note_change(&mut self, model: &Model, row: usize) {
-        let Some(structure) = self.structure.take() else { return };
-        let place = structure.places.iter().find(|place| (place.row..place.row + place.rows).contains(&row));
-        let contact = place.and_then(|place| place.constraint.checked_sub(model.constraints().len()));
-        if let Some(contact) = contact {
-            *self.changes.entry(self.contacts[contact].bodies).or_default() += 1;
-            self.see_restless(model, &structure);
-        }
-        self.structure = Some(structure);
-    }
-
-    /// Notes which pairs of rows are restless.
-    pub(super) fn see_restless(&mut self, model: &Model, structure: &Structure) {
-        if self.changes.is_empty() {
-            return;
-        }
-        for grip in &mut self.grips {
-            let Ok(place) = structure.places.binary_search_by_key(&grip.normal, |place| place.row) else {
-                continue;
-            };
-            let contact = structure.places[place].constraint.checked_sub(model.constraints().len());
-            let changes = contact.and_then(|contact| self.changes.get(&self.contacts[contact].bodies));
-            grip.is_restless = changes.is_some_and(|changes| *changes > RESTLESS);
-        }
-    }
-
     /// Whether some contact slides.
     pub(super) fn slides(&self) -> bool {
         self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Slid)
@@ -165,7 +130,7 @@ impl Solver {
             // Where a slip only begins or ends, it goes where it was found to go. Once it is over, that goes on until the step is
             // made anew up to there, so that forces are smooth in it.
             let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
-            if !grip.is_beginning && !grip.keeps_heading(slip, self.span) {
+            if !grip.is_beginning && !grip.is_slow && !grip.keeps_heading(slip, self.span) {
                 grip.push = if goes_on { -slip / speed } else { -grip.heading };
             }
         }
@@ -183,6 +148,7 @@ impl Solver {
                 grip.heading = slip.normalize();
             }
             grip.push = -grip.heading;
+            grip.is_slow = slip.length() < SLOWLY * grip.strength * self.span;
         }
     }
 
@@ -191,49 +157,6 @@ impl Solver {
         for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             loads.power.friction += grip.of(&self.unknown).dot(grip.of(&self.slips));
         }
-    }
-
-    /// Solves A λ = b in `unknown` for the rows that hold, with the pushes of what slides. These depend on λ themselves: the normal
-    /// forces n of contacts that slide are an affine function of their pushes, n = c + K n, which a small dense system solves.
-    /// Returns whether there is a solution.
-    pub(super) fn solve_sliding(&mut self) -> bool {
-        let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
-        let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();
-        normals.dedup();
-        let mut pushes: Vec<Vec<(usize, f64)>> = vec![Vec::new(); normals.len()];
-        for grip in self.grips.iter().filter(slides) {
-            if let Ok(at) = normals.binary_search(&grip.normal) {
-                let push = grip.coefficient * grip.push;
-                pushes[at].extend([(grip.row, push.x), (grip.row + 1, push.y)]);
-            }
-        }
-        self.solve();
-        let base = self.unknown.clone();
-        // λ for a normal force of 1 at each contact that slides.
-        let mut columns = Vec::with_capacity(normals.len());
-        for pushed in &pushes {
-            let mut push = vec![0.0; base.len()];
-            pushed.iter().for_each(|&(row, value)| push[row] = value);
-            self.unknown.fill(0.0);
-            self.factor.subtract_product(&push, &mut self.unknown);
-            self.solve();
-            columns.push(self.unknown.clone());
-        }
-        let n = normals.len();
-        let mut matrix = vec![0.0; n * n];
-        for (i, &normal) in normals.iter().enumerate() {
-            for (j, column) in columns.iter().enumerate() {
-                matrix[i * n + j] = f64::from(u8::from(i == j)) - column[normal];
-            }
-        }
-        let mut loads: Vec<f64> = normals.iter().map(|&normal| base[normal]).collect();
-        let is_solved = eliminate(&mut matrix, &mut loads);
-        self.unknown.clone_from(&base);
-        for ((load, column), pushed) in loads.iter().zip(&columns).zip(&pushes) {
-            self.unknown.iter_mut().zip(column).for_each(|(value, change)| *value += load * change);
-            pushed.iter().for_each(|&(row, push)| self.unknown[row] += load * push);
-        }
-        is_solved
     }
 
     /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
@@ -249,7 +172,7 @@ impl Solver {
         } else {
             let grip = &mut self.grips[grip];
             grip.heading = slip.normalize();
-            (grip.push, grip.is_beginning) = (-grip.heading, false);
+            (grip.push, grip.is_beginning, grip.is_slow) = (-grip.heading, false, false);
             Mode::Slid
         };
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
@@ -367,46 +290,5 @@ impl Solver {
             (self.modes[row], self.modes[row + 1]) = (mode, mode);
         }
         has_changed
-    }
-}
-
-/// Solves a dense system by elimination with partial pivoting, row by row in `matrix`; `right` becomes the solution. Returns whether
-/// there is one.
-fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
-    let n = right.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&i, &j| matrix[i * n + k].abs().total_cmp(&matrix[j * n + k].abs()));
-        let Some(pivot) = pivot.filter(|&row| matrix[row * n + k] != 0.0) else { return false };
-        for column in 0..n {
-            matrix.swap(k * n + column, pivot * n + column);
-        }
-        right.swap(k, pivot);
-        for row in k + 1..n {
-            let factor = matrix[row * n + k] / matrix[k * n + k];
-            for column in k..n {
-                matrix[row * n + column] -= factor * matrix[k * n + column];
-            }
-            right[row] -= factor * right[k];
-        }
-    }
-    for k in (0..n).rev() {
-        for column in k + 1..n {
-            right[k] -= matrix[k * n + column] * right[column];
-        }
-        right[k] /= matrix[k * n + k];
-    }
-    right.iter().all(|value| value.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn elimination_swaps_rows_where_it_must() {
-        let mut right = [5.0, 4.0, 5.0];
-        assert!(eliminate(&mut [0.0, 2.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 3.0], &mut right));
-        assert_eq!(right, [1.0, 2.0, 1.0]);
-        assert!(!eliminate(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
     }
 }

@@ -67,7 +67,7 @@ impl Member {
         member
     }
 
-    /// Takes place and motion from a state. Returns whether the place has changed.
+    /// Updates place and motion from a state. Returns whether the place has changed.
     #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;

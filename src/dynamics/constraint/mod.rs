@@ -21,13 +21,16 @@ mod parts;
 mod pulley;
 mod react;
 mod reaction;
+mod restless;
 mod rod;
 mod rope;
 mod servo;
 mod settle;
 mod slider;
+mod sliding;
 mod solver;
 mod structure;
+mod sweep;
 
 pub use ball::Ball;
 pub use coordinate::Coordinate;
@@ -43,6 +46,7 @@ pub use rope::Rope;
 pub use servo::Servo;
 pub use slider::Slider;
 pub(super) use solver::Solver;
+pub(super) use sweep::Purpose;
 
 use glam::DVec3;
 

@@ -28,6 +28,9 @@ pub(super) enum Mode {
 /// A stop is touched where c is below this part of its scale.
 pub(super) const TOUCHED: f64 = 1e-9;
 
+/// So many contacts that slide can be caught at once.
+const CAUGHT: usize = 4;
+
 /// What is below this part of the terms that it is a sum of has come from rounding.
 pub(super) const SLIGHT: f64 = 1e-10;
 
@@ -121,7 +124,8 @@ impl Solver {
             };
         }
         let modes = self.modes.clone();
-        for _ in 0..=self.grips.len() {
+        self.undecided = None;
+        for _ in 0..=CAUGHT {
             for grip in 0..self.grips.len() {
                 self.take_grip(grip, &rates);
             }
@@ -136,8 +140,10 @@ impl Solver {
                 }
             }
             let Some(wrong) = self.go_on(model, t, state, loads, (&members, &can_hold, &rates)) else {
+                self.undecided = None;
                 break;
             };
+            self.undecided = Some(wrong);
             if !self.catch(wrong) {
                 break;
             }
@@ -308,12 +314,12 @@ impl Solver {
 
 /// So many rounds change all contacts together that stick or begin to slide; after them, one by one. Large problems get fewer.
 fn together(n: usize) -> usize {
-    (100_000 / n.max(1)).clamp(100, 3_000)
+    (3_000 / n.max(1)).clamp(30, 300)
 }
 
 /// As many changes as a problem of `n` rows may need.
 fn rounds(n: usize) -> usize {
-    together(n) + 300 + 20 * n
+    together(n) + 50 + 2 * n
 }
 
 /// The row that is most wrong, if some is by more than what is slight; after many rounds the first one, which ends every

@@ -105,7 +105,8 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation;
             }
-            self.solve();
+            // Where rows nearly imply each other, but do not agree, giving way a little keeps bodies where they are.
+            self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
             };

@@ -4,7 +4,7 @@
 //! make velocities fit, and those of A Λ = −c shifts M⁻¹ Jᵀ Λ that make places fit. Source: E. Hairer, C. Lubich & G. Wanner,
 //! *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::super::contact::Closed;
@@ -14,6 +14,7 @@ use super::friction::Grip;
 use super::member::{Member, Nature};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
+use super::sweep::Column;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
 /// An equation that is off by more than this part of its scale after all that was tried is a failure.
@@ -26,6 +27,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
     /// The places where bodies stay in touch, which hold beside the constraints of the model.
     pub(super) contacts: Vec<Arc<Closed>>,
+    /// Bodies whose constraints somebody else keeps at present.
+    pub(super) away: BTreeSet<usize>,
     /// The constraints of the model, and then the contacts.
     all: Vec<Arc<dyn Constraint>>,
     /// The first row of each of them; none where bodies of it are away.
@@ -55,7 +58,7 @@ pub(in crate::dynamics) struct Solver {
     pub(super) modes: Vec<Mode>,
     /// The pairs of rows that hold by friction.
     pub(super) grips: Vec<Grip>,
-    /// How often friction between two bodies has changed what it does, in the present step.
+    /// How many times the contacts of two bodies have changed their modes in the present step.
     pub(super) changes: BTreeMap<[usize; 2], u32>,
     /// J v of all rows, where contacts slide.
     pub(super) slips: Vec<f64>,
@@ -64,10 +67,16 @@ pub(in crate::dynamics) struct Solver {
     /// The largest sizes of the terms of c' and c'' so far: what is slight against them has come from rounding.
     pub(super) largest_rate: f64,
     pub(super) largest_acceleration: f64,
+    /// The same at the state whose margin was asked for last.
+    pub(super) seen: [f64; 2],
     /// Which rows take part in this step: those that hold, but for those that others imply.
     pub(super) held: Vec<bool>,
     /// What is solved for.
     pub(super) unknown: Vec<f64>,
+    /// What impulses along the rows do, where they are found by sweeps.
+    pub(super) columns: Vec<Column>,
+    /// A row for which nothing that it may do was right, when this was decided last.
+    pub(super) undecided: Option<usize>,
     pub(super) trial: State,
     /// Whether rows and factors are those of the state that comes next.
     pub(super) is_ready: bool,
@@ -171,7 +180,8 @@ impl Solver {
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
         self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
-        let structure = Structure::of(&self.all, |body| model.is_present(body), can_move);
+        let is_there = |body: usize| model.is_present(body) && !self.away.contains(&body);
+        let structure = Structure::of(&self.all, is_there, can_move);
         self.first_row = vec![None; self.all.len()];
         for place in &structure.places {
             self.first_row[place.constraint] = Some(place.row);

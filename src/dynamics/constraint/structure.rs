@@ -62,6 +62,12 @@ impl Structure {
         self.row_start[row]..self.row_start[row + 1]
     }
 
+    /// The place of the constraint that a row belongs to.
+    pub(super) fn place_of_row(&self, row: usize) -> Option<&Place> {
+        let after = self.places.partition_point(|place| place.row <= row);
+        self.places[..after].last().filter(|place| row < place.row + place.rows)
+    }
+
     /// The structure of the constraints whose bodies are all there. A body that no force can move does not connect constraints.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],

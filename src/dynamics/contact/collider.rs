@@ -1,11 +1,12 @@
 //! The bodies that touch each other: where they do, and what happens then.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::{BodyId, Breakdown, Constraint, Model, State};
 use super::approach::{Approach, TOUCH, close, places};
 use super::closed::Closed;
+use super::crowd::Crowd;
 use super::nearest::{Nearest, nearest};
 use super::pairs::Pairs;
 use super::path::{Path, pose};
@@ -15,6 +16,10 @@ use super::{Contacts, Impact, Meeting};
 
 /// At an event, bodies touch where their gap is below this part of the coordinates.
 const NEAR: f64 = 1e-10;
+
+/// Further places of bodies that touch count as touching below this part of the coordinates, where the bodies are at rest. A body that
+/// stands on three of four corners would never come to rest.
+const SNUG: f64 = 1e-8;
 
 /// Further places of bodies that touch may be passed by this part of the coordinates.
 const PASSED: f64 = 1e-12;
@@ -26,11 +31,11 @@ const OVERLAP: f64 = 1e-9;
 pub(super) const SLIGHT: f64 = 1e-10;
 
 /// The bodies that touch each other.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(in crate::dynamics) struct Collider {
     pub(super) contacts: Contacts,
     pub(super) solids: Vec<Option<Solid>>,
-    pairs: Pairs,
+    pub(super) pairs: Pairs,
     paths: Vec<Path>,
     /// The fastest approach so far, m/s: what is slight against it has come from rounding.
     pub(super) fastest: f64,
@@ -38,8 +43,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) impacts: Vec<Impact>,
     /// How often pairs of bodies have hit each other in the present step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,
-    /// Pairs whose touches are not looked for in the rest of the step.
-    overlooked: BTreeSet<[usize; 2]>,
+    /// What has so many events in the present step that they are not followed one by one.
+    pub(super) crowd: Crowd,
 }
 
 /// All places at which two bodies touch.
@@ -48,25 +53,45 @@ pub(super) struct Touching {
     pub(super) bodies: [usize; 2],
     pub(super) law: Meeting,
     pub(super) touches: Vec<Touch>,
+    /// Further places that are so near that they touch as well, as long as the bodies do not move there.
+    pub(super) snug: Vec<Touch>,
 }
 
 impl Collider {
     /// Bodies that touch as `contacts` says.
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
-        let (impacts, hits, overlooked) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
-        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, overlooked }
+        let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
+        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, crowd }
     }
 
     /// Told at the beginning of a step.
     pub(in crate::dynamics) fn set_out(&mut self) {
         self.hits.clear();
-        self.overlooked.clear();
     }
 
-    /// Leaves two bodies alone in the rest of the step.
-    pub(in crate::dynamics) fn overlook(&mut self, bodies: [usize; 2]) {
-        self.overlooked.insert(bodies);
+    /// The fastest approach so far, m/s.
+    pub(in crate::dynamics) fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// How fast the surface of a body moves since it turns, m/s.
+    pub(in crate::dynamics) fn spin(&self, body: usize, model: &Model, state: &State) -> f64 {
+        let turning = model.angular_velocity(body, state).length();
+        let reach = self.solids.get(body).and_then(Option::as_ref).map_or(0.0, Solid::reach);
+        if turning == 0.0 { 0.0 } else { turning * reach }
+    }
+
+    /// The bodies held at rest that something touches which is not.
+    pub(in crate::dynamics) fn touched_at_rest(&mut self, model: &Model, state: &State) -> Vec<usize> {
+        let is_held = |body: &usize| model.inverse_mass()[*body] == 0.0 && model.can_move(*body);
+        let touching = self.touching(model, state);
+        touching.iter().flat_map(|pair| pair.bodies).filter(is_held).collect()
+    }
+
+    /// Whether some bodies are advanced by time-stepping.
+    pub(in crate::dynamics) fn is_crowded(&self) -> bool {
+        !self.crowd.is_empty()
     }
 
     /// Told when bodies have changed.
@@ -99,7 +124,7 @@ impl Collider {
         self.meet_bodies(model);
         self.paths.clear();
         self.paths.extend((0..model.len()).map(|i| Path::of(i, model, before, after, duration)));
-        let Collider { contacts, solids, pairs, paths, fastest, overlooked, .. } = self;
+        let Collider { contacts, solids, pairs, paths, fastest, crowd, .. } = self;
         pairs.follow(contacts, solids, paths, (model, before));
         let mut end = duration;
         let mut first = None;
@@ -112,7 +137,7 @@ impl Collider {
                 continue;
             }
             let is_closed = closed.iter().any(|contact| contact.bodies == pair.bodies);
-            if is_closed || overlooked.contains(&pair.bodies) {
+            if is_closed || crowd.holds(pair.bodies, model) || is_passive(pair.bodies, model) {
                 continue;
             }
             let ways = super::pairs::way(Some(x), &paths[a]) + super::pairs::way(Some(y), &paths[b]);
@@ -189,11 +214,14 @@ impl Collider {
     /// All places at which bodies touch, in the order of the bodies.
     pub(super) fn touching(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         self.meet_bodies(model);
-        let solids = &self.solids;
+        let Collider { solids, crowd, pairs, .. } = self;
         let mut all = Vec::new();
-        for pair in &mut self.pairs.list {
+        for pair in &mut pairs.list {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            if crowd.holds(pair.bodies, model) || is_passive(pair.bodies, model) {
+                continue;
+            }
             let within = NEAR * scale(pair.bodies, [x, y], state);
             if pair.free > within {
                 continue;
@@ -204,8 +232,9 @@ impl Collider {
             if pair.free > within {
                 continue;
             }
-            let touches = touches(x, &poses[0], y, &poses[1], within);
-            all.push(Touching { bodies: pair.bodies, law: pair.law, touches });
+            let found = touches(x, &poses[0], y, &poses[1], SNUG / NEAR * within).into_iter();
+            let (touches, snug) = found.partition(|touch| touch.meeting.gap <= within);
+            all.push(Touching { bodies: pair.bodies, law: pair.law, touches, snug });
         }
         all
     }
@@ -249,6 +278,11 @@ impl Collider {
     }
 }
 
+/// Whether no load moves either of two bodies.
+fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
+    bodies.iter().all(|&body| model.inverse_mass()[body] == 0.0)
+}
+
 /// How fast the gap of two bodies changes, m/s.
 fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
     let at = |i: usize| {
@@ -259,7 +293,7 @@ fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State))
 }
 
 /// The size of the coordinates of two bodies, m.
-fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f64 {
+pub(super) fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f64 {
     let size = |i: usize| {
         let reach = solids[i].reach() + solids[i].size();
         if reach.is_finite() { state.location[bodies[i]].abs().max_element() + reach } else { 0.0 }

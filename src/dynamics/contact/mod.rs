@@ -8,6 +8,7 @@ mod approach;
 mod change;
 mod closed;
 mod collider;
+mod crowd;
 mod feature;
 mod gjk;
 mod impulse;

@@ -182,8 +182,8 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
     (Nearest { gap, ..found }, i)
 }
 
-/// How far a meeting is inside a feature, m: the less of what its place has left, and its normal, times `size`. The normal
-/// points out of the body.
+/// How far a meeting is inside a feature, m. It is the smaller of two distances: that of its place from the border, and that of its normal
+/// from the limits of the feature's normals, times `size`. The normal points out of the body.
 pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
     let place = pose.local(place);
     let normal = pose.orientation.conjugate() * normal;

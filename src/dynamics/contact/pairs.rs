@@ -41,6 +41,12 @@ impl Pairs {
         self.is_known = false;
     }
 
+    /// How two bodies of the list behave where they touch.
+    pub(super) fn law(&self, bodies: [usize; 2]) -> Option<Meeting> {
+        let at = self.list.binary_search_by_key(&bodies, |pair| pair.bodies).ok()?;
+        Some(self.list[at].law)
+    }
+
     /// Takes the ways of a step off, and makes the list anew where it is not long enough for it.
     pub(super) fn follow(
         &mut self,
@@ -79,7 +85,7 @@ pub(super) fn way(solid: Option<&Solid>, path: &Path) -> f64 {
 }
 
 /// All pairs whose boxes, made larger by a margin each, overlap.
-fn near(
+pub(super) fn near(
     contacts: &Contacts,
     solids: &[Option<Solid>],
     margins: &[f64],
@@ -120,7 +126,7 @@ fn near(
 /// How two bodies behave where they touch; none where they pass through each other, or where forces move neither.
 fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<Meeting> {
     let [a, b] = bodies;
-    let is_moved = |i: usize| model.inverse_mass()[i] != 0.0;
+    let is_moved = |i: usize| model.can_move(i);
     if !(is_moved(a) || is_moved(b)) || contacts.apart.contains(&(a, b)) {
         return None;
     }

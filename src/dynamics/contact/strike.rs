@@ -15,6 +15,7 @@ use super::closed::{Closed, heading};
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
 use super::nearest::Nearest;
+use super::touch::Touch;
 
 /// What rebounds with less than this part of the fastest approach rebounds no more: no picture and no table would show it.
 const REST: f64 = 1e-8;
@@ -29,6 +30,10 @@ const OFTEN: f64 = 10.0;
 /// What counts as rest becomes twice as fast with so many more impacts, and at most so many times as fast.
 const MORE: f64 = 5.0;
 const MOST: f64 = 1000.0;
+
+/// After so many, or so many of all pairs, they are followed no longer one by one.
+const TOO_OFTEN: f64 = 40.0;
+const TOGETHER: u32 = 1_000;
 
 /// Rates are alike where they differ by less than this part.
 const ALIKE: f64 = 1e-13;
@@ -133,18 +138,14 @@ impl Collider {
             let motions = pair.bodies.map(|body| motion(body, model, state));
             let size = self.size(pair.bodies);
             let still = STILL * self.fastest * self.haste(pair);
-            for (touch, place) in pair.touches.iter().zip(places) {
-                if place.rate(motions).x <= still {
-                    let (touch, heading) = (*touch, heading(touch.meeting.normal));
-                    closed.push(Arc::new(Closed {
-                        bodies: pair.bodies,
-                        touch,
-                        law: pair.law,
-                        size,
-                        heading,
-                        still,
-                    }));
-                }
+            let near = pair.touches.iter().zip(places).filter(|(_, place)| place.rate(motions).x <= still);
+            let near: Vec<&Touch> = near.map(|(touch, _)| touch).collect();
+            let is_still =
+                |touch: &&Touch| Place::of(&touch.meeting, pair.bodies, state).rate(motions).x.abs() <= still;
+            let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
+            for touch in near.iter().copied().chain(snug) {
+                let (bodies, law, heading) = (pair.bodies, pair.law, heading(touch.meeting.normal));
+                closed.push(Arc::new(Closed { bodies, touch: *touch, law, size, heading, still }));
             }
         }
         Ok(Strike { closed, struck })
@@ -156,14 +157,20 @@ impl Collider {
         if pair.law.restitution == 1.0 {
             return 1.0;
         }
-        // So many bounces lead from the fastest one to rest.
-        let bounces = libm::log(REST) / libm::log(pair.law.restitution);
-        let more = (f64::from(hits) - bounces - OFTEN) / MORE;
+        let more = (f64::from(hits) - bounces(pair.law.restitution) - OFTEN) / MORE;
         libm::exp2(more.max(0.0)).min(MOST)
     }
 
+    /// Whether two bodies have hit each other so often in the present step, beside what restitution explains, that it would not end.
+    pub(in crate::dynamics) fn hits_too_often(&self, bodies: [usize; 2]) -> bool {
+        let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
+        let hits = self.hits.get(&bodies).copied().unwrap_or(0);
+        let all: u32 = self.hits.values().sum();
+        f64::from(hits) - bounces(law.restitution) > TOO_OFTEN || all > TOGETHER
+    }
+
     /// A typical length of the smaller of two bodies, m.
-    fn size(&self, bodies: [usize; 2]) -> f64 {
+    pub(super) fn size(&self, bodies: [usize; 2]) -> f64 {
         let size = |body: usize| self.solids[body].as_ref().map_or(f64::INFINITY, super::solid::Solid::size);
         size(bodies[0]).min(size(bodies[1])).min(f64::MAX)
     }
@@ -234,6 +241,11 @@ impl Collider {
             self.impacts.push(Impact { time, bodies: pair.bodies, place, normal, impulse, energy });
         }
     }
+}
+
+/// So many bounces lead from the fastest one to rest.
+fn bounces(restitution: f64) -> f64 {
+    libm::log(REST) / libm::log(restitution)
 }
 
 /// An impact at several places that makes nothing turn is one in their middle: that place, its rate before, and its impulse; none where

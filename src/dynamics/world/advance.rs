@@ -1,7 +1,7 @@
 //! How a world advances: steps, births and deaths on the way, and looks between two steps.
 
 use super::super::{Snapshot, State, Step, System};
-use super::piece::{Counts, Event};
+use super::event::Counts;
 use super::{World, picture};
 
 /// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
@@ -36,7 +36,9 @@ impl World {
         self.ledger.close(&self.model, t, &self.state);
         let (mut now, mut left, mut length) = (t, moments, dt);
         let mut counts = Counts::default();
+        self.end = t + dt;
         self.solver.calm();
+        self.check_rest(t);
         if let Some(collider) = &mut self.collider {
             collider.set_out();
         }
@@ -45,9 +47,15 @@ impl World {
                 self.before.clone_from(&self.state);
             }
             let (duration, event) = self.make_piece(now, length);
+            if self.is_unsolved(now + duration) && self.go_back(now) {
+                continue;
+            }
+            self.solver.accept();
             self.solver.blame_friction(&self.model, now + duration);
             let Some(event) = event else {
                 self.look_within(now, duration, left, see);
+                self.disperse(t + dt);
+                self.hold_still(t + dt);
                 return;
             };
             let (within, later) = left.split_at(left.partition_point(|&moment| moment <= now + duration));
@@ -55,11 +63,12 @@ impl World {
             self.look_within(now, duration, within, see);
             now += duration;
             length = t + dt - now;
+            let bodies = self.bodies_of(event);
             self.pass(event, now);
             self.integrator.discontinuity();
-            let are_too_many = counts.are_too_many(event, duration);
-            if let (Event::Touch(bodies), true, Some(collider)) = (event, counts.stay(), &mut self.collider) {
-                collider.overlook(bodies);
+            let are_too_many = counts.are_too_many(event, duration, length);
+            if counts.is_crowded(event) || self.happens_too_often(event, &bodies) || self.is_in_crowd(event) {
+                self.crowd(now, &bodies);
             }
             if are_too_many || self.solver.has_failed() {
                 self.give_up(event, now);
@@ -142,7 +151,7 @@ impl World {
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         let mut system = System::new(&self.model, &mut self.solver);
-        picture(&mut system, self.time, &self.state, balance, &mut self.loads)
+        picture(&mut system, self.time, &self.state, (balance, &self.rest), &mut self.loads)
     }
 
     fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
@@ -173,7 +182,7 @@ impl World {
         if moments.is_empty() {
             return;
         }
-        let Self { model, state, integrator, solver, ledger, loads, before, .. } = self;
+        let Self { model, state, integrator, solver, ledger, loads, before, rest, .. } = self;
         let step = Step { model, start, duration, before, after: state };
         let mut system = System::new(model, solver);
         let dense = integrator.dense(&mut system, step);
@@ -184,7 +193,7 @@ impl World {
                 system.settle(time, &mut within);
             }
             let balance = ledger.peek(model, time, &within);
-            see(picture(&mut system, time, &within, balance, loads));
+            see(picture(&mut system, time, &within, (balance, rest), loads));
         }
     }
 }

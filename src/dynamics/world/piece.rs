@@ -1,63 +1,19 @@
 //! A step in pieces that end at events: where bodies touch, a rope becomes taut, a limit is reached, or a motor has its speed.
 
+use std::collections::BTreeSet;
+
 use super::World;
+use super::event::Event;
 use crate::dynamics::{BodyId, Breakdown, System};
-
-/// So many changes of constraints within a step mean that they do not end.
-const CHANGES: u32 = 10_000;
-
-/// So many impacts within a step mean the same. The impacts that spell π to seven digits are fewer, nearly all in one step.
-const IMPACTS: u32 = 4_000_000;
-
-/// After so many at the same instant, two bodies that touch without coming nearer are left alone until the next step.
-const STAY: u32 = 20;
-
-/// So many events at the same instant mean the same: each settles what touches then.
-const AT_ONCE: u32 = 1_000;
 
 /// Trials until the time of an event is known to the last bit; each halves what is left at least every second time.
 const TRIALS: usize = 120;
 
-/// Events within this part of a step are at its beginning.
+/// Times that differ by less than this part of a step are the same.
 const INSTANT: f64 = 1e-13;
 
 /// Trials until two bodies touch; each squares what is left.
 const TOUCHES: usize = 12;
-
-/// What ends a piece of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Event {
-    /// A row of the constraints changes what it does.
-    Row(usize),
-    /// Two bodies touch.
-    Touch([usize; 2]),
-}
-
-/// How many events there have been within a step.
-#[derive(Default)]
-pub(super) struct Counts {
-    changes: u32,
-    impacts: u32,
-    /// Those one after another at the same instant.
-    at_once: u32,
-}
-
-impl Counts {
-    /// Whether a touch happens again and again at the same instant.
-    pub(super) fn stay(&self) -> bool {
-        self.at_once > STAY
-    }
-
-    /// Counts one more, at the end of a piece that has been so long, s, and says whether that is too many.
-    pub(super) fn are_too_many(&mut self, event: Event, length: f64) -> bool {
-        self.at_once = if length > 0.0 { 0 } else { self.at_once + 1 };
-        match event {
-            Event::Row(_) => self.changes += 1,
-            Event::Touch(_) => self.impacts += 1,
-        }
-        self.changes > CHANGES || self.impacts > IMPACTS || self.at_once > AT_ONCE
-    }
-}
 
 impl World {
     /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Gives how long it has been, and the event.
@@ -120,8 +76,11 @@ impl World {
 
     /// An event: takes its impulses, and finds out which constraints push from then on.
     pub(super) fn pass(&mut self, event: Event, t: f64) {
-        if let Event::Row(row) = event {
-            self.solver.note_change(&self.model, row);
+        match event {
+            Event::Row(row) => self.solver.note_change(&self.model, row),
+            Event::Touch(bodies) => {
+                self.let_go(&bodies);
+            }
         }
         if self.collider.is_some() {
             self.meet(t, matches!(event, Event::Touch(_)));
@@ -131,9 +90,24 @@ impl World {
         }
     }
 
-    /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch.
-    fn meet(&mut self, t: f64, is_touch: bool) {
+    /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch. Where no forces are found that fit, the
+    /// bodies are advanced by time-stepping.
+    pub(super) fn meet(&mut self, t: f64, is_touch: bool) {
+        self.meet_once(t, is_touch);
+        while let Some(bodies) = self.solver.take_undecided(&self.model) {
+            let Some(collider) = &mut self.collider else { return };
+            if self.solver.has_failed() || !collider.join(&self.model, &self.state, &bodies) {
+                return;
+            }
+            self.meet_once(t, false);
+        }
+    }
+
+    fn meet_once(&mut self, t: f64, is_touch: bool) {
+        while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return };
+        let is_crowded = collider.is_crowded();
+        self.solver.leave(&BTreeSet::new());
         let strike = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {
             Ok(strike) => strike,
             Err(breakdown) => {
@@ -142,7 +116,8 @@ impl World {
             }
         };
         let have_changed = self.solver.take_contacts(strike.closed);
-        if is_touch && !have_changed && !self.solver.concerns(&strike.struck) {
+        self.solver.leave(collider.crowded());
+        if is_touch && !have_changed && !is_crowded && !self.solver.concerns(&strike.struck) {
             // What holds bodies has nothing to do with it.
             return;
         }
@@ -152,6 +127,10 @@ impl World {
             if !self.solver.drop_open_contacts(&self.model) {
                 break;
             }
+        }
+        if have_changed {
+            // A gap that is left would be closed within the next step, however short that is.
+            self.solver.close_gaps(&self.model, t, &mut self.state);
         }
     }
 
@@ -182,6 +161,11 @@ impl World {
         self.integrator.advance(&mut system, t, dt, &mut self.state);
         system.settle(t + dt, &mut self.state);
         self.steps += 1;
+        let rest = self.end - (t + dt);
+        let Self { model, state, before, collider: Some(collider), loads, .. } = self else { return };
+        if let Some(breakdown) = collider.advance_crowd(model, (t, dt, rest), (before, state), loads) {
+            self.solver.fail(breakdown);
+        }
     }
 
     fn margin(&mut self, t: f64) -> (f64, usize) {
@@ -200,6 +184,7 @@ impl World {
         let (mut width, mut was_late) = (late, None);
         // An end that stays a second time counts half.
         let mut weights = [1.0; 2];
+        let mut later: Option<(f64, f64)> = None;
         for trial in 0..TRIALS {
             // An event that is over by what is tolerated is found.
             if late_margin >= -1.0 {
@@ -210,13 +195,24 @@ impl World {
             let is_slow = trial % 3 == 2 && late - early > 0.5 * std::mem::replace(&mut width, late - early);
             let (a, b) = (weights[0] * early_margin, weights[1] * late_margin);
             let secant = (early * b - late * a) / (b - a);
-            let length = if is_slow || !(secant > early && secant < late) { middle } else { secant };
-            if length <= early || length >= late || late <= INSTANT * end.0 {
+            // A place that has not been there before appears with its event: only what is late tells when that is.
+            let beyond = later.filter(|_| trial % 3 == 0).map(|(length, margin)| {
+                let slope = (margin - late_margin) / (length - late);
+                let root = late - (late_margin + 0.5) / slope;
+                if early == 0.0 && (root.is_nan() || root <= 0.0) { 0.5 * INSTANT * end.0 } else { root }
+            });
+            let length = match beyond {
+                Some(beyond) if beyond > early && beyond < late => beyond,
+                _ if is_slow || !(secant > early && secant < late) => middle,
+                _ => secant,
+            };
+            if length <= early || length >= late || late - early <= INSTANT * end.0 {
                 break;
             }
             let (margin, at) = self.try_piece(t, length);
             let is_late = margin < 0.0;
             if is_late {
+                later = Some((late, late_margin));
                 (late, late_margin, row) = (length, margin, at);
             } else {
                 (early, early_margin) = (length, margin);

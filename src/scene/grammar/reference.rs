@@ -61,6 +61,10 @@ sticks, slides or rolls as the forces on it ask.
   frictions and the larger rolling friction count. Where neither does, these are 0, 0.5 and 0 m.
 - **Impacts at the same time** happen one after another, in the order of their approach speeds, the fastest first. Of equal ones, that of
   the bodies that stand first in the scene comes first. In a Newton's cradle, so as many balls leave as arrive.
+- **Too many events**: some bodies hit, grip and release each other again and again within one step, as in a chain that falls on the floor.
+  Time-stepping (Moreau's scheme) then advances these bodies to the end of the step, without rebounds. The energy stays balanced.
+- **At rest**: bodies that have rested on each other for eight steps are held, until something touches them or a force on them changes. So
+  a heap at rest costs nothing.
 - **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much
   the energy is wrong. Take `velocity-verlet` or `rk4`.
 - **Energy**: what impacts and friction take are the accounts `impacts` and `friction` of the balance; neither is part of the drift.

@@ -142,7 +142,7 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
     }
     let mut angle = best.1;
     let (mut low, mut high) = (angle - apart, angle + apart);
-    // The value knows the ends of an edge, but the derivatives do not: so the minimum may be outside of the interval.
+    // The coarse search stops at the ends of an edge, but the derivatives do not. So the minimum may lie outside of the interval.
     for _ in 0..STARTS {
         if derivatives(low)[0] > 0.0 {
             low -= apart;

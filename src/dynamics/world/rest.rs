@@ -1,0 +1,188 @@
+//! Bodies at rest on each other, which take no part in the computation until something disturbs them.
+//!
+//! A heap that lies still costs as much as one that falls, as long as its contacts are followed. Once all bodies that hold each other have
+//! rested for some steps, they are held where they are: like fixed bodies, but with their weight. What touches them, or changes the forces on
+//! them, lets them go again.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::World;
+use crate::dynamics::contact::Closed;
+use crate::dynamics::{ContactSnapshot, Loads, System};
+
+/// Bodies that have been at rest for so many steps are held.
+const CALM: u32 = 8;
+
+/// At rest is what moves slower than this part of the fastest approach so far, or of what forces change within a step.
+const STILL: f64 = 1e-8;
+
+/// Loads are the same where they differ by less than this part.
+const SAME: f64 = 1e-9;
+
+/// The bodies that are held at rest.
+#[derive(Clone, Default)]
+pub(super) struct Rest {
+    /// For how many steps each body has been at rest.
+    calm: Vec<u32>,
+    islands: Vec<Island>,
+}
+
+/// Bodies that hold each other.
+#[derive(Clone)]
+struct Island {
+    bodies: BTreeSet<usize>,
+    contacts: Vec<Arc<Closed>>,
+    /// What can be seen of the contacts.
+    seen: Vec<ContactSnapshot>,
+    /// The force and the torque on each of the bodies, without those of contacts.
+    loads: Vec<(DVec3, DVec3)>,
+}
+
+impl Rest {
+    /// The contacts of all bodies that are held.
+    pub(super) fn contacts(&self) -> impl Iterator<Item = ContactSnapshot> {
+        self.islands.iter().flat_map(|island| island.seen.iter().copied())
+    }
+
+    fn holds(&self, body: usize) -> bool {
+        self.islands.iter().any(|island| island.bodies.contains(&body))
+    }
+}
+
+impl World {
+    /// The end of a step: holds the bodies that have been at rest for long enough.
+    pub(super) fn hold_still(&mut self, t: f64) {
+        let Some(collider) = self.collider.as_ref().filter(|collider| !collider.is_crowded()) else { return };
+        let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
+        self.rest.calm.resize(self.model.len(), 0);
+        for (i, calm) in self.rest.calm.iter_mut().enumerate() {
+            let speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
+            *calm = if speed <= slow { *calm + 1 } else { 0 };
+        }
+        // Those that cannot be held yet are looked at again later.
+        let is_due =
+            |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
+        let new =
+            if self.rest.calm.iter().enumerate().any(is_due) { self.calm_islands() } else { Vec::new() };
+        if new.is_empty() {
+            return;
+        }
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.begin(t, &self.state);
+        system.evaluate(t, &self.state, &mut self.loads);
+        let seen = system.contacts();
+        self.model.sum(t, &self.state, &mut self.loads);
+        let (mut left, mut held) = (self.solver.contacts().to_vec(), Vec::new());
+        for bodies in new {
+            let is_of = |pair: &[usize; 2]| pair.iter().any(|body| bodies.contains(body));
+            let contacts = left.extract_if(.., |contact| is_of(&contact.bodies)).collect();
+            let seen = seen.iter().copied().filter(|contact| is_of(&contact.bodies)).collect();
+            let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
+            for &body in &bodies {
+                self.model.freeze(body, &mut self.state);
+            }
+            held.push(Island { bodies, contacts, seen, loads });
+        }
+        self.rest.islands.extend(held);
+        self.solver.take_contacts(left);
+        self.solver.forget();
+        self.integrator.discontinuity();
+        self.meet(t, false);
+    }
+
+    /// The bodies that hold each other and have all been at rest for long enough.
+    fn calm_islands(&self) -> Vec<BTreeSet<usize>> {
+        let can_move = |body: &usize| self.model.inverse_mass()[*body] != 0.0;
+        let is_calm = |body: &usize| self.rest.calm[*body] >= CALM;
+        let mut islands: Vec<(BTreeSet<usize>, bool)> = Vec::new();
+        for contact in self.solver.contacts() {
+            let bodies: BTreeSet<usize> = contact.bodies.into_iter().filter(can_move).collect();
+            // What lies on a body whose motion is given moves with it.
+            let is_still = contact.bodies.iter().all(|body| self.model.motion(*body).is_none())
+                && bodies.iter().all(is_calm);
+            let (same, others) = islands
+                .into_iter()
+                .partition(|(island, _): &(BTreeSet<usize>, bool)| !island.is_disjoint(&bodies));
+            islands = others;
+            let mut joined = (bodies, is_still);
+            for (island, was_still) in same {
+                joined.0.extend(island);
+                joined.1 &= was_still;
+            }
+            islands.push(joined);
+        }
+        let is_free = |bodies: &BTreeSet<usize>| {
+            let mut joints = self.model.constraints().iter().flat_map(|joint| joint.bodies());
+            !joints.any(|body| bodies.contains(&body.index()))
+        };
+        let calm = islands.into_iter().filter(|(bodies, is_still)| *is_still && is_free(bodies));
+        calm.map(|(bodies, _)| bodies).collect()
+    }
+
+    /// The beginning of a step: lets go of bodies on which other forces act than before.
+    pub(super) fn check_rest(&mut self, t: f64) {
+        if self.rest.islands.is_empty() {
+            return;
+        }
+        let mut loads = Loads::default();
+        self.model.sum(t, &self.state, &mut loads);
+        let differs = |a: DVec3, b: DVec3| (a - b).length() > SAME * a.length();
+        let is_disturbed = |island: &Island| {
+            let mut all = island.bodies.iter().zip(&island.loads);
+            all.any(|(&i, load)| differs(load.0, loads.force[i]) || differs(load.1, loads.torque[i]))
+        };
+        let disturbed: Vec<usize> = self
+            .rest
+            .islands
+            .iter()
+            .filter(|island| is_disturbed(island))
+            .filter_map(|island| island.bodies.first().copied())
+            .collect();
+        if self.let_go(&disturbed) {
+            self.meet(t, false);
+        }
+    }
+
+    /// Lets go of the bodies that hold some of these. Returns whether there were some.
+    pub(super) fn let_go(&mut self, bodies: &[usize]) -> bool {
+        if !bodies.iter().any(|&body| self.rest.holds(body)) {
+            return false;
+        }
+        let islands = std::mem::take(&mut self.rest.islands);
+        let is_meant = |island: &Island| bodies.iter().any(|body| island.bodies.contains(body));
+        let (free, held) = islands.into_iter().partition(is_meant);
+        self.rest.islands = held;
+        let mut contacts = self.solver.contacts().to_vec();
+        for island in free {
+            for &body in &island.bodies {
+                self.model.thaw(body);
+                self.rest.calm[body] = 0;
+            }
+            contacts.extend(island.contacts);
+        }
+        contacts.sort_by_key(|contact| contact.bodies);
+        self.solver.take_contacts(contacts);
+        self.solver.forget();
+        self.integrator.discontinuity();
+        true
+    }
+
+    /// Lets go of all bodies.
+    pub(super) fn let_all_go(&mut self) {
+        let all: Vec<usize> =
+            self.rest.islands.iter().flat_map(|island| island.bodies.iter().copied()).collect();
+        self.let_go(&all);
+    }
+
+    /// Lets go of the bodies that something touches which is not held. Returns whether there were some.
+    pub(super) fn let_touched_go(&mut self) -> bool {
+        let Some(collider) = self.collider.as_mut().filter(|_| !self.rest.islands.is_empty()) else {
+            return false;
+        };
+        let touched = collider.touched_at_rest(&self.model, &self.state);
+        self.let_go(&touched)
+    }
+}
