@@ -9,6 +9,7 @@ mod coming_and_going;
 mod common;
 mod conservation;
 mod contacts;
+mod crowds;
 mod curved;
 mod dense;
 mod energy;

@@ -1,0 +1,116 @@
+//! Bodies with so many events that they are advanced by time-stepping, and bodies that are held at rest.
+
+use jabuka::simulate::Frame;
+use jabuka::{Run, Scene};
+
+/// All frames of a scene.
+#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
+fn frames(text: &str) -> Vec<Frame> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    Run::new(&scene).unwrap().frames().map(Result::unwrap).collect()
+}
+
+/// The largest drift of the energy in all frames.
+fn drift(frames: &[Frame]) -> f64 {
+    frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
+}
+
+/// Links hit each other and the floor thousands of times in a hundredth of a second. The books say where the energy went: with velocity-Verlet,
+/// they are right to the square of the step, ω² h² / 24 = 2e-5 for ω = 5/s.
+#[test]
+fn a_chain_falls_flat_and_its_energy_is_balanced() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1.2
+        frame_rate = 50
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [body.link]
+        repeat = 8
+        shape.capsule = { radius = 0.03, height = 0.3 }
+        location = ["0.32*i", "0.4+0.02*i", 0]
+        orientation = [0, 0, 90]
+        mass = 0.1
+        [joint.link.ball]
+        between = ["link[i]", "link[i+1]"]
+        at = ["0.32*i + 0.16", "0.41+0.02*i", 0]
+        "#,
+    );
+    assert!(drift(&frames) < 2e-5, "{:e}", drift(&frames));
+    let (first, last) = (&frames[0].balance, &frames[frames.len() - 1]);
+    // The potential energy of the fall is gone: each link lies on the floor.
+    let lost = -last.balance.accounts.impacts - last.balance.accounts.friction;
+    assert!(lost > 0.8 * (first.potential - last.balance.potential), "{lost}");
+    for body in &last.bodies[..8] {
+        assert!(body.location.y > 0.029 && body.location.y < 0.05, "{}", body.location.y);
+    }
+}
+
+/// Three balls in a pyramid are pushed apart by a fourth: slow slips in several places at once. Friction stops them within a step, so that
+/// the fourth order of rk4 remains.
+#[test]
+fn slow_slips_come_to_an_end() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.36
+        frame_rate = 25
+        step = 0.004
+        integrator = "rk4"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [body.b]
+        repeat = 3
+        shape.sphere.radius = 0.1
+        mass = 1
+        location = ["0.12*cos(2*pi*i/3)", 0.1, "0.12*sin(2*pi*i/3)"]
+        friction = 0.5
+        [body.top]
+        shape.sphere.radius = 0.1
+        mass = 1
+        location = [0, 0.5, 0]
+        "#,
+    );
+    assert!(drift(&frames) < 1e-6, "{:e}", drift(&frames));
+}
+
+/// Boxes that stand are held until a ball comes: not one bit of them changes. Then they move, and the energy is balanced.
+#[test]
+fn what_stands_still_is_held_until_something_hits_it() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1.2
+        frame_rate = 50
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [body.box]
+        repeat = 2
+        shape.box.size = [0.4, 0.4, 0.4]
+        mass = 1
+        location = [0, "0.2+0.4*i", 0]
+        [body.ball]
+        shape.sphere.radius = 0.1
+        mass = 0.5
+        location = [-2.3, 0.6, 0]
+        velocity = [2, 3, 0]
+        "#,
+    );
+    let early: Vec<_> = frames.iter().filter(|frame| frame.time > 0.1 && frame.time < 0.5).collect();
+    for frame in &early {
+        assert_eq!(frame.bodies[..2], early[0].bodies[..2], "{}", frame.time);
+    }
+    // The weight of both boxes presses the lower one to the floor, also while they are held.
+    let on_floor = early[5]
+        .contacts
+        .iter()
+        .filter(|contact| contact.bodies[1] != 1)
+        .map(|contact| contact.force.length());
+    assert!((on_floor.sum::<f64>() - 2.0 * 9.81).abs() < 1e-6);
+    let last = &frames[frames.len() - 1];
+    assert!((last.bodies[1].location - early[0].bodies[1].location).length() > 1e-3, "it was not hit");
+    assert!(drift(&frames) < 2e-5, "{:e}", drift(&frames));
+}
