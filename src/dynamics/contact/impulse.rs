@@ -58,9 +58,10 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     impulses
 }
 
-/// The normal velocity that an impulse leads to.
+/// The normal velocity that an impulse leads to. It is negative where a place parts before the impact, but is pushed by what happens at
+/// others: else the impact would give energy.
 fn goal(bounce: &Bounce, rate: f64) -> f64 {
-    (-bounce.restitution * rate).max(0.0)
+    -bounce.restitution * rate
 }
 
 /// The impulse at a single place.

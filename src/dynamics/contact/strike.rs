@@ -103,7 +103,9 @@ impl Collider {
         };
         for (pair, places) in touching.iter().zip(&places) {
             let motions = pair.bodies.map(|body| motion(body, model, state));
+            // What has only rolled so far has rates of rounding; its speed says what is slight.
             let speeds = places.iter().map(|place| place.rate(motions).length());
+            let speeds = speeds.chain(motions.map(|(velocity, _)| velocity.length()));
             self.fastest = speeds.fold(self.fastest, f64::max);
         }
         let mut speeds: Vec<f64> = (0..touching.len()).map(|i| approach(i, state)).collect();

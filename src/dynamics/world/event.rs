@@ -45,8 +45,10 @@ impl Counts {
     }
 
     /// Counts one more, at the end of a piece that has been so long, s, and says whether that is too many.
-    pub(super) fn are_too_many(&mut self, event: Event, length: f64, left: f64) -> bool {
-        self.at_once = if length > 0.0 { 0 } else { self.at_once + 1 };
+    /// `is_idle` is a touch that struck nothing.
+    pub(super) fn are_too_many(&mut self, event: Event, length: f64, left: f64, is_idle: bool) -> bool {
+        let is_at_once = length == 0.0 || (is_idle && length <= QUICK * left);
+        self.at_once = if is_at_once { self.at_once + 1 } else { 0 };
         match event {
             Event::Row(_) => {
                 self.changes += 1;

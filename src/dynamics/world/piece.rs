@@ -74,8 +74,8 @@ impl World {
         self.collider.as_ref()?.gap(&self.model, &self.state, bodies)
     }
 
-    /// An event: takes its impulses, and finds out which constraints push from then on.
-    pub(super) fn pass(&mut self, event: Event, t: f64) {
+    /// An event: takes its impulses, and finds out which constraints push from then on. Returns whether it was a touch that struck nothing.
+    pub(super) fn pass(&mut self, event: Event, t: f64) -> bool {
         match event {
             Event::Row(row) => self.solver.note_change(&self.model, row),
             Event::Touch(bodies) => {
@@ -83,43 +83,47 @@ impl World {
             }
         }
         if self.collider.is_some() {
-            self.meet(t, matches!(event, Event::Touch(_)));
-        } else {
-            let mut system = System::new(&self.model, &mut self.solver);
-            system.decide(t, &mut self.state, &mut self.loads);
+            let is_touch = matches!(event, Event::Touch(_));
+            let has_struck = self.meet(t, is_touch);
+            return is_touch && !has_struck;
         }
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.decide(t, &mut self.state, &mut self.loads);
+        false
     }
 
     /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch. Where no forces are found that fit, the
-    /// bodies are advanced by time-stepping.
-    pub(super) fn meet(&mut self, t: f64, is_touch: bool) {
-        self.meet_once(t, is_touch);
+    /// bodies are advanced by time-stepping. Returns whether something was struck.
+    pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
+        let has_struck = self.meet_once(t, is_touch);
         while let Some(bodies) = self.solver.take_undecided(&self.model) {
-            let Some(collider) = &mut self.collider else { return };
+            let Some(collider) = &mut self.collider else { break };
             if self.solver.has_failed() || !collider.join(&self.model, &self.state, &bodies) {
-                return;
+                break;
             }
             self.meet_once(t, false);
         }
+        has_struck
     }
 
-    fn meet_once(&mut self, t: f64, is_touch: bool) {
+    fn meet_once(&mut self, t: f64, is_touch: bool) -> bool {
         while self.let_touched_go() {}
-        let Some(collider) = &mut self.collider else { return };
+        let Some(collider) = &mut self.collider else { return false };
         let is_crowded = collider.is_crowded();
         self.solver.leave(&BTreeSet::new());
         let strike = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {
             Ok(strike) => strike,
             Err(breakdown) => {
                 self.solver.fail(breakdown);
-                return;
+                return false;
             }
         };
+        let has_struck = !strike.struck.is_empty();
         let have_changed = self.solver.take_contacts(strike.closed);
         self.solver.leave(collider.crowded());
         if is_touch && !have_changed && !is_crowded && !self.solver.concerns(&strike.struck) {
             // What holds bodies has nothing to do with it.
-            return;
+            return has_struck;
         }
         while !self.solver.is_idle(&self.model) {
             let mut system = System::new(&self.model, &mut self.solver);
@@ -132,6 +136,7 @@ impl World {
             // A gap that is left would be closed within the next step, however short that is.
             self.solver.close_gaps(&self.model, t, &mut self.state);
         }
+        has_struck
     }
 
     /// Where contacts begin: nothing may be within another, and what touches is struck or stays in touch.
