@@ -180,7 +180,7 @@ impl Expander<'_> {
             (Kind::Drawn(_), Value::String(_)) => self.drawn_later(node),
             (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
-            (Kind::Colors, Value::Array(items)) if items.iter().any(|item| is_list(item)) => {
+            (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
                 self.items(node, |this, item| this.value(item, &Kind::Color));
             }
             // Strings here are names of colors.
