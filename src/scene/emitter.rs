@@ -32,8 +32,15 @@ impl Emitter {
     pub fn most_alive(&self, duration: f64) -> f64 {
         let births = self.source.births;
         let life = self.source.longest_life.min(duration.max(0.0) - births.start.min(0.0));
+        self.births_within(life)
+    }
+
+    /// The most births within so long a time, s.
+    #[must_use]
+    pub fn births_within(&self, time: f64) -> f64 {
+        let births = self.source.births;
         #[allow(clippy::cast_precision_loss, reason = "counts of particles are far below 2^53")]
         let at_once = births.at_once as f64;
-        at_once * ((life / births.every).floor() + 1.0)
+        at_once * ((time.min(births.end - births.start) / births.every).floor() + 1.0)
     }
 }

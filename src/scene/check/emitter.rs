@@ -18,6 +18,8 @@ use crate::scene::{Body, Color, Emitter, Simulation};
 const MAX_ALIVE: f64 = 1_000_000.0;
 /// More timesteps before the run than anybody wants to wait for.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
+/// More births before the run than numbers with a fraction can tell apart.
+const MAX_EARLY_BIRTHS: f64 = 1e12;
 /// So many values of a formula with random numbers are looked at.
 const DRAWS: u64 = 4096;
 
@@ -220,12 +222,14 @@ impl Reader<'_, '_> {
 
     /// What happens before the run is computed step by step, as the run is.
     fn not_too_early(&mut self, emitter: &Emitter) {
-        let before = emitter.source.births.start.max(-emitter.source.longest_life);
+        let births = emitter.source.births;
+        let before = births.start.max(-emitter.source.longest_life);
         let longest = MAX_EARLY_STEPS * self.simulation.step.min(1.0 / self.simulation.frame_rate);
-        if -before <= longest {
+        let can_be_counted = -births.start / births.every <= MAX_EARLY_BIRTHS;
+        if -before <= longest && can_be_counted {
             return;
         }
-        let message = format!("`{}` starts {} s before the run", self.name, figure(-before));
+        let message = format!("`{}` starts {} s before the run", self.name, figure(-births.start));
         let label = format!("at most {} s are computed before", figure(longest));
         let error = Diagnostic::error(Code::OutOfRange, message);
         self.context.diagnostics.push(error.at(self.view.span("start").unwrap_or(self.span), label));
@@ -233,10 +237,19 @@ impl Reader<'_, '_> {
 
     fn not_too_many(&mut self, emitter: &Emitter) {
         let most = emitter.most_alive(self.simulation.end());
+        // Those that die before a frame shows them take time as well.
+        let between_frames = emitter.births_within(1.0 / self.simulation.frame_rate);
+        let key = if self.view.has("burst") { "burst" } else { "rate" };
+        if most <= MAX_ALIVE && between_frames > MAX_ALIVE {
+            let message =
+                format!("`{}` would have {between_frames:.0} births from one frame to the next", self.name);
+            let error = Diagnostic::error(Code::TooManyParticles, message);
+            let label = format!("at most {MAX_ALIVE} are computed");
+            self.context.diagnostics.push(error.at(self.view.span(key).unwrap_or(self.span), label));
+        }
         if most <= MAX_ALIVE {
             return;
         }
-        let key = if self.view.has("burst") { "burst" } else { "rate" };
         let message =
             format!("`{}` would have {most:.0} particles at once; at most {MAX_ALIVE} are drawn", self.name);
         let error = Diagnostic::error(Code::TooManyParticles, message);

@@ -166,7 +166,7 @@ bodies nor on each other, and pass through all of them. They have no part in the
   velocity of that point of it on top. `direction` is then in the axes of the body.
 - **Looks**: `color` and `size` go from birth to death in 32 steps. What glows casts no shadow; it does not light other things: that takes
   a `[light.NAME]`. Places are written to a hundredth of the radius.
-- **Many**: 100,000 particles make a script of 5 MB, which POV-Ray parses in about a second. The preview, models and tables do
+- **Many**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview, models and tables do
   not show particles.
 ";
 
