@@ -18,7 +18,7 @@ const MOST_PIECES: f64 = 16.0;
 
 /// The width of a trail is so many times what can be told apart in it, at least. A trail is some pixels wide.
 const FINEST: f64 = 50.0;
-/// So many pieces of a way, from one kept point to the next, make a stretch.
+/// So many pieces of a way, from one kept frame to the next, make a stretch.
 const STRETCH: usize = 32;
 /// So many stretches of a trail are remembered: twice as many as a frame has at most.
 const REMEMBERED: usize = 32;
@@ -197,8 +197,9 @@ impl Line {
         let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
         let mut rest = way.points.as_slice();
         while rest.len() > 1 {
-            let number = stretch_at(rest, way.stride);
-            let end = number.map_or_else(|| until_stretch(rest, way.stride), |_| STRETCH);
+            let found = stretch_at(rest, way.stride);
+            let number = found.map(|(number, _)| number);
+            let end = found.map_or_else(|| until_stretch(rest, way.stride), |(_, end)| end);
             let make = || Part::of(between(&rest[..=end], least));
             let Part { points, reach } = match number {
                 Some(number) => remembered.part((way.stride, number), make),
@@ -235,11 +236,14 @@ impl Line {
     }
 }
 
-/// The number of the stretch that the first of some points begins, if all its points are there.
-fn stretch_at(points: &[Passed], stride: usize) -> Option<usize> {
+/// The number of the stretch that the first of some points begins, if all its points are there, and how many pieces it has: at impacts,
+/// there are points beside those of frames.
+fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
     let frames = stride * STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
-    (points.get(STRETCH)?.frame? == begin + frames).then_some(begin / frames)
+    let mut of_frames = points.iter().enumerate().filter_map(|(place, point)| Some((place, point.frame?)));
+    let (end, frame) = of_frames.nth(STRETCH)?;
+    (frame == begin + frames).then_some((begin / frames, end))
 }
 
 /// How many pieces there are until a stretch may begin, or the way ends: one at least.

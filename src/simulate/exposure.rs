@@ -57,7 +57,7 @@ fn moment(
         if entry.snapshot.time > time {
             return Err(lost());
         }
-        history.note_ghosts(&entry.snapshot);
+        history.note_moment(&entry);
         if entry.snapshot.time == time {
             let mut frame = Frame::of_entry(index, entry);
             frame.past = history.before(&frame);

@@ -8,7 +8,7 @@ use super::past::History;
 use super::recording::{Reader, Recording};
 use super::simulation::{Entry, Simulation};
 use super::{Frame, Moments, SimulateError};
-use crate::dynamics::{Effort, Snapshot};
+use crate::dynamics::Effort;
 use crate::scene::Scene;
 
 /// The frames of a run in their order, each made when it is asked for.
@@ -74,9 +74,10 @@ impl<'a> Frames<'a> {
         while let Some(entry) = self.entry()? {
             before = entry.frame.unwrap_or(before);
             if entry.snapshot.time >= time {
+                self.history.note_moment(&entry);
                 return Ok(self.see(entry.frame.is_some(), Frame::of_entry(before, entry)));
             }
-            self.remember(entry.frame, entry.snapshot);
+            self.remember(entry);
         }
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
@@ -98,11 +99,11 @@ impl<'a> Frames<'a> {
         }
         while let Some(entry) = self.entry()? {
             if self.position() > moment {
-                self.history.note_ghosts(&entry.snapshot);
+                self.history.note_moment(&entry);
                 let frame = self.see(entry.frame.is_some(), Frame::of_entry(index, entry));
                 return Ok((frame, self.history, self.clouds));
             }
-            self.remember(entry.frame, entry.snapshot);
+            self.remember(entry);
         }
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
@@ -174,10 +175,10 @@ impl<'a> Frames<'a> {
         }
     }
 
-    fn remember(&mut self, frame: Option<usize>, snapshot: Snapshot) {
-        self.history.note_ghosts(&snapshot);
-        if let Some(index) = frame {
-            let frame = Frame::of(index, snapshot);
+    fn remember(&mut self, entry: Entry) {
+        self.history.note_moment(&entry);
+        if let Some(index) = entry.frame {
+            let frame = Frame::of(index, entry.snapshot);
             self.clouds.note(&frame);
             self.history.note(&frame);
         }
@@ -210,11 +211,11 @@ impl Iterator for Frames<'_> {
             match self.entry() {
                 Ok(Some(entry)) => {
                     let Some(index) = entry.frame else {
-                        self.remember(None, entry.snapshot);
+                        self.remember(entry);
                         continue;
                     };
                     if !self.history.is_idle() {
-                        self.history.note_ghosts(&entry.snapshot);
+                        self.history.note_moment(&entry);
                     }
                     return Some(Ok(self.see(true, Frame::of_entry(index, entry))));
                 }

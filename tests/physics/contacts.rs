@@ -42,7 +42,7 @@ impl Table {
         self.world.add(place(body))
     }
 
-    fn floor(&mut self, surface: Surface) -> BodyId {
+    pub(crate) fn floor(&mut self, surface: Surface) -> BodyId {
         self.add(Shape::Plane { normal: DVec3::Y }, 1.0, surface, |body| body.with_fixed(true))
     }
 
@@ -73,7 +73,7 @@ pub(crate) fn surface(restitution: f64, friction: f64) -> Surface {
 }
 
 /// The methods whose places are exact where forces are constant.
-fn exact() -> [&'static Method; 2] {
+pub(crate) fn exact() -> [&'static Method; 2] {
     [method("velocity-verlet"), method("rk4")]
 }
 

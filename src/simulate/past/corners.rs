@@ -1,0 +1,83 @@
+//! Where a trail has a corner: at the impacts between two frames.
+
+use glam::DVec3;
+
+use super::way::Passed;
+use crate::dynamics::{BodySnapshot, Impact};
+use crate::scene::Trail;
+
+/// The most impacts between two points of a trail. Where there are more, they are too near each other to be seen.
+pub(super) const MOST: usize = 4;
+
+/// A body at a moment.
+pub(super) type At = (f64, BodySnapshot);
+
+/// The points of a trail at the impacts from one moment to a later one, two for each: the velocity jumps from the first to the second.
+/// `impulse` is that of an impact on the body, N s.
+///
+/// An impact says when it was, not where the centre of the body was. The flights before the first and after the last impact follow
+/// from the two moments, those between from the impulses, all under the forces of the two moments: exactly, where a constant force acts.
+pub(super) fn between(
+    (before, after): (&At, &At),
+    impacts: &[Impact],
+    impulse: impl Fn(&Impact) -> DVec3,
+    (mass, trail): (f64, Trail),
+) -> Vec<Passed> {
+    let mut hits: Vec<(f64, DVec3)> = Vec::new();
+    for impact in impacts {
+        let jump = impulse(impact) / mass;
+        if jump == DVec3::ZERO || impact.time <= before.0 || impact.time >= after.0 {
+            continue;
+        }
+        match hits.last_mut().filter(|(time, _)| *time == impact.time) {
+            Some((_, sum)) => *sum += jump,
+            None => hits.push((impact.time, jump)),
+        }
+    }
+    if hits.len() > MOST {
+        return Vec::new();
+    }
+    let mut flight = Flight::of(before, mass, trail);
+    let forth: Vec<Flight> = hits.iter().map(|hit| flight.pass(*hit, 1.0)).collect();
+    let mut flight = Flight::of(after, mass, trail);
+    let back: Vec<Flight> = hits.iter().rev().map(|hit| flight.pass(*hit, -1.0)).collect();
+    let pairs = forth.into_iter().zip(back.into_iter().rev());
+    pairs
+        .flat_map(|(forth, back)| {
+            // Each flight is known best near the moment that it begins at.
+            let part = (forth.time - before.0) / (after.0 - before.0);
+            let location = forth.location.lerp(back.location, part);
+            let point = |velocity| Passed { time: forth.time, location, velocity, frame: None };
+            [point(forth.velocity), point(back.velocity)]
+        })
+        .collect()
+}
+
+/// The motion of a point of a body under a constant force, forth or back in time.
+#[derive(Clone, Copy)]
+struct Flight {
+    time: f64,
+    location: DVec3,
+    velocity: DVec3,
+    acceleration: DVec3,
+}
+
+impl Flight {
+    fn of((time, body): &At, mass: f64, trail: Trail) -> Flight {
+        let (location, velocity) = body.point(trail.at);
+        let spin = body.angular_velocity;
+        let towards_axis = spin.cross(spin.cross(location - body.location));
+        Flight { time: *time, location, velocity, acceleration: body.force / mass + towards_axis }
+    }
+
+    /// Goes to an impact, and past it. It is returned as it is there, before the velocity jumps.
+    fn pass(&mut self, (time, jump): (f64, DVec3), sense: f64) -> Flight {
+        let span = time - self.time;
+        self.location += self.velocity * span + 0.5 * self.acceleration * (span * span);
+        self.velocity += self.acceleration * span;
+        self.time = time;
+        let there = *self;
+        self.velocity += sense * jump;
+        there
+    }
+}

@@ -1,0 +1,97 @@
+//! The way of a body, of which a trail is made.
+
+use glam::DVec3;
+
+use super::corners;
+use crate::dynamics::BodySnapshot;
+use crate::scene::Trail;
+
+/// The most points of a trail; where frames are more, every second, fourth, … is kept.
+pub(super) const MOST_POINTS: usize = 512;
+
+/// The way of a body, or of a point of it, up to a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Way {
+    /// The number of the body.
+    pub body: usize,
+    /// Points of the way, the oldest first; the last is the present one.
+    pub points: Vec<Passed>,
+    /// Every so many frames a point is kept.
+    pub stride: usize,
+}
+
+/// A point that a body has passed, or a point of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passed {
+    /// When, s.
+    pub time: f64,
+    /// Where, m.
+    pub location: DVec3,
+    /// How fast, m/s.
+    pub velocity: DVec3,
+    /// The number of the frame that this is the body of, if the point is kept for later frames; none at an impact.
+    pub frame: Option<usize>,
+}
+
+impl Passed {
+    /// Where the body was between this point and a later one, m: on a curve of third degree, which meets locations
+    /// and velocities at both. So the way under a constant force is exact, however far apart the points are.
+    pub fn towards(&self, next: &Passed, time: f64) -> DVec3 {
+        let span = next.time - self.time;
+        if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
+            // A body that turns back between has been hit, or is slow: no curve is better than a straight line.
+            let part = if span > 0.0 { (time - self.time) / span } else { 1.0 };
+            return self.location.lerp(next.location, part);
+        }
+        let s = (time - self.time) / span;
+        let (s2, s3) = (s * s, s * s * s);
+        (2.0 * s3 - 3.0 * s2 + 1.0) * self.location
+            + (s3 - 2.0 * s2 + s) * span * self.velocity
+            + (3.0 * s2 - 2.0 * s3) * next.location
+            + (s3 - s2) * span * next.velocity
+    }
+
+    pub(super) fn of(time: f64, body: &BodySnapshot, trail: Trail) -> Passed {
+        let (location, velocity) = body.point(trail.at);
+        Passed { time, location, velocity, frame: None }
+    }
+}
+
+/// A way from a time on, which may be between two of its points.
+pub(super) fn cut(points: &mut Vec<Passed>, from: f64) {
+    let before = points.iter().take_while(|point| point.time <= from).count();
+    let Some(last) = before.checked_sub(1) else { return };
+    if let Some(&next) = points.get(before) {
+        let point = points[last];
+        let part = (from - point.time) / (next.time - point.time);
+        let velocity = point.velocity.lerp(next.velocity, part);
+        points[last] = Passed { time: from, location: point.towards(&next, from), velocity, frame: None };
+    }
+    points.drain(..last);
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates, and a saturated number means the same"
+)]
+fn frames_within(intervals: f64) -> usize {
+    intervals as usize
+}
+
+/// Every so many frames a point of a trail is kept, as seen from a frame: as few as make at most [`MOST_POINTS`].
+pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
+    let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
+    (within.min(frame) / MOST_POINTS + 1).next_power_of_two()
+}
+
+/// Leaves out what is too much between two kept points of a way: more than so many impacts.
+pub(super) fn thin(way: &mut Vec<(usize, Passed)>) {
+    let mut kept = Vec::with_capacity(way.len());
+    for run in way.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {
+        if run[0].1.frame.is_some() || run.len() <= 2 * corners::MOST {
+            kept.extend_from_slice(run);
+        }
+    }
+    *way = kept;
+}

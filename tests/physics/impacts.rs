@@ -1,0 +1,84 @@
+//! The order of impacts at one instant, impacts at several places, and the last bounce, against closed forms.
+
+use glam::DVec3;
+use jabuka::dynamics::{BodyId, Shape, Surface, World};
+
+use crate::common::method;
+use crate::contacts::{G, Table, advance, exact, surface};
+
+/// Three equal balls that touch in a row, with velocities along it.
+fn row(velocities: [f64; 3], restitution: f64) -> (World, [BodyId; 3]) {
+    let mut table = Table::new(method("velocity-verlet"), false);
+    let balls = std::array::from_fn(|i| {
+        let place = DVec3::new(0.2 * (i as f64 - 1.0), 0.0, 0.0);
+        table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(restitution, 0.0), |body| {
+            body.with_location(place).with_velocity(velocities[i] * DVec3::X)
+        })
+    });
+    (table.build(), balls)
+}
+
+/// What two equal balls do to each other.
+fn hit(v: &mut [f64; 3], i: usize, restitution: f64) {
+    let (mean, half) = (0.5 * (v[i] + v[i + 1]), 0.5 * restitution * (v[i] - v[i + 1]));
+    (v[i], v[i + 1]) = (mean - half, mean + half);
+}
+
+/// The fastest approach is struck first; of two that are as fast, that of the bodies with the smaller numbers. With a restitution of 1/2, the
+/// end tells the order: 1, 0, −1 m/s become −23/64, 3/64 and 5/16 m/s, and not the mirror image of that.
+#[test]
+fn of_impacts_at_one_instant_the_fastest_comes_first_and_then_the_first() {
+    for (start, first) in [([1.0, 0.0, -1.0], 0), ([1.0, 0.0, -2.0], 1), ([2.0, 0.0, -1.0], 0)] {
+        let (mut world, balls) = row(start, 0.5);
+        advance(&mut world, 1e-3);
+        let mut expected = start;
+        hit(&mut expected, first, 0.5);
+        loop {
+            let approach = |i: usize| expected[i] - expected[i + 1];
+            let next = if approach(1) > approach(0) { 1 } else { 0 };
+            if approach(next) <= 0.0 {
+                break;
+            }
+            hit(&mut expected, next, 0.5);
+        }
+        for (ball, expected) in balls.iter().zip(expected) {
+            let off = world.velocity(*ball) - expected * DVec3::X;
+            assert!(off.length() < 1e-14, "{start:?}: {} {expected}", world.velocity(*ball));
+        }
+    }
+    let mut known = [1.0, 0.0, -1.0];
+    [0, 1, 0].into_iter().for_each(|i| hit(&mut known, i, 0.5));
+    assert_eq!(known, [-23.0 / 64.0, 3.0 / 64.0, 5.0 / 16.0]);
+}
+
+/// What would rebound with less than 1e-8 of the fastest impact of the run rests. The fastest one is here that of two balls elsewhere, at 2,000 m/s. Impact n of a ball
+/// that bounces is at √(2h/g) (1 + 2 Σ eᵏ), k from 1 to n.
+#[test]
+fn a_ball_rests_from_the_impact_on_whose_rebound_nobody_could_see() {
+    for (method, restitution) in exact().into_iter().flat_map(|m| [0.3, 0.5, 0.8].map(|e| (m, e))) {
+        let mut table = Table::new(method, true);
+        table.floor(Surface::default());
+        let mut ball = |place: DVec3, velocity: DVec3, restitution: f64| {
+            table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(restitution, 0.0), |body| {
+                body.with_location(place).with_velocity(velocity)
+            })
+        };
+        let slow = ball(DVec3::new(0.0, 1.1, 0.0), DVec3::ZERO, restitution);
+        for side in [-1.0, 1.0] {
+            ball(DVec3::new(side, 1000.0, 0.0), -side * 1000.0 * DVec3::X, 1.0);
+        }
+        let mut world = table.build();
+        let fall = (2.0 / G).sqrt();
+        let (mut time, mut rebound) = (fall, restitution);
+        while G * fall * rebound > 1e-8 * 2000.0 {
+            time += 2.0 * fall * rebound;
+            rebound *= restitution;
+        }
+        // The flight after that impact would take so long.
+        let flight = 2.0 * fall * rebound;
+        advance(&mut world, time - 0.3 * flight);
+        assert!(world.velocity(slow) != DVec3::ZERO, "{} {restitution}", method.name);
+        advance(&mut world, time + 0.3 * flight);
+        assert_eq!(world.velocity(slow), DVec3::ZERO, "{} {restitution}", method.name);
+    }
+}
