@@ -54,6 +54,13 @@ const WHITE: Color = Color([0.96, 0.95, 0.92]);
 /// What is not known: the words of POV-Ray may mean anything.
 const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
 
+/// How much covers what is transparent by words of POV-Ray, which may say how much in many ways.
+const CLEAR: f64 = 0.35;
+
+/// The words of POV-Ray for what light passes through. Source: its documentation, 3.4.1.7 (colors).
+const SHINES_THROUGH: [&str; 8] =
+    ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
+
 impl Appearance {
     fn new(color: [f64; 3], metallic: f64, roughness: f64) -> Appearance {
         let [red, green, blue] = color.map(|part| part.min(1.0));
@@ -97,8 +104,19 @@ pub fn appearance(look: &Look) -> Appearance {
         Look::Plain { color, finish } => plain(*color, *finish),
         Look::Library { material, color } => library(material, color.unwrap_or(Color::WHITE)),
         Look::Checkered => ground(Preset::Daylight),
-        Look::Texture(_) | Look::Sdl(_) => Appearance::new(UNKNOWN.linear(), 0.0, 0.6),
+        Look::Texture(_) => Appearance::new(UNKNOWN.linear(), 0.0, 0.6),
+        Look::Sdl(text) => {
+            let look = Appearance::new(UNKNOWN.linear(), 0.0, 0.6);
+            let [red, green, blue, all] = look.color;
+            Appearance { color: [red, green, blue, if is_clear(text) { CLEAR } else { all }], ..look }
+        }
     }
+}
+
+/// Whether words of POV-Ray say that something shines through.
+fn is_clear(text: &str) -> bool {
+    let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+    text.split(|letter| !is_word(letter)).any(|word| SHINES_THROUGH.contains(&word))
 }
 
 fn plain(color: Color, finish: Finish) -> Appearance {
@@ -167,6 +185,14 @@ mod tests {
 
     fn look(material: &'static LibraryMaterial) -> Look {
         Look::Library { material, color: material.color.map(Color::from_code) }
+    }
+
+    #[test]
+    fn words_of_povray_that_let_light_through_are_seen() {
+        let cover = |text: &str| appearance(&Look::Sdl(text.into())).color[3];
+        assert!(cover("texture { pigment { color rgbt <0.8, 0.9, 1, 0.88> } }") < 0.5);
+        assert!(cover("pigment { color White transmit 0.5 }") < 0.5);
+        assert_eq!(cover("pigment { color rgb <0.8, 0.9, 1> } // filters"), 1.0);
     }
 
     /// An opaque one of no metal with roughness 0.5 would be one that the table does not know.
