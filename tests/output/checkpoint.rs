@@ -56,13 +56,14 @@ impl Place {
         self.0.path().join("cache")
     }
 
-    /// A command that compiles the pile. It is saved after each frame.
+    /// A command that compiles the pile. It is saved after each frame, and kept however fast it is.
     fn compile(&self, out: &Path, threads: &str) -> Command {
         let mut command = jabuka();
         command
             .env_remove("JABUKA_CACHE_SIZE")
             .env("JABUKA_CACHE_DIR", self.cache())
             .env("JABUKA_CHECKPOINT_SECONDS", "0")
+            .env("JABUKA_CACHE_ALL", "1")
             .env("RAYON_NUM_THREADS", threads)
             .arg("compile")
             .arg(self.scene())

@@ -64,7 +64,7 @@ impl World {
             now += duration;
             length = t + dt - now;
             let bodies = self.bodies_of(event);
-            let is_idle = !self.pass(event, now);
+            let is_idle = self.pass(event, now);
             self.integrator.discontinuity();
             let are_too_many = counts.are_too_many(event, duration, length, is_idle);
             if counts.is_crowded(event) || self.happens_too_often(event, &bodies) || self.is_in_crowd(event) {
