@@ -58,8 +58,7 @@ const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
 const CLEAR: f64 = 0.35;
 
 /// The words of POV-Ray for what light passes through. Source: its documentation, 3.4.1.7 (colors).
-const SHINES_THROUGH: [&str; 8] =
-    ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
+const SHINES_THROUGH: [&str; 8] = ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
 
 impl Appearance {
     fn new(color: [f64; 3], metallic: f64, roughness: f64) -> Appearance {
