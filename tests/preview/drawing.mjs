@@ -1,7 +1,7 @@
 // What is drawn.
 
 import assert from "node:assert/strict";
-import { drawn, seek, tests, until } from "./browser.mjs";
+import { drawn, LONG, seek, tests, until } from "./browser.mjs";
 import { box, color, digest, isBlue, isRed, place } from "./picture.mjs";
 
 await tests({
@@ -58,7 +58,7 @@ await tests({
 
   async is_drawn_without_a_complaint({ open }) {
     const page = await open({ size: { width: 480, height: 420 } });
-    await until(page, (jabuka) => jabuka.settled);
+    await until(page, (jabuka) => jabuka.settled, null, 4 * LONG);
     const title = await page.title();
     const first = await digest(page);
     const middle = await page.evaluate(() => Math.floor(window.jabuka.frames / 2));

@@ -112,7 +112,12 @@ impl Server {
             .output()
             .unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{test}: {said}\nthe server said: {}", self.said());
+        assert!(
+            output.status.success(),
+            "{test} of {}: {said}\nthe server said: {}",
+            self.scene.name,
+            self.said()
+        );
         String::from_utf8(output.stdout).unwrap()
     }
 
