@@ -26,7 +26,7 @@ pub(super) struct Clouds {
     clouds: Vec<Cloud>,
     /// For each emitter: only every n-th particle is computed.
     strides: Vec<u64>,
-    /// The time between two frames, s, and how many steps it has.
+    /// The time between two frames, s, and the number of steps in it.
     interval: f64,
     steps: u32,
     /// The bodies of the frame that was seen last.

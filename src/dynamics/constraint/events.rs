@@ -77,8 +77,8 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
-    /// Told that the state whose margin was asked for last is the end of a piece. Others were only tried: where a step was too long for
-    /// what holds, nothing of it must be a measure of what is slight.
+    /// To be called when the state whose margin was asked for last is the end of a piece. Only these states say how large rates and
+    /// accelerations are: in a step that was tried and was too long, they can be far too large.
     pub(in crate::dynamics) fn accept(&mut self) {
         let [rate, acceleration] = std::mem::take(&mut self.seen);
         self.largest_rate = self.largest_rate.max(rate);

@@ -1,7 +1,7 @@
-//! Friction that changes what it does again and again within a step.
+//! Friction that begins and ceases to slide again and again within a step.
 //!
-//! Where friction has to be at its limit in several places that imply each other, it would change without end. So it sticks, whatever that
-//! takes, until the step is over.
+//! Two bodies that touch at several places can share friction among these in many ways. Where all places are at their limits, one
+//! after another would slide and stick without end. After a few changes they stick until the step is over, even beyond the limit.
 
 use super::super::Model;
 use super::solver::Solver;

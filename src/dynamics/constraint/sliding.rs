@@ -1,4 +1,5 @@
-//! The forces where contacts slide: friction is a multiple of normal forces that depend on it themselves.
+//! The forces where contacts slide. Friction there is μ times the normal force, and the normal force depends on friction: both are found
+//! together.
 
 use super::friction::Grip;
 use super::modes::Mode;

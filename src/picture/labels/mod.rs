@@ -41,7 +41,7 @@ struct Planned {
     /// The height of a line on the screen.
     height: f64,
     color: Color,
-    /// In a corner: how far its middle is from the edge, on the screen.
+    /// For a label in a corner of the picture: the distance from its middle to the edges.
     inset: f64,
 }
 
