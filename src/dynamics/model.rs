@@ -102,6 +102,15 @@ impl Model {
         &self.movable
     }
 
+    /// Whether bodies that do not meet can be advanced one after another: no force and no constraint leads from one to another, and
+    /// nothing does work that is counted as it is done.
+    pub(super) fn is_local(&self) -> bool {
+        self.constraints.is_empty()
+            && self.motions.is_empty()
+            && self.torqued.is_empty()
+            && self.forces.iter().all(|force| force.is_local())
+    }
+
     /// Whether no body is moved by forces, be it there or not.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()

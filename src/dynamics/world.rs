@@ -1,6 +1,7 @@
 //! Bodies, forces, a method of integration and a clock.
 
 mod advance;
+mod apart;
 mod crowd;
 mod event;
 mod piece;
@@ -51,6 +52,12 @@ pub struct World {
     loads: Loads,
     /// The end of the present step, s.
     end: f64,
+    /// Whether it is known what each contact does; after a step in groups, it is not.
+    is_decided: bool,
+    /// What is known of the contacts of each group.
+    parts: Vec<Solver>,
+    /// So many steps are made together before groups are looked for again.
+    together: u32,
     /// Room for the state before a step that is looked into.
     before: State,
 }
@@ -86,6 +93,9 @@ impl World {
             steps: 0,
             loads: Loads::default(),
             end: 0.0,
+            is_decided: true,
+            parts: Vec::new(),
+            together: 0,
             before: State::default(),
         }
     }
@@ -197,6 +207,7 @@ impl World {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
         self.solver.forget();
+        self.parts.clear();
         if let Some(collider) = &mut self.collider {
             collider.forget();
         }
@@ -213,6 +224,7 @@ impl World {
                 self.ledger.see_given(&self.model, &self.state);
             }
             system.start(self.time, &mut self.state, &mut self.loads);
+            self.is_decided = true;
             self.begin_contacts();
             // What this gives and takes is booked with the change itself.
             self.state.accounts = accounts;
@@ -259,10 +271,15 @@ impl World {
     /// move, and m a for those whose motion is given.
     pub fn forces(&mut self) -> &[DVec3] {
         self.settle();
-        let mut system = System::new(&self.model, &mut self.solver);
-        system.begin(self.time, &self.state);
-        system.evaluate(self.time, &self.state, &mut self.loads);
-        self.model.guide(self.time, &mut self.loads);
+        let mut copy = self.decided();
+        let World { model, state, solver, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        let mut system = System::new(model, solver);
+        system.begin(*time, state);
+        system.evaluate(*time, state, loads);
+        model.guide(*time, loads);
+        if let Some(copy) = copy {
+            self.loads = copy.loads;
+        }
         &self.loads.force
     }
 
@@ -363,10 +380,12 @@ impl Dynamics for World {
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
-        let mut system = System::new(&self.model, &mut self.solver);
-        let snapshot =
-            picture(&mut system, self.time, &self.state, (balance, &self.rest), &mut self.loads).checked();
-        self.solver.take_failure().map_or(snapshot, Err)
+        // Whoever looks changes nothing.
+        let mut copy = self.decided();
+        let World { model, state, solver, rest, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        let mut system = System::new(model, solver);
+        let snapshot = picture(&mut system, *time, state, (balance, rest), loads).checked();
+        solver.take_failure().map_or(snapshot, Err)
     }
 
     fn impacts(&mut self) -> Vec<Impact> {

@@ -389,6 +389,14 @@ fn looking_at_contacts_changes_no_bit() {
             table.add(Shape::Box { size: DVec3::new(0.4, 0.2, 0.3) }, 1.0, surface(0.0, 0.2), |body| {
                 body.with_location(DVec3::new(9.0, 0.1, 0.0)).with_velocity(DVec3::new(1.7, 0.0, 0.9))
             });
+            // Far from there, so that groups are advanced one after another.
+            for i in 0..4 {
+                table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.5, 0.2), |body| {
+                    let spin = DVec3::new(0.0, 3.0, 10.0);
+                    body.with_location(DVec3::new(-4.0 - f64::from(i), 0.3 + 0.1 * f64::from(i), 0.0))
+                        .with_angular_velocity(spin)
+                });
+            }
             let mut world = table.build();
             for frame in 1..=40 {
                 let time = |part: f64| (f64::from(frame) - 1.0 + part) / 25.0;

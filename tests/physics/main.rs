@@ -16,6 +16,7 @@ mod energy;
 mod events;
 mod friction;
 mod gravitation;
+mod groups;
 mod guided;
 mod impacts;
 mod joints;

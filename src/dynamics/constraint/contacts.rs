@@ -37,6 +37,38 @@ impl Solver {
         !are_same
     }
 
+    /// One that takes some of the contacts over, with what has been noted so far.
+    pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<Closed>>) -> Solver {
+        let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
+        let changes = self.changes.clone();
+        Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
+    }
+
+    /// Whether these are its contacts, and it is known what they do.
+    pub(in crate::dynamics) fn has(&self, contacts: &[Arc<Closed>]) -> bool {
+        self.structure.is_some()
+            && self.contacts.len() == contacts.len()
+            && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
+    }
+
+    /// Takes over from parts what they have noted, and all their contacts. What these do is to be [decided](Self::decide) then.
+    pub(in crate::dynamics) fn unite(&mut self, parts: &[Solver]) {
+        let mut contacts = Vec::new();
+        for part in parts {
+            self.largest_rate = self.largest_rate.max(part.largest_rate);
+            self.largest_acceleration = self.largest_acceleration.max(part.largest_acceleration);
+            for (bodies, changes) in &part.changes {
+                let all = self.changes.entry(*bodies).or_default();
+                *all = (*all).max(*changes);
+            }
+            self.failure = self.failure.or(part.failure);
+            contacts.extend(part.contacts.iter().cloned());
+        }
+        contacts.sort_by_key(|contact| contact.bodies);
+        self.contacts = contacts;
+        self.forget();
+    }
+
     /// Leaves the constraints of some bodies to somebody else.
     pub(in crate::dynamics) fn leave(&mut self, bodies: &BTreeSet<usize>) {
         if self.away != *bodies {

@@ -30,15 +30,15 @@ pub(in crate::dynamics) struct Solver {
     /// Bodies whose constraints somebody else keeps at present.
     pub(super) away: BTreeSet<usize>,
     /// The constraints of the model, and then the contacts.
-    all: Vec<Arc<dyn Constraint>>,
+    pub(super) all: Vec<Arc<dyn Constraint>>,
     /// The first row of each of them; none where bodies of it are away.
     pub(super) first_row: Vec<Option<usize>>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
     pub(super) natures: Vec<Nature>,
     /// The members at the beginning of the step, and when that is, s.
-    origin: Vec<Member>,
-    begun: f64,
+    pub(super) origin: Vec<Member>,
+    pub(super) begun: f64,
     /// How long the present step is, s.
     pub(super) span: f64,
     /// Whether forces of friction have not been found in the present step.

@@ -7,6 +7,7 @@ use super::super::{BodyId, Breakdown, Constraint, Model, State};
 use super::approach::{Approach, TOUCH, close, places};
 use super::closed::Closed;
 use super::crowd::Crowd;
+use super::group::Focus;
 use super::nearest::{Nearest, nearest};
 use super::pairs::Pairs;
 use super::path::{Path, pose};
@@ -15,7 +16,7 @@ use super::touch::{Touch, inside, touches};
 use super::{Contacts, Impact, Meeting};
 
 /// At an event, bodies touch where their gap is below this part of the coordinates.
-const NEAR: f64 = 1e-10;
+pub(super) const NEAR: f64 = 1e-10;
 
 /// Further places of bodies that touch count as touching below this part of the coordinates, where the bodies are at rest. A body that
 /// stands on three of four corners would never come to rest.
@@ -36,7 +37,7 @@ pub(in crate::dynamics) struct Collider {
     pub(super) contacts: Contacts,
     pub(super) solids: Vec<Option<Solid>>,
     pub(super) pairs: Pairs,
-    paths: Vec<Path>,
+    pub(super) paths: Vec<Path>,
     /// The fastest approach so far, m/s: what is slight against it has come from rounding.
     pub(super) fastest: f64,
     /// The impacts since somebody asked last.
@@ -45,6 +46,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) hits: BTreeMap<[usize; 2], u32>,
     /// What has so many events in the present step that they are not followed one by one.
     pub(super) crowd: Crowd,
+    /// The group that is advanced at present, if not all bodies are.
+    pub(super) focus: Option<Focus>,
 }
 
 /// All places at which two bodies touch.
@@ -62,7 +65,7 @@ impl Collider {
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
         let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
-        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, crowd }
+        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, crowd, focus: None }
     }
 
     /// Told at the beginning of a step.
@@ -85,7 +88,7 @@ impl Collider {
     /// The bodies held at rest that something touches which is not.
     pub(in crate::dynamics) fn touched_at_rest(&mut self, model: &Model, state: &State) -> Vec<usize> {
         let is_held = |body: &usize| model.inverse_mass()[*body] == 0.0 && model.can_move(*body);
-        let touching = self.touching(model, state);
+        let touching = self.touching_all(model, state);
         touching.iter().flat_map(|pair| pair.bodies).filter(is_held).collect()
     }
 
@@ -113,6 +116,21 @@ impl Collider {
         }
     }
 
+    /// Notes how bodies move within a step, and which of them can meet then.
+    pub(super) fn follow(&mut self, model: &Model, (before, after): (&State, &State), duration: f64) {
+        self.meet_bodies(model);
+        let Collider { contacts, solids, pairs, paths, focus, .. } = self;
+        let path = |i: usize| Path::of(i, model, before, after, duration);
+        if let Some(focus) = focus {
+            focus.bodies.iter().for_each(|&i| paths[i] = path(i));
+            pairs.take_ways_off(solids, paths);
+        } else {
+            paths.clear();
+            paths.extend((0..model.len()).map(path));
+            pairs.follow(contacts, solids, paths, (model, before));
+        }
+    }
+
     /// The first time within a step at which bodies touch and come nearer, s after its beginning.
     pub(in crate::dynamics) fn first_touch(
         &mut self,
@@ -121,11 +139,8 @@ impl Collider {
         duration: f64,
         closed: &[Arc<Closed>],
     ) -> Option<(f64, [usize; 2])> {
-        self.meet_bodies(model);
-        self.paths.clear();
-        self.paths.extend((0..model.len()).map(|i| Path::of(i, model, before, after, duration)));
-        let Collider { contacts, solids, pairs, paths, fastest, crowd, .. } = self;
-        pairs.follow(contacts, solids, paths, (model, before));
+        self.follow(model, (before, after), duration);
+        let Collider { solids, pairs, paths, fastest, crowd, .. } = self;
         let mut end = duration;
         let mut first = None;
         for pair in &mut pairs.list {
@@ -279,7 +294,7 @@ impl Collider {
 }
 
 /// Whether no load moves either of two bodies.
-fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
+pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
     bodies.iter().all(|&body| model.inverse_mass()[body] == 0.0)
 }
 

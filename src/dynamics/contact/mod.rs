@@ -11,6 +11,7 @@ mod collider;
 mod crowd;
 mod feature;
 mod gjk;
+mod group;
 mod impulse;
 mod nearest;
 mod pairs;
@@ -30,6 +31,7 @@ use glam::DVec3;
 
 pub(super) use closed::Closed;
 pub(super) use collider::Collider;
+pub(super) use group::Parting;
 pub use surface::{Meeting, Surface};
 
 /// Which bodies touch, and how.

@@ -71,10 +71,22 @@ impl Pairs {
         for (left, i) in self.left.iter_mut().zip(0..) {
             *left -= way(i);
         }
+        self.take_ways_off(solids, paths);
+    }
+
+    /// Takes the ways of a step off the gaps.
+    pub(super) fn take_ways_off(&mut self, solids: &[Option<Solid>], paths: &[Path]) {
+        let way = |i: usize| way(solids[i].as_ref(), &paths[i]);
         for pair in &mut self.list {
             let [a, b] = pair.bodies;
             pair.free -= way(a) + way(b);
         }
+    }
+
+    /// Told that bodies have moved farther than was thought, m. Returns whether the list is still long enough.
+    pub(super) fn go_farther(&mut self, more: &[f64]) -> bool {
+        self.left.iter_mut().zip(more).for_each(|(left, more)| *left -= more.max(0.0));
+        self.left.iter().all(|left| *left >= 0.0)
     }
 }
 

@@ -29,6 +29,11 @@ impl Force for ConstantForce {
         }
     }
 
+    fn is_local(&self) -> bool {
+        // A torque does work, which is counted as it is done.
+        self.torque == DVec3::ZERO
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let mut potential = 0.0;
         for body in &self.bodies {

@@ -18,6 +18,10 @@ impl Force for UniformGravity {
         }
     }
 
+    fn is_local(&self) -> bool {
+        true
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let model = moment.model;
         let mut potential = 0.0;

@@ -45,6 +45,12 @@ pub trait Force: Send + Sync {
     /// The share of a body that does not move is left out where it is a constant.
     fn potential(&self, moment: &Moment) -> f64;
 
+    /// Whether what it does to a body depends on no other body, and has a potential: bodies that do not meet can then be advanced one
+    /// after another.
+    fn is_local(&self) -> bool {
+        false
+    }
+
     /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
     fn pairs(&self) -> u64 {
         0

@@ -34,13 +34,28 @@ impl World {
     fn step_from(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         self.settle();
         self.ledger.close(&self.model, t, &self.state);
-        let (mut now, mut left, mut length) = (t, moments, dt);
-        let mut counts = Counts::default();
         self.end = t + dt;
         self.solver.calm();
         self.check_rest(t);
+        if !self.step_apart(t, dt, moments, see) {
+            self.decide_all(t);
+            self.follow_events(t, dt, moments, see);
+        }
+        self.hold_still(t + dt);
+    }
+
+    /// Makes a step in pieces that end at events.
+    pub(super) fn follow_events(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
+        let (mut now, mut left, mut length) = (t, moments, dt);
+        let mut counts = Counts::default();
         if let Some(collider) = &mut self.collider {
             collider.set_out();
+            if collider.is_crowded() {
+                while self.let_touched_go() {}
+            }
+            if self.collider.as_mut().is_some_and(|collider| collider.stay(&self.model, &self.state)) {
+                self.meet(t, false);
+            }
         }
         loop {
             if !left.is_empty() {
@@ -51,11 +66,13 @@ impl World {
                 continue;
             }
             self.solver.accept();
+            if let Some(collider) = &mut self.collider {
+                collider.note_ways(&self.model, &self.before, &self.state, duration);
+            }
             self.solver.blame_friction(&self.model, now + duration);
             let Some(event) = event else {
                 self.look_within(now, duration, left, see);
                 self.disperse(t + dt);
-                self.hold_still(t + dt);
                 return;
             };
             let (within, later) = left.split_at(left.partition_point(|&moment| moment <= now + duration));
@@ -150,8 +167,9 @@ impl World {
     /// The present moment, which leaves no trace in the books.
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
-        let mut system = System::new(&self.model, &mut self.solver);
-        picture(&mut system, self.time, &self.state, (balance, &self.rest), &mut self.loads)
+        let mut copy = self.decided();
+        let World { model, state, solver, rest, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        picture(&mut System::new(model, solver), *time, state, (balance, rest), loads)
     }
 
     fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {

@@ -12,7 +12,7 @@ impl World {
 
     /// From now on until the end of the step, these bodies and all that touches them are advanced by time-stepping.
     pub(super) fn crowd(&mut self, t: f64, bodies: &[usize]) {
-        self.let_all_go();
+        while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return };
         if collider.join(&self.model, &self.state, bodies) {
             self.meet(t, false);
@@ -60,20 +60,27 @@ impl World {
         is_new
     }
 
-    /// The end of a step: nothing is advanced by time-stepping any more.
+    /// The end of a step: nothing is advanced by time-stepping any more, unless it is to be for some steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
-        match collider.disperse(&self.model, t, &self.state) {
-            Ok(places) => {
-                let mut contacts = self.solver.contacts().to_vec();
-                contacts.extend(places);
-                contacts.sort_by_key(|contact| contact.bodies);
-                self.solver.take_contacts(contacts);
-                self.solver.close_all(&self.model, t, &mut self.state);
-                self.integrator.discontinuity();
-                self.meet(t, false);
+        let places = match collider.end_course(&self.model, t, &self.state) {
+            Ok(places) => places,
+            Err(breakdown) => {
+                self.solver.fail(breakdown);
+                return;
             }
-            Err(breakdown) => self.solver.fail(breakdown),
+        };
+        let mut contacts = self.solver.contacts().to_vec();
+        contacts.extend(places);
+        contacts.sort_by_key(|contact| contact.bodies);
+        self.integrator.discontinuity();
+        if collider.crowd_stays() && !self.rest.are_due(collider.crowded()) {
+            self.solver.part(contacts).close_all(&self.model, t, &mut self.state);
+            return;
         }
+        collider.dissolve();
+        self.solver.take_contacts(contacts);
+        self.solver.close_all(&self.model, t, &mut self.state);
+        self.meet(t, false);
     }
 }

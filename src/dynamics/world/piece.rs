@@ -96,6 +96,18 @@ impl World {
     /// bodies are advanced by time-stepping. Returns whether something was struck.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
         let has_struck = self.meet_once(t, is_touch);
+        self.crowd_undecided(t);
+        has_struck
+    }
+
+    /// Finds out what contacts do of which nothing else is known.
+    pub(super) fn decide_contacts(&mut self, t: f64) {
+        self.is_decided = true;
+        self.decide(t);
+        self.crowd_undecided(t);
+    }
+
+    fn crowd_undecided(&mut self, t: f64) {
         while let Some(bodies) = self.solver.take_undecided(&self.model) {
             let Some(collider) = &mut self.collider else { break };
             if self.solver.has_failed() || !collider.join(&self.model, &self.state, &bodies) {
@@ -103,10 +115,20 @@ impl World {
             }
             self.meet_once(t, false);
         }
-        has_struck
+    }
+
+    fn decide(&mut self, t: f64) {
+        while !self.solver.is_idle(&self.model) {
+            let mut system = System::new(&self.model, &mut self.solver);
+            system.decide(t, &mut self.state, &mut self.loads);
+            if !self.solver.drop_open_contacts(&self.model) {
+                break;
+            }
+        }
     }
 
     fn meet_once(&mut self, t: f64, is_touch: bool) -> bool {
+        self.is_decided = true;
         while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return false };
         let is_crowded = collider.is_crowded();
@@ -125,13 +147,7 @@ impl World {
             // What holds bodies has nothing to do with it.
             return has_struck;
         }
-        while !self.solver.is_idle(&self.model) {
-            let mut system = System::new(&self.model, &mut self.solver);
-            system.decide(t, &mut self.state, &mut self.loads);
-            if !self.solver.drop_open_contacts(&self.model) {
-                break;
-            }
-        }
+        self.decide(t);
         if have_changed {
             // A gap that is left would be closed within the next step, however short that is.
             self.solver.close_gaps(&self.model, t, &mut self.state);
@@ -160,12 +176,17 @@ impl World {
         }
     }
 
-    fn make_step(&mut self, t: f64, dt: f64) {
+    /// Makes a step of all bodies as the forces and the constraints move them.
+    pub(super) fn fly(&mut self, t: f64, dt: f64) {
         let mut system = System::new(&self.model, &mut self.solver);
         system.set_out(t, dt, &self.state);
         self.integrator.advance(&mut system, t, dt, &mut self.state);
         system.settle(t + dt, &mut self.state);
         self.steps += 1;
+    }
+
+    fn make_step(&mut self, t: f64, dt: f64) {
+        self.fly(t, dt);
         let rest = self.end - (t + dt);
         let Self { model, state, before, collider: Some(collider), loads, .. } = self else { return };
         if let Some(breakdown) = collider.advance_crowd(model, (t, dt, rest), (before, state), loads) {

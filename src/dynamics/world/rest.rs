@@ -19,6 +19,9 @@ const CALM: u32 = 8;
 /// At rest is what moves slower than this part of the fastest approach so far, or of what forces change within a step.
 const STILL: f64 = 1e-8;
 
+/// What time-stepping brings to rest creeps so many times faster.
+const CREEP: f64 = 100.0;
+
 /// Loads are the same where they differ by less than this part.
 const SAME: f64 = 1e-9;
 
@@ -47,6 +50,16 @@ impl Rest {
         self.islands.iter().flat_map(|island| island.seen.iter().copied())
     }
 
+    /// The bodies that are held together.
+    pub(super) fn held(&self) -> impl Iterator<Item = &BTreeSet<usize>> {
+        self.islands.iter().map(|island| &island.bodies)
+    }
+
+    /// Whether all of some bodies can be held at the end of this step, if they are at rest.
+    pub(super) fn are_due(&self, bodies: &BTreeSet<usize>) -> bool {
+        bodies.iter().all(|&body| self.calm.get(body).is_some_and(|calm| calm % CALM == CALM - 1))
+    }
+
     fn holds(&self, body: usize) -> bool {
         self.islands.iter().any(|island| island.bodies.contains(&body))
     }
@@ -55,11 +68,12 @@ impl Rest {
 impl World {
     /// The end of a step: holds the bodies that have been at rest for long enough.
     pub(super) fn hold_still(&mut self, t: f64) {
-        let Some(collider) = self.collider.as_ref().filter(|collider| !collider.is_crowded()) else { return };
+        let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
         self.rest.calm.resize(self.model.len(), 0);
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
             let speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
+            let slow = if collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
         // Those that cannot be held yet are looked at again later.
@@ -70,6 +84,7 @@ impl World {
         if new.is_empty() {
             return;
         }
+        self.decide_all(t);
         let mut system = System::new(&self.model, &mut self.solver);
         system.begin(t, &self.state);
         system.evaluate(t, &self.state, &mut self.loads);
@@ -168,6 +183,17 @@ impl World {
         self.solver.forget();
         self.integrator.discontinuity();
         true
+    }
+
+    /// Goes back to a state in which more was held: what has been let go since stays free, and its contacts are there again.
+    pub(super) fn regain(&mut self, held: Rest, t: f64) {
+        let mut contacts = self.solver.contacts().to_vec();
+        let is_free = |island: &Island| island.bodies.iter().any(|&body| !self.rest.holds(body));
+        contacts.extend(held.islands.into_iter().filter(is_free).flat_map(|island| island.contacts));
+        contacts.sort_by_key(|contact| contact.bodies);
+        if self.solver.take_contacts(contacts) {
+            self.meet(t, false);
+        }
     }
 
     /// Lets go of all bodies.

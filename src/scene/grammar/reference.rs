@@ -62,14 +62,15 @@ sticks, slides or rolls as the forces on it ask.
 - **Impacts at the same time** happen one after another, in the order of their approach speeds, the fastest first. Of equal ones, that of
   the bodies that stand first in the scene comes first. In a Newton's cradle, so as many balls leave as arrive.
 - **Too many events**: some bodies hit, grip and release each other again and again within one step, as in a chain that falls on the floor.
-  Time-stepping (Moreau's scheme) then advances these bodies to the end of the step, without rebounds. The energy stays balanced.
+  Time-stepping (Moreau's scheme) then advances these bodies, without rebounds, to the end of the step or for some steps more. The energy
+  stays balanced.
 - **At rest**: bodies that have rested on each other for eight steps are held, until something touches them or a force on them changes. So
   a heap at rest costs nothing.
 - **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much
   the energy is wrong. Take `velocity-verlet` or `rk4`.
 - **Energy**: what impacts and friction take are the accounts `impacts` and `friction` of the balance; neither is part of the drift.
 - **To see it**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it from where they act. `impacts`
-  counts in labels, and `jabuka export --events FILE.csv` writes a row for each impact.
+  counts in labels, and `jabuka export SCENE --events -o FILE.csv` writes a row for each impact.
 
 ### Many bodies: time stepping
 
@@ -153,8 +154,8 @@ linear = 1e-6
 on = [\"sparks\"]
 ```
 
-A particle is a small body with a life of its own. Gravity acts on it, and so do forces without `on`, and those that name its emitter in
-`on`; springs, and forces with `between`, do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
+A particle is a small ball that is born, moves and dies. Gravity acts on it, as do forces without `on` and forces that name its emitter
+in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
 bodies nor on each other, and pass through all of them. They have no part in the energy balance, in labels or in tables.
 
 - **Births**: `rate` sends out one after another at even intervals, each at its exact time, also between two steps. `burst` sends out

@@ -1,0 +1,349 @@
+//! The motion of the crowd through a step.
+//!
+//! It is made in a few equal parts: an impulse stops what comes nearer, the forces act, contacts push and grip at the end of the part.
+//! Energy that this takes is booked; the order is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom
+//! dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::super::constraint::Purpose;
+use super::super::super::integrator::drift_body;
+use super::super::super::{BodyId, Breakdown, Loads, Model, State};
+use super::super::approach::close;
+use super::super::closed::{Closed, heading};
+use super::super::collider::{Collider, scale};
+use super::super::nearest::nearest;
+use super::super::pairs::{Pair, near};
+use super::super::path::pose;
+use super::super::solid::Solid;
+use super::super::touch::touches;
+use super::Crowd;
+
+/// A step is made in at least so many parts, and in at most so many.
+const PARTS: [f64; 2] = [8.0, 64.0];
+
+/// Nothing moves farther in a part than this part of the smaller body, as long as parts are not too many.
+const FAR: f64 = 0.03;
+
+/// Places count as touching at the end where their gap is below this part of the smaller body.
+const GRASP: f64 = 1e-5;
+
+/// Bodies that are deeper within each other at the end than this part of the smaller one are jammed.
+const DEEP: f64 = 0.01;
+
+/// Times that differ by less than this part are the same.
+const SAME: f64 = 1e-12;
+
+/// Bodies touch where their gap is below this part of the coordinates.
+const NEAR: f64 = 1e-9;
+
+/// The motion of a crowd: what it is like at equally long intervals.
+#[derive(Clone, Default)]
+pub(super) struct Course {
+    /// When it begins, s.
+    start: f64,
+    /// How long each interval is, s.
+    part: f64,
+    /// The states at the ends of the intervals, each with one entry for each body of the crowd.
+    states: Vec<State>,
+    /// The state of all bodies when it begins, and how fast those move that are not in the crowd, m/s.
+    first: State,
+    velocity: Vec<DVec3>,
+    /// The pairs that can meet on the way.
+    pairs: Vec<Pair>,
+    failure: Option<Breakdown>,
+    /// The moments within an interval that were asked for last, s after its beginning.
+    between: [(f64, State); 2],
+}
+
+impl Collider {
+    /// Advances the crowd from time `t` by `dt`, s. `rest` is what is left of the step then, s. The others have been advanced from `before` to
+    /// `after`.
+    pub(in crate::dynamics) fn advance_crowd(
+        &mut self,
+        model: &Model,
+        (t, dt, rest): (f64, f64, f64),
+        (before, after): (&State, &mut State),
+        loads: &mut Loads,
+    ) -> Option<Breakdown> {
+        if self.crowd.is_empty() || dt == 0.0 {
+            return None;
+        }
+        let known = self.crowd.course.take().and_then(|mut course| {
+            let now = self.moment(&mut course, t, model, loads);
+            // Others may have hit them meanwhile.
+            let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
+            is_here.then_some((course, now.accounts))
+        });
+        let (mut course, old) = match known {
+            Some(known) => known,
+            None => (self.course(model, (t, dt + rest), (before, after), loads), before.accounts),
+        };
+        let new = self.moment(&mut course, t + dt, model, loads);
+        for (at, &body) in self.crowd.bodies.iter().enumerate() {
+            after.location[body] = new.location[at];
+            after.velocity[body] = new.velocity[at];
+            after.orientation[body] = new.orientation[at];
+            after.angular_momentum[body] = new.angular_momentum[at];
+        }
+        after.accounts.add(1.0, new.accounts);
+        after.accounts.add(-1.0, old);
+        let failure = course.failure;
+        self.crowd.course = Some(course);
+        failure
+    }
+
+    /// The motion of the crowd from `before` on, for `span` seconds. The velocities of the others are as in `after`.
+    fn course(
+        &mut self,
+        model: &Model,
+        (t, span): (f64, f64),
+        (before, after): (&State, &State),
+        loads: &mut Loads,
+    ) -> Course {
+        let parts = self.parts(model, before, span);
+        let mut course = Course {
+            start: t,
+            part: span / parts,
+            states: vec![self.crowd.part_of(before)],
+            first: before.clone(),
+            velocity: after.velocity.clone(),
+            pairs: self.crowd_pairs(model, before, span),
+            ..Course::default()
+        };
+        for k in 0..parts as usize {
+            let next = self.advance_from(&course, k, course.part, model, loads);
+            course.states.push(next);
+        }
+        course.failure = self.crowd.solver.take_failure();
+        course
+    }
+
+    /// The crowd at a time, s.
+    fn moment(&mut self, course: &mut Course, time: f64, model: &Model, loads: &mut Loads) -> State {
+        let passed = ((time - course.start) / course.part).max(0.0);
+        let last = course.states.len() - 1;
+        let k = ((passed + SAME) as usize).min(last);
+        let left = time - course.start - k as f64 * course.part;
+        if k == last || left <= SAME * course.part {
+            return course.states[k].clone();
+        }
+        let key = time - course.start;
+        if let Some((_, known)) = course.between.iter().find(|(at, _)| at.to_bits() == key.to_bits()) {
+            return known.clone();
+        }
+        let pushing = self.crowd.pushing.clone();
+        let found = self.advance_from(course, k, left, model, loads);
+        self.crowd.pushing = pushing;
+        self.crowd.solver.take_failure();
+        course.between.swap(0, 1);
+        course.between[0] = (key, found.clone());
+        found
+    }
+
+    /// The crowd some time (s) after the beginning of an interval, and before its end.
+    fn advance_from(
+        &mut self,
+        course: &Course,
+        k: usize,
+        part: f64,
+        model: &Model,
+        loads: &mut Loads,
+    ) -> State {
+        let mut crowd = std::mem::take(&mut self.crowd);
+        let passed = k as f64 * course.part;
+        let time = course.start + passed;
+        let mut now = course.first.clone();
+        for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
+            // What is not in the crowd goes on as it does.
+            *location += passed * *velocity;
+        }
+        for (at, &body) in crowd.bodies.iter().enumerate() {
+            now.location[body] = course.states[k].location[at];
+            now.velocity[body] = course.states[k].velocity[at];
+            now.orientation[body] = course.states[k].orientation[at];
+            now.angular_momentum[body] = course.states[k].angular_momentum[at];
+        }
+        now.accounts = course.states[k].accounts;
+        model.place(time, &mut now);
+        let closed = self.crowd_places(model, &now, &course.pairs, part);
+        crowd.advance(closed, model, (time, part), &mut now, loads);
+        if !model.constraints().is_empty() {
+            crowd.solver.take_contacts(Vec::new());
+            crowd.solver.hold_joints(model, time + part, &now);
+            crowd.solver.settle(model, time + part, &mut now);
+        }
+        let part = crowd.part_of(&now);
+        self.crowd = crowd;
+        part
+    }
+
+    /// The pairs whose impacts are the crowd's business, as far as they can meet within a step of `dt`.
+    fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
+        let margin = |i: usize| match &self.solids[i] {
+            Some(solid) if self.crowd.bodies.contains(&i) => {
+                let speed =
+                    state.velocity[i].length() + model.angular_velocity(i, state).length() * solid.reach();
+                2.0 * speed * dt + 0.1 * solid.size()
+            }
+            _ => 0.0,
+        };
+        let margins: Vec<f64> = (0..self.solids.len()).map(margin).collect();
+        let mut pairs = near(&self.contacts, &self.solids, &margins, (model, state));
+        pairs.retain(|pair| self.crowd.holds(pair.bodies, model));
+        pairs
+    }
+
+    /// In how many parts a step is made.
+    fn parts(&self, model: &Model, state: &State, dt: f64) -> f64 {
+        let way = |&i: &usize| {
+            let (size, reach) =
+                self.solids[i].as_ref().map_or((f64::INFINITY, 0.0), |solid| (solid.size(), solid.reach()));
+            let speed = state.velocity[i].length() + model.angular_velocity(i, state).length() * reach;
+            speed * dt / (FAR * size)
+        };
+        self.crowd.bodies.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
+    }
+
+    /// The places at which bodies of the crowd can meet within a time, s.
+    fn crowd_places(&self, model: &Model, state: &State, pairs: &[Pair], part: f64) -> Vec<Arc<Closed>> {
+        let mut all = Vec::new();
+        for pair in pairs {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let speed = |i: usize, solid: &Solid| {
+                let reach = if solid.reach().is_finite() { solid.reach() } else { 0.0 };
+                state.velocity[i].length() + model.angular_velocity(i, state).length() * reach
+            };
+            let way = 2.0 * part * (speed(pair.bodies[0], x) + speed(pair.bodies[1], y));
+            let within = way.clamp(0.1 * close([x, y]), 10.0 * close([x, y]));
+            all.extend(self.places_within(model, state, pair, [x, y], within));
+        }
+        all
+    }
+
+    /// All places at which two bodies are nearer than `within`, m.
+    fn places_within(
+        &self,
+        model: &Model,
+        state: &State,
+        pair: &Pair,
+        [x, y]: [&Solid; 2],
+        within: f64,
+    ) -> Vec<Arc<Closed>> {
+        let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+        if nearest(x, &p, y, &q, f64::INFINITY).is_none_or(|near| near.gap > within) {
+            return Vec::new();
+        }
+        let closed = |touch| Closed {
+            bodies: pair.bodies,
+            touch,
+            law: pair.law,
+            size: self.size(pair.bodies),
+            heading: heading(touch.meeting.normal),
+            still: 0.0,
+        };
+        touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
+    }
+
+    /// The end of a step. Gives the places at which bodies of the crowd touch now, or why they cannot go on.
+    pub(in crate::dynamics) fn end_course(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: &State,
+    ) -> Result<Vec<Arc<Closed>>, Breakdown> {
+        let mut all = Vec::new();
+        for pair in self.crowd_pairs(model, state, 0.0) {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let size = self.size(pair.bodies);
+            let is_pushing = self.crowd.pushing.contains(&pair.bodies);
+            let touching = NEAR * scale(pair.bodies, [x, y], state);
+            let within = if is_pushing { GRASP * size } else { touching };
+            let places = self.places_within(model, state, &pair, [x, y], within);
+            if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
+                let bodies = pair.bodies.map(BodyId::new);
+                return Err(Breakdown::Jammed { bodies, time });
+            }
+            all.extend(places);
+        }
+        self.crowd.pushing.clear();
+        self.crowd.course = None;
+        Ok(all)
+    }
+}
+
+impl Crowd {
+    /// Its part of a state.
+    fn part_of(&self, state: &State) -> State {
+        State {
+            location: self.bodies.iter().map(|&i| state.location[i]).collect(),
+            velocity: self.bodies.iter().map(|&i| state.velocity[i]).collect(),
+            orientation: self.bodies.iter().map(|&i| state.orientation[i]).collect(),
+            angular_momentum: self.bodies.iter().map(|&i| state.angular_momentum[i]).collect(),
+            accounts: state.accounts,
+        }
+    }
+
+    /// Makes one part of a step.
+    fn advance(
+        &mut self,
+        closed: Vec<Arc<Closed>>,
+        model: &Model,
+        (t, part): (f64, f64),
+        now: &mut State,
+        loads: &mut Loads,
+    ) {
+        let solver = &mut self.solver;
+        let joints = model.constraints().len();
+        self.pushing.clear();
+        if closed.is_empty() && joints == 0 {
+            solver.take_contacts(closed);
+            self.fly(model, 0.5 * part, now);
+            model.sum(t + 0.5 * part, now, loads);
+            self.kick(model, part, now, loads);
+            self.fly(model, 0.5 * part, now);
+            return;
+        }
+        let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
+        solver.take_contacts(closed);
+        solver.forget();
+        // What comes nearer stops where it would touch at the end of the part.
+        solver.prepare_sweeps(model, t, now);
+        let mut goals: Vec<f64> = solver.gaps().iter().map(|gap| -gap / part).collect();
+        solver.push_all(model, &goals, Purpose::Impact, now);
+        solver.rates_of(model, now);
+        solver.halve_slips(&mut goals);
+        self.fly(model, 0.5 * part, now);
+        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
+        model.place(t + 0.5 * part, now);
+        model.sum(t + 0.5 * part, now, loads);
+        self.kick(model, 0.5 * part, now, loads);
+        let solver = &mut self.solver;
+        solver.prepare_sweeps(model, t + 0.5 * part, now);
+        solver.check_slips(&mut goals);
+        solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
+        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
+            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
+            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
+        }
+        self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
+        self.fly(model, 0.5 * part, now);
+        model.place(t + part, now);
+        self.solver.separate(t + part, now);
+    }
+
+    /// Lets bodies move freely for a time, s.
+    fn fly(&self, model: &Model, time: f64, now: &mut State) {
+        self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
+    }
+
+    /// Lets forces change velocities for a time, s.
+    fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
+        for &i in &self.bodies {
+            now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
+            now.angular_momentum[i] += time * loads.torque[i];
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Groups of bodies that do not meet within a step: each can be advanced on its own.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::super::{Model, State};
+use super::approach::{Approach, TOUCH};
+use super::closed::Closed;
+use super::collider::{Collider, NEAR, SLIGHT, is_passive, scale};
+use super::nearest::nearest;
+use super::pairs::{Pair, way};
+use super::path::{Path, pose};
+
+/// Bodies belong together where they could meet if each went so many times as far as it does without others.
+const GENEROUS: f64 = 2.0;
+
+/// Bodies that can meet each other within a step, and nobody else but what nothing moves.
+pub(in crate::dynamics) struct Group {
+    /// Their numbers, in rising order.
+    pub(in crate::dynamics) bodies: Vec<usize>,
+    /// Whether bodies touch in it, now or within the step.
+    pub(in crate::dynamics) is_busy: bool,
+    pairs: Vec<Pair>,
+}
+
+/// All bodies in groups.
+pub(in crate::dynamics) struct Parting {
+    pub(in crate::dynamics) groups: Vec<Group>,
+    /// The pairs of bodies of two groups.
+    between: Vec<Pair>,
+    /// The way of each body within the step where it meets nobody, and the way that it has taken, m.
+    free: Vec<f64>,
+    taken: Vec<f64>,
+    /// How many impacts there had been before.
+    impacts: usize,
+}
+
+/// What is advanced at present, where that is one group.
+#[derive(Clone, Default)]
+pub(super) struct Focus {
+    pub(super) bodies: Vec<usize>,
+    /// The way that each of them has taken, m.
+    taken: Vec<f64>,
+    /// The bodies of other groups that are advanced by time-stepping.
+    others: BTreeSet<usize>,
+}
+
+/// Sets of bodies that are united little by little: each body knows one of its set, and the first one itself.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn first(&mut self, body: usize) -> usize {
+        let mut first = body;
+        while self.0[first] != first {
+            self.0[first] = self.0[self.0[first]];
+            first = self.0[first];
+        }
+        first
+    }
+
+    fn unite(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}
+
+impl Collider {
+    /// The groups of bodies within a step of `duration` seconds. `after` is its end where nobody meets anybody; `held` are bodies that are
+    /// held at rest together.
+    pub(in crate::dynamics) fn part<'a>(
+        &mut self,
+        model: &Model,
+        (before, after): (&State, &State),
+        duration: f64,
+        closed: &[Arc<Closed>],
+        held: impl Iterator<Item = &'a BTreeSet<usize>>,
+    ) -> Parting {
+        self.follow(model, (before, after), duration);
+        let Collider { solids, pairs, paths, fastest, crowd, .. } = self;
+        let free: Vec<f64> = (0..model.len()).map(|i| way(solids[i].as_ref(), &paths[i])).collect();
+        let mut sets = Sets((0..model.len()).collect());
+        let mut is_busy = vec![false; model.len()];
+        for island in held {
+            island.iter().zip(island.iter().skip(1)).for_each(|(&a, &b)| sets.unite(a, b));
+        }
+        let mut unite = |[a, b]: [usize; 2]| {
+            if model.can_move(a) && model.can_move(b) {
+                sets.unite(a, b);
+            }
+        };
+        crowd.bodies().for_each(|&body| is_busy[body] = true);
+        for contact in closed {
+            unite(contact.bodies);
+            contact.bodies.iter().for_each(|&body| is_busy[body] = true);
+        }
+        for pair in &mut pairs.list {
+            let [a, b] = pair.bodies;
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            if is_passive(pair.bodies, model) {
+                continue;
+            }
+            let (ways, scale) = (free[a] + free[b], scale(pair.bodies, [x, y], before));
+            let (touch, meet) = (NEAR * scale, NEAR * scale + (GENEROUS - 1.0) * ways);
+            if pair.free > meet {
+                continue;
+            }
+            let poses = [a, b].map(|i| pose(i, model, before));
+            let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
+            pair.free = near.gap - ways;
+            if pair.free <= meet {
+                unite(pair.bodies);
+            }
+            if pair.free > touch || is_busy[a] && is_busy[b] {
+                continue;
+            }
+            let speed = (before.velocity[b] - before.velocity[a]).length();
+            let slight = 2.0 * SLIGHT * fastest.max(speed);
+            let approach =
+                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: TOUCH * scale };
+            if approach.first(duration).is_some() {
+                (is_busy[a], is_busy[b]) = (true, true);
+            }
+        }
+        let mut groups: Vec<Group> = Vec::new();
+        let mut group_of: Vec<Option<usize>> = vec![None; model.len()];
+        for body in (0..model.len()).filter(|&body| model.can_move(body)) {
+            let first = sets.first(body);
+            let group = *group_of[first].get_or_insert_with(|| {
+                groups.push(Group { bodies: Vec::new(), is_busy: false, pairs: Vec::new() });
+                groups.len() - 1
+            });
+            group_of[body] = Some(group);
+            groups[group].bodies.push(body);
+            groups[group].is_busy |= is_busy[body];
+        }
+        let mut between = Vec::new();
+        for pair in &pairs.list {
+            match pair.bodies.map(|body| group_of[body]) {
+                [Some(a), Some(b)] if a != b => between.push(pair.clone()),
+                [Some(group), _] | [_, Some(group)] => groups[group].pairs.push(pair.clone()),
+                [None, None] => {}
+            }
+        }
+        Parting { groups, between, taken: free.clone(), free, impacts: self.impacts.len() }
+    }
+
+    /// From now on, only one group is advanced.
+    pub(in crate::dynamics) fn focus(&mut self, group: &mut Group) {
+        self.pairs.list = std::mem::take(&mut group.pairs);
+        let (bodies, taken) = (group.bodies.clone(), vec![0.0; group.bodies.len()]);
+        let others = self.crowd.focus(&bodies);
+        self.focus = Some(Focus { bodies, taken, others });
+    }
+
+    /// Told at the end of a piece of `duration` seconds: notes how far the bodies of the group have moved.
+    pub(in crate::dynamics) fn note_ways(
+        &mut self,
+        model: &Model,
+        before: &State,
+        after: &State,
+        duration: f64,
+    ) {
+        let Some(Focus { bodies, taken, .. }) = self.focus.as_mut().filter(|_| duration > 0.0) else {
+            return;
+        };
+        for (&i, taken) in bodies.iter().zip(taken) {
+            *taken += way(self.solids[i].as_ref(), &Path::of(i, model, before, after, duration));
+        }
+    }
+
+    /// The group has been advanced.
+    pub(in crate::dynamics) fn unfocus(&mut self, group: &mut Group, parting_ways: &mut [f64]) {
+        let Some(Focus { bodies, taken, others }) = self.focus.take() else { return };
+        self.crowd.unfocus(others);
+        group.pairs = std::mem::take(&mut self.pairs.list);
+        bodies.iter().zip(taken).for_each(|(&i, taken)| parting_ways[i] = taken);
+    }
+
+    /// All groups have been advanced, and all bodies are looked at again. Returns whether no group can have met another one;
+    /// if one can, the step is to be made anew.
+    pub(in crate::dynamics) fn unite(&mut self, state: &State, mut parting: Parting) -> bool {
+        let more: Vec<f64> =
+            parting.taken.iter().zip(&parting.free).map(|(taken, free)| taken - free).collect();
+        let mut are_apart = self.pairs.go_farther(&more);
+        let Collider { solids, pairs, .. } = self;
+        for pair in &mut parting.between {
+            let [a, b] = pair.bodies;
+            pair.free -= more[a] + more[b];
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
+            are_apart &= pair.free > NEAR * scale(pair.bodies, [x, y], state);
+        }
+        let groups = parting.groups.into_iter().flat_map(|group| group.pairs);
+        pairs.list = parting.between.into_iter().chain(groups).collect();
+        pairs.list.sort_by_key(|pair| pair.bodies);
+        if are_apart {
+            self.impacts[parting.impacts..].sort_by(|a, b| a.time.total_cmp(&b.time));
+        } else {
+            self.impacts.truncate(parting.impacts);
+            self.pairs.forget();
+        }
+        are_apart
+    }
+}
+
+impl Parting {
+    /// The groups in which something happens, and room for the ways of their bodies.
+    pub(in crate::dynamics) fn busy(&mut self) -> (impl Iterator<Item = &mut Group>, &mut [f64]) {
+        (self.groups.iter_mut().filter(|group| group.is_busy), &mut self.taken)
+    }
+}

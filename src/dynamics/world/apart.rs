@@ -1,0 +1,140 @@
+//! Steps in which groups of bodies that do not meet are advanced one after another.
+//!
+//! An event ends a piece of a step for all bodies that are advanced together. Where many bodies touch others far from each other, each
+//! event would cost the time of all. So bodies that meet nobody make one step, and each group in which something happens makes its own.
+
+use super::World;
+use crate::dynamics::constraint::Solver;
+use crate::dynamics::contact::{Collider, Parting};
+use crate::dynamics::{Snapshot, State};
+
+/// It takes so many groups to be worth while.
+const GROUPS: usize = 4;
+
+/// After a step in which there were fewer, so many are made together.
+const TOGETHER: u32 = 8;
+
+impl World {
+    /// Makes a step in groups, if there are enough of them. Otherwise nothing has changed.
+    pub(super) fn step_apart(
+        &mut self,
+        t: f64,
+        dt: f64,
+        moments: &[f64],
+        see: &mut dyn FnMut(Snapshot),
+    ) -> bool {
+        self.together = self.together.saturating_sub(1);
+        let has_enough =
+            || (0..self.model.len()).filter(|&i| self.model.can_move(i)).nth(GROUPS - 1).is_some();
+        if self.together > 0 || self.collider.is_none() || !self.model.is_local() || !has_enough() {
+            return false;
+        }
+        let start = self.state.clone();
+        let whole = std::mem::take(&mut self.solver);
+        self.solver = whole.part(Vec::new());
+        self.integrator.discontinuity();
+        self.fly(t, dt);
+        let Some(collider) = &mut self.collider else { return false };
+        let ends = (&start, &self.state);
+        let parting = collider.part(&self.model, ends, dt, whole.contacts(), self.rest.held());
+        let is_busy = parting.groups.iter().any(|group| group.is_busy);
+        if is_busy && parting.groups.len() < GROUPS {
+            self.state = start;
+            self.solver = whole;
+            self.integrator.discontinuity();
+            self.together = TOGETHER;
+            return false;
+        }
+        if !moments.is_empty() {
+            let mut copy = self.clone();
+            copy.state.clone_from(&start);
+            copy.solver = whole.clone();
+            copy.integrator.discontinuity();
+            copy.decide_all(t);
+            copy.follow_events(t, dt, moments, see);
+        }
+        if is_busy { self.advance_groups(t, dt, &start, (whole, parting)) } else { true }
+    }
+
+    /// Advances the groups in which something happens, after a step of all bodies in which nobody meets anybody.
+    fn advance_groups(
+        &mut self,
+        t: f64,
+        dt: f64,
+        start: &State,
+        (mut whole, mut parting): (Solver, Parting),
+    ) -> bool {
+        let mut end = self.state.clone();
+        let held = self.rest.clone();
+        let mut parts = Vec::new();
+        let (groups, ways) = parting.busy();
+        for group in groups {
+            self.state.clone_from(start);
+            self.integrator.discontinuity();
+            let is_own = |body: &usize| group.bodies.binary_search(body).is_ok();
+            let own = whole.contacts().iter().filter(|contact| contact.bodies.iter().any(is_own));
+            let own: Vec<_> = own.cloned().collect();
+            let known = self.parts.iter().position(|part| part.has(&own));
+            self.solver = known.map_or_else(|| whole.part(own), |known| self.parts.swap_remove(known));
+            self.solver.calm();
+            let Some(collider) = &mut self.collider else { return false };
+            collider.focus(group);
+            if known.is_none() {
+                self.decide_contacts(t);
+            }
+            self.follow_events(t, dt, &[], &mut |_| {});
+            let Some(collider) = &mut self.collider else { return false };
+            collider.unfocus(group, ways);
+            for &i in &group.bodies {
+                end.location[i] = self.state.location[i];
+                end.velocity[i] = self.state.velocity[i];
+                end.orientation[i] = self.state.orientation[i];
+                end.angular_momentum[i] = self.state.angular_momentum[i];
+            }
+            end.accounts.add(1.0, self.state.accounts);
+            end.accounts.add(-1.0, start.accounts);
+            parts.push(std::mem::take(&mut self.solver));
+        }
+        let Some(collider) = &mut self.collider else { return false };
+        let have_failed = parts.iter().any(Solver::has_failed);
+        let are_apart = collider.unite(&end, parting);
+        if !are_apart && !have_failed {
+            // Somebody was struck so hard that it may have met another group: this step is made together.
+            self.state.clone_from(start);
+            self.solver = whole;
+            self.regain(held, t);
+            self.integrator.discontinuity();
+            return false;
+        }
+        self.state = end;
+        whole.unite(&parts);
+        self.parts = parts;
+        self.solver = whole;
+        self.is_decided = self.solver.contacts().is_empty();
+        self.integrator.discontinuity();
+        true
+    }
+
+    /// The same world, in which it is known what each contact does, for somebody who looks.
+    pub(super) fn decided(&self) -> Option<World> {
+        let is_crowded = self.collider.as_ref().is_some_and(Collider::is_crowded);
+        if self.is_decided && !is_crowded {
+            return None;
+        }
+        let mut copy = self.clone();
+        if let Some(collider) = &mut copy.collider {
+            collider.release();
+        }
+        copy.disperse(self.time);
+        copy.decide_all(self.time);
+        copy.state.clone_from(&self.state);
+        Some(copy)
+    }
+
+    /// Finds out what each contact does, where that is not known.
+    pub(super) fn decide_all(&mut self, t: f64) {
+        if !self.is_decided {
+            self.decide_contacts(t);
+        }
+    }
+}

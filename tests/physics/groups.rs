@@ -1,0 +1,90 @@
+//! Groups of bodies that do not meet are advanced one after another: that must change nothing.
+
+use jabuka::simulate::Frame;
+use jabuka::{Run, Scene};
+
+/// All frames of a scene.
+#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
+fn frames(text: &str) -> Vec<Frame> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    Run::new(&scene).unwrap().frames().map(Result::unwrap).collect()
+}
+
+/// Boxes that tumble on a floor, `apart` metres from each other, and a ball that hits the first one.
+fn boxes(count: usize, apart: f64) -> String {
+    format!(
+        r#"
+        [simulation]
+        duration = 0.8
+        frame_rate = 50
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [defaults.body]
+        restitution = 0.3
+        friction = 0.4
+        [body.box]
+        repeat = {count}
+        shape.box.size = [0.4, 0.3, 0.2]
+        mass = 1
+        location = ["{apart}*i", "0.4 + 0.03*i", 0]
+        orientation = ["20 + 7*i", 0, 35]
+        angular_velocity = ["1 + 0.3*i", 0, 2]
+        "#
+    )
+}
+
+/// Six boxes far from each other fall as each of them alone would, but for what counts as rest: that is 1e-8 of the fastest approach of all.
+/// Tumbling makes the difference larger by some orders.
+#[test]
+fn what_is_far_away_has_no_influence() {
+    let together = frames(&boxes(6, 3.0));
+    assert!(together.iter().any(|frame| frame.balance.accounts.impacts < -1.0), "nothing has hit the floor");
+    for i in 0..6 {
+        let alone = boxes(1, 3.0).replace("*i", &format!("*{i}"));
+        let alone = frames(&alone);
+        for (one, all) in alone.iter().zip(&together) {
+            let (one, all) = (&one.bodies[0], &all.bodies[i]);
+            assert!((one.location - all.location).length() < 1e-4, "{i}: {} {}", one.location, all.location);
+        }
+    }
+}
+
+/// The first of six balls is so fast that it passes its impulse on to all of them within one step, although none is near the next: each
+/// stops the one before where it was.
+#[test]
+fn an_impulse_goes_through_all_groups_within_a_step() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.04
+        frame_rate = 25
+        step = 0.04
+        integrator = "velocity-verlet"
+        contacts = "event-driven"
+        [defaults.body]
+        restitution = 1
+        friction = 0
+        [body.ball]
+        repeat = 6
+        shape.sphere.radius = 0.1
+        mass = 1
+        location = ["i", 1, 0]
+        velocity = ["if(i == 0, 200, 0)", 0, 0]
+        [body.floor]
+        shape.box.size = [20, 0.2, 2]
+        location = [0, -1, 0]
+        fixed = true
+        "#,
+    );
+    let last = &frames[1].bodies;
+    for (i, body) in last[..5].iter().enumerate() {
+        // Where it was hit: a diameter before the next one.
+        let place = if i == 0 { 0.8 } else { i as f64 + 0.8 };
+        assert!((body.location.x - place).abs() < 1e-9, "{i}: {}", body.location.x);
+        assert!(body.velocity.length() < 1e-9, "{i}: {}", body.velocity);
+    }
+    assert!((last[5].velocity.x - 200.0).abs() < 1e-9, "{}", last[5].velocity);
+    // Five diameters of the way of 8 m are those that the impulse has jumped.
+    assert!((last[5].location.x - (8.0 + 5.0 * 0.2)).abs() < 1e-9, "{}", last[5].location.x);
+}
