@@ -22,7 +22,7 @@ const OPTIONS = [
 const OF_DRIVER = /GL Driver Message .* GPU stall due to ReadPixels/;
 
 /** However busy the machine is, a page has done what it should by then. */
-export const LONG = 60_000;
+export const LONG = 240_000;
 
 export async function launch(more = []) {
   const executablePath = process.env.JABUKA_BROWSER ?? PROGRAMS.find(existsSync);
