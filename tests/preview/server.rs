@@ -29,14 +29,15 @@ impl Scene {
         Scene { name: "scene".to_owned(), ..Scene::in_folder() }.with("scene.toml", text)
     }
 
-    /// A copy of a scene of the gallery.
+    /// A copy of a scene of the gallery, with all meshes.
     pub(crate) fn gallery(name: &str) -> Scene {
         let text = fs::read_to_string(scene(name)).unwrap();
-        let mesh = "meshes/twisted_ring.obj";
-        let ring = fs::read_to_string(root().join("scenes").join(mesh)).unwrap();
-        Scene { name: name.to_owned(), ..Scene::in_folder() }
-            .with(&format!("{name}.toml"), &text)
-            .with(mesh, &ring)
+        let copy = Scene { name: name.to_owned(), ..Scene::in_folder() }.with(&format!("{name}.toml"), &text);
+        fs::read_dir(root().join("scenes/meshes")).unwrap().fold(copy, |copy, mesh| {
+            let path = mesh.unwrap().path();
+            let name = format!("meshes/{}", path.file_name().unwrap().to_str().unwrap());
+            copy.with(&name, &fs::read_to_string(path).unwrap())
+        })
     }
 
     fn in_folder() -> Scene {
