@@ -56,7 +56,7 @@ pub struct World {
     is_decided: bool,
     /// What is known of the contacts of each group.
     parts: Vec<Solver>,
-    /// So many steps are made together before groups are looked for again.
+    /// In this many steps, groups are looked for again.
     together: u32,
     /// Room for the state before a step that is looked into.
     before: State,

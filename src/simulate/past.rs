@@ -47,7 +47,7 @@ pub struct Ghost {
 pub(super) struct History {
     /// What each body asks for that asks for something.
     asks: Arc<[(usize, Showing)]>,
-    /// For each of them, its mass, kg: infinite if nothing pushes it.
+    /// For each of them, its mass, kg. That of a body that no force moves is infinite.
     masses: Arc<[f64]>,
     /// For each of them, the points of its trail, each with the number of its frame, or of the one after it.
     ways: Vec<Vec<(usize, Passed)>>,

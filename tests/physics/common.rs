@@ -4,6 +4,8 @@ use glam::DVec3;
 use jabuka::dynamics::{
     Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, State, World,
 };
+use jabuka::simulate::Frame;
+use jabuka::{Run, Scene};
 
 /// A field B that swings with time; on each body, a force B and, as on a magnet along its x axis, a torque R x × B:
 /// loads that depend on time and on orientation. Defined here, from outside: the list of forces is open.
@@ -102,4 +104,11 @@ pub(crate) fn distance(a: &State, b: &State) -> f64 {
             .max((a.angular_momentum[i] - b.angular_momentum[i]).length());
     }
     largest
+}
+
+/// All frames of a scene.
+#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
+pub(crate) fn frames(text: &str) -> Vec<Frame> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    Run::new(&scene).unwrap().frames().map(Result::unwrap).collect()
 }

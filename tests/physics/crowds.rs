@@ -1,14 +1,8 @@
-//! Bodies with so many events that they are advanced by time-stepping, and bodies that are held at rest.
+//! Two ways in which bodies leave the events: those with too many are advanced by time-stepping, and those at rest are held.
 
 use jabuka::simulate::Frame;
-use jabuka::{Run, Scene};
 
-/// All frames of a scene.
-#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
-fn frames(text: &str) -> Vec<Frame> {
-    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
-    Run::new(&scene).unwrap().frames().map(Result::unwrap).collect()
-}
+use crate::common::frames;
 
 /// The largest drift of the energy in all frames.
 fn drift(frames: &[Frame]) -> f64 {

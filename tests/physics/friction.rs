@@ -17,7 +17,7 @@ fn headings() -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// A ball of mass 1 on a plane, whose surface gives the friction.
+/// A ball of mass 1 that touches a plane. `friction` is the surface of the ball; the plane has none of its own.
 fn ball_on_plane(
     method: &'static jabuka::dynamics::Method,
     normal: DVec3,

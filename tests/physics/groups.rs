@@ -1,14 +1,6 @@
 //! Groups of bodies that do not meet are advanced one after another: that must change nothing.
 
-use jabuka::simulate::Frame;
-use jabuka::{Run, Scene};
-
-/// All frames of a scene.
-#[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
-fn frames(text: &str) -> Vec<Frame> {
-    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
-    Run::new(&scene).unwrap().frames().map(Result::unwrap).collect()
-}
+use crate::common::frames;
 
 /// Balls that spin, bounce and roll on a floor, three metres from each other; the first of them has number `first`.
 fn balls(count: usize, first: usize) -> String {

@@ -6,9 +6,9 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Solves A λ = b in `unknown` for the rows that hold, with the pushes of what slides. These depend on λ themselves: the normal
-    /// forces n of contacts that slide are an affine function of their pushes, n = c + K n, which a small dense system solves.
-    /// Returns whether there is a solution.
+    /// Solves A λ = b in `unknown` for the rows that hold, where contacts slide. Their friction is μ n, and friction changes the normal
+    /// forces n in turn: n = c + K n, with c the normal forces without friction. A small dense system gives n. Returns whether there is a
+    /// solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
         let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();

@@ -206,7 +206,7 @@ impl Solver {
         }
     }
 
-    /// The same where only stops push, and these without friction.
+    /// The same, but only stops push, and there is no friction.
     fn sweep_stops(&mut self, goals: &[f64], before: &[f64]) {
         self.unknown.fill(0.0);
         let size = goals.iter().chain(before).fold(0.0_f64, |most, goal| most.max(*goal));

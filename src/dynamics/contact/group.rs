@@ -11,7 +11,7 @@ use super::nearest::nearest;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
-/// Bodies belong together where they could meet if each went so many times as far as it does without others.
+/// Two bodies are in one group if they could meet, were each to move this many times as far as it does alone: impacts make bodies faster.
 const GENEROUS: f64 = 2.0;
 
 /// Bodies that can meet each other within a step, and nobody else but what nothing moves.
@@ -45,7 +45,7 @@ pub(super) struct Focus {
     others: BTreeSet<usize>,
 }
 
-/// Sets of bodies that are united little by little: each body knows one of its set, and the first one itself.
+/// Disjoint sets of bodies, as a union–find forest: each body points to another one of its set, and the first one to itself.
 struct Sets(Vec<usize>);
 
 impl Sets {

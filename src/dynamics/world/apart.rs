@@ -8,10 +8,10 @@ use crate::dynamics::constraint::Solver;
 use crate::dynamics::contact::{Collider, Parting};
 use crate::dynamics::{Snapshot, State};
 
-/// It takes so many groups to be worth while.
+/// The fewest groups that are advanced on their own.
 const GROUPS: usize = 4;
 
-/// After a step in which there were fewer, so many are made together.
+/// After a step with fewer groups, all bodies are advanced together for this many steps before groups are looked for again.
 const TOGETHER: u32 = 8;
 
 impl World {

@@ -18,7 +18,7 @@ use crate::scene::{Body, Color, Emitter, Simulation};
 const MAX_ALIVE: f64 = 1_000_000.0;
 /// More timesteps before the run than anybody wants to wait for.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
-/// More births before the run than numbers with a fraction can tell apart.
+/// Births before the run are numbered, and from about this number on an `f64` cannot tell their times apart.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
 /// So many values of a formula with random numbers are looked at.
 const DRAWS: u64 = 4096;

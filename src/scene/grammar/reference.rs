@@ -154,8 +154,8 @@ linear = 1e-6
 on = [\"sparks\"]
 ```
 
-A particle is a small ball that is born, moves and dies. Gravity acts on it, as do forces without `on` and forces that name its emitter
-in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
+A particle is a small ball that an emitter sends out and that dies some time later. Three things act on it: gravity, forces without
+`on`, and forces that name its emitter in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
 bodies nor on each other, and pass through all of them. They have no part in the energy balance, in labels or in tables.
 
 - **Births**: `rate` sends out one after another at even intervals, each at its exact time, also between two steps. `burst` sends out

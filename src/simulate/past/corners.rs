@@ -6,7 +6,7 @@ use super::way::Passed;
 use crate::dynamics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
-/// The most impacts between two points of a trail. Where there are more, they are too near each other to be seen.
+/// A trail shows at most so many impacts between two of its points. More would be too near each other to be told apart.
 pub(super) const MOST: usize = 4;
 
 /// A body at a moment.
