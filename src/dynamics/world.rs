@@ -204,13 +204,18 @@ impl World {
     /// Must stand before every change by hand: the books of energy and the integrator rely on it.
     fn about_to_change(&mut self) {
         self.let_all_go();
+        self.about_to_change_some();
+        if let Some(collider) = &mut self.collider {
+            collider.forget();
+        }
+    }
+
+    /// The same, where nothing changes for those that are held at rest.
+    fn about_to_change_some(&mut self) {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
         self.solver.forget();
         self.parts.clear();
-        if let Some(collider) = &mut self.collider {
-            collider.forget();
-        }
         self.is_settled = false;
     }
 

@@ -18,6 +18,7 @@ mod friction;
 mod gravitation;
 mod groups;
 mod guided;
+mod heaps;
 mod impacts;
 mod joints;
 mod order;

@@ -31,6 +31,7 @@ mod sliding;
 mod solver;
 mod structure;
 mod sweep;
+mod warm;
 
 pub use ball::Ball;
 pub use coordinate::Coordinate;

@@ -15,6 +15,7 @@ use super::member::{Member, Nature};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
 use super::sweep::Column;
+use super::warm::Warm;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
 /// An equation that is off by more than this part of its scale after all that was tried is a failure.
@@ -75,6 +76,10 @@ pub(in crate::dynamics) struct Solver {
     pub(super) unknown: Vec<f64>,
     /// What impulses along the rows do, where they are found by sweeps.
     pub(super) columns: Vec<Column>,
+    /// The forces that sweeps have found last.
+    pub(super) warm: Warm,
+    /// Whether all forces are found by sweeps, since there are no joints.
+    pub(super) is_loose: bool,
     /// A row for which nothing that it may do was right, when this was decided last.
     pub(super) undecided: Option<usize>,
     pub(super) trial: State,
@@ -176,7 +181,8 @@ impl Solver {
 
     #[cold]
     fn make_structure(&mut self, model: &Model) {
-        let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
+        // Where nothing holds for sure, nothing is factorised.
+        let can_move = |body: usize| !self.is_loose && model.inverse_mass()[body] != 0.0;
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
         self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
@@ -187,7 +193,7 @@ impl Solver {
             self.first_row[place.constraint] = Some(place.row);
         }
         self.factor = Factor::new(&structure);
-        if !self.contacts.is_empty() {
+        if !self.contacts.is_empty() && !self.is_loose {
             let mut soft = vec![None; structure.rows];
             for place in structure.places.iter().filter(|place| place.constraint >= model.constraints().len())
             {

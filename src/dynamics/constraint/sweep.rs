@@ -10,12 +10,16 @@ use super::friction::Grip;
 use super::jacobian::{move_members, product, products, push};
 use super::member::Member;
 use super::solver::Solver;
+use super::structure::Structure;
 
 /// So many sweeps are made at most.
 const SWEEPS: usize = 300;
 
 /// Sweeps end when they change rates by less than this part of the largest one.
-const SETTLED: f64 = 1e-10;
+const SETTLED: f64 = 1e-7;
+
+/// Sweeps that move bodies apart end when they move them by less than this part of the largest overlap.
+const APART: f64 = 1e-5;
 
 /// What the impulses are for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +48,11 @@ impl Column {
 }
 
 impl Solver {
+    /// From now on, all forces are found by sweeps.
+    pub(in crate::dynamics) fn find_by_sweeps(&mut self, model: &Model) {
+        self.is_loose = model.constraints().is_empty();
+    }
+
     /// Measures all equations at a state, and takes out of the velocities what the joints do not allow. What follows relies on it.
     pub(in crate::dynamics) fn prepare_sweeps(&mut self, model: &Model, t: f64, state: &mut State) {
         self.hold_joints(model, t, state);
@@ -57,6 +66,9 @@ impl Solver {
         if self.laws[row] == Law::Tie {
             return Column::default();
         }
+        if !self.held.contains(&true) {
+            return self.free_column(structure, row);
+        }
         let mut moved: Vec<Member> = self.members.clone();
         for member in &mut moved {
             (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
@@ -64,18 +76,29 @@ impl Solver {
         let mut unknown = vec![0.0; self.rows.len()];
         unknown[row] = 1.0;
         move_members(structure, &self.jacobian, &unknown, &mut moved);
-        if self.held.contains(&true) {
-            products(structure, &self.jacobian, &moved, &mut unknown);
-            unknown.iter_mut().for_each(|rate| *rate = -*rate);
-            self.factor.solve(&mut unknown);
-            move_members(structure, &self.jacobian, &unknown, &mut moved);
-        }
+        products(structure, &self.jacobian, &moved, &mut unknown);
+        unknown.iter_mut().for_each(|rate| *rate = -*rate);
+        self.factor.solve(&mut unknown);
+        move_members(structure, &self.jacobian, &unknown, &mut moved);
         let weight = product(structure, &self.jacobian, &moved, row).0;
         let moves =
             |member: &Member| member.velocity != DVec3::ZERO || member.angular_velocity != DVec3::ZERO;
         let changes = moved.iter().enumerate().filter(|(_, member)| moves(member));
         let changes = changes.map(|(i, member)| (i, member.velocity, member.angular_velocity)).collect();
         Column { changes, weight }
+    }
+
+    /// The same where no joint holds bodies: only those of the row itself move.
+    fn free_column(&self, structure: &Structure, row: usize) -> Column {
+        let mut column = Column::default();
+        for direction in &self.jacobian[structure.directions_of(row)] {
+            let change = self.members[direction.member].weigh(direction);
+            column.weight += direction.linear.dot(change.linear) + direction.angular.dot(change.angular);
+            if change.linear != DVec3::ZERO || change.angular != DVec3::ZERO {
+                column.changes.push((direction.member, change.linear, change.angular));
+            }
+        }
+        column
     }
 
     /// Gives the bodies the impulses that contacts, limits and motors exert, after [`prepare_sweeps`](Self::prepare_sweeps) at these
@@ -188,12 +211,21 @@ impl Solver {
 
     fn rate_of(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
-        product(structure, &self.jacobian, &self.members, row).0 + self.rows[row].rate
+        // As in `product`, but nobody needs to know how large the terms are.
+        let mut rate = self.rows[row].rate;
+        for direction in &self.jacobian[structure.directions_of(row)] {
+            let member = &self.members[direction.member];
+            rate += direction.linear.dot(member.velocity) + direction.angular.dot(member.angular_velocity);
+        }
+        rate
     }
 
     /// Finds the impulses in `unknown`, and changes the velocities of the members by them.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
         self.unknown.fill(0.0);
+        if let Purpose::Forces(time) = purpose {
+            self.start_warm(time);
+        }
         let fastest = before.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         for _ in 0..SWEEPS {
             let mut change = self.sweep_rows(goals, purpose);
@@ -204,6 +236,41 @@ impl Solver {
                 break;
             }
         }
+        if let Purpose::Forces(time) = purpose {
+            self.remember_forces(time);
+        }
+    }
+
+    /// Begins with the forces that were found last at the same places: what lies still needs no more sweeps then.
+    fn start_warm(&mut self, time: f64) {
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
+            let Some(forces) = self.warm.find(&self.contacts[contact]) else { continue };
+            for (row, force) in (place.row..place.row + place.rows).zip(forces) {
+                self.unknown[row] = force * time;
+            }
+        }
+        for (column, impulse) in
+            self.columns.iter().zip(&self.unknown).filter(|(_, impulse)| **impulse != 0.0)
+        {
+            column.apply(*impulse, &mut self.members);
+        }
+    }
+
+    fn remember_forces(&mut self, time: f64) {
+        let mut warm = std::mem::take(&mut self.warm);
+        self.contacts.iter().for_each(|contact| warm.forget(contact.bodies));
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
+            let forces = self.unknown[place.row..place.row + place.rows].iter().map(|impulse| impulse / time);
+            warm.note(&self.contacts[contact], forces);
+        }
+        self.warm = warm;
+    }
+
+    /// The number of constraints before the contacts.
+    fn joints(&self) -> usize {
+        self.first_row.len() - self.contacts.len()
     }
 
     /// The same, but only stops push, and there is no friction.
@@ -211,7 +278,7 @@ impl Solver {
         self.unknown.fill(0.0);
         let size = goals.iter().chain(before).fold(0.0_f64, |most, goal| most.max(*goal));
         for _ in 0..SWEEPS {
-            if self.sweep_rows(goals, Purpose::Impact) <= SETTLED.sqrt() * size {
+            if self.sweep_rows(goals, Purpose::Impact) <= APART * size {
                 break;
             }
         }

@@ -38,6 +38,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) solids: Vec<Option<Solid>>,
     pub(super) pairs: Pairs,
     pub(super) paths: Vec<Path>,
+    /// Whether a body has been there before, where contacts begin.
+    is_known: Vec<bool>,
     /// The fastest approach so far, m/s: what is slight against it has come from rounding.
     pub(super) fastest: f64,
     /// The impacts since somebody asked last.
@@ -65,7 +67,8 @@ impl Collider {
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
         let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
-        Collider { contacts, solids, pairs, paths, fastest: 0.0, impacts, hits, crowd, focus: None }
+        let is_known = Vec::new();
+        Collider { contacts, solids, pairs, paths, is_known, fastest: 0.0, impacts, hits, crowd, focus: None }
     }
 
     /// Told at the beginning of a step.
@@ -81,7 +84,9 @@ impl Collider {
     /// How fast the surface of a body moves since it turns, m/s.
     pub(in crate::dynamics) fn spin(&self, body: usize, model: &Model, state: &State) -> f64 {
         let turning = model.angular_velocity(body, state).length();
-        let reach = self.solids.get(body).and_then(Option::as_ref).map_or(0.0, Solid::reach);
+        // Not that of the core alone, which is 0 for a ball.
+        let solid = self.solids.get(body).and_then(Option::as_ref);
+        let reach = solid.map_or(0.0, |solid| solid.reach() + solid.size());
         if turning == 0.0 { 0.0 } else { turning * reach }
     }
 
@@ -100,6 +105,18 @@ impl Collider {
     /// Told when bodies have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.pairs.forget();
+        self.is_known.clear();
+    }
+
+    /// Told when some bodies come or go.
+    pub(in crate::dynamics) fn forget_bodies(&mut self, bodies: &[usize]) {
+        self.pairs.forget();
+        self.crowd.lose(bodies);
+        self.is_known
+            .iter_mut()
+            .enumerate()
+            .filter(|(i, _)| bodies.contains(i))
+            .for_each(|(_, is_known)| *is_known = false);
     }
 
     /// The impacts since somebody asked last.
@@ -254,7 +271,7 @@ impl Collider {
         all
     }
 
-    /// Finds the pairs where contacts begin, and the first two bodies that are within each other.
+    /// Finds the pairs where contacts begin, and the first two bodies that are within each other, if one has just come.
     pub(in crate::dynamics) fn start(
         &mut self,
         model: &Model,
@@ -266,13 +283,14 @@ impl Collider {
         self.paths.clear();
         self.paths.extend((0..model.len()).map(|i| Path::of(i, model, state, state, 1.0)));
         self.pairs.forget();
-        let Collider { contacts, solids, pairs, paths, .. } = self;
+        let Collider { contacts, solids, pairs, paths, is_known, .. } = self;
+        is_known.resize(model.len(), false);
         paths.iter_mut().for_each(Path::stop);
         pairs.follow(contacts, solids, paths, (model, state));
         for pair in &pairs.list {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            if closed.iter().any(|contact| contact.bodies == pair.bodies) {
+            if is_known[a] && is_known[b] || closed.iter().any(|contact| contact.bodies == pair.bodies) {
                 continue;
             }
             let poses = [a, b].map(|i| pose(i, model, state));
@@ -281,6 +299,9 @@ impl Collider {
                 let bodies = pair.bodies.map(BodyId::new);
                 return Some(Breakdown::Overlapping { bodies, time, depth: -near.gap });
             }
+        }
+        for (i, is_known) in is_known.iter_mut().enumerate() {
+            *is_known = model.is_present(i);
         }
         None
     }

@@ -4,12 +4,16 @@
 //! a heap that settles. They are advanced by time-stepping until the end of the step; if they have to be again and again, for some steps.
 
 mod course;
+mod heap;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use self::course::Course;
+use self::heap::is_heap;
 use super::super::constraint::Solver;
-use super::super::{Model, State};
+use super::super::{BodyId, Model, State};
+use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
 /// A body stays in the crowd for so many further steps at most: a heap that settles would gather thousands of events in each step before
@@ -27,6 +31,8 @@ pub(in crate::dynamics) struct Crowd {
     pushing: BTreeSet<[usize; 2]>,
     /// The bodies that are in the crowd again in the steps that come.
     again: BTreeMap<usize, Again>,
+    /// The bodies that were in the crowd because they were in a heap.
+    heaps: BTreeSet<usize>,
 }
 
 /// For how long a body stays in the crowd.
@@ -46,8 +52,25 @@ impl Crowd {
         self.bodies.is_empty()
     }
 
+    /// The same bodies, for as long, of whose motion nothing is known.
+    pub(super) fn without_course(&self) -> Crowd {
+        let Crowd { bodies, pushing, again, heaps, .. } = self;
+        let (bodies, pushing) = (bodies.clone(), pushing.clone());
+        Crowd { bodies, pushing, again: again.clone(), heaps: heaps.clone(), ..Crowd::default() }
+    }
+
     pub(super) fn bodies(&self) -> impl Iterator<Item = &usize> {
         self.bodies.iter()
+    }
+
+    /// Some bodies are in it no more.
+    pub(super) fn lose(&mut self, bodies: &[usize]) {
+        for body in bodies {
+            self.bodies.remove(body);
+            self.again.remove(body);
+            self.heaps.remove(body);
+        }
+        self.course = None;
     }
 
     /// From now on, only some bodies are advanced, in rising order. Gives those of the crowd that are not.
@@ -87,10 +110,10 @@ impl Collider {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Whether all of the crowd is to stay in it for the next step.
-    pub(in crate::dynamics) fn crowd_stays(&self) -> bool {
+    /// Whether all of the crowd, which touches at some places, is to stay in it for the next step.
+    pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
-        self.crowd.bodies.iter().all(stays)
+        is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
     /// Whether a body has been in the crowd in this step, or just before.
@@ -108,16 +131,23 @@ impl Collider {
     pub(in crate::dynamics) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
-        // All stay as long as the one that stays longest.
+        self.let_stay(&before);
+        has_grown
+    }
+
+    /// Notes for how many further steps those stay in the crowd that were not in it `before`: as long as the one that stays longest.
+    fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
-        for body in self.crowd.bodies.difference(&before) {
+        for body in self.crowd.bodies.difference(before) {
             let again = self.crowd.again.entry(*body).or_default();
             longest = longest.max(again.left).max((2 * again.span).clamp(1, AGAIN));
         }
-        for body in self.crowd.bodies.difference(&before) {
+        for body in self.crowd.bodies.difference(before) {
             self.crowd.again.insert(*body, Again { left: longest, span: longest, is_over: false });
         }
-        has_grown
+        if self.crowd.bodies.len() > before.len() {
+            self.crowd.course = None;
+        }
     }
 
     /// Bodies join the crowd, with all that touches them or is joined to them. Returns whether the crowd has grown.
@@ -154,10 +184,13 @@ impl Collider {
             again.is_over = again.left == 0;
             again.left = again.left.saturating_sub(1);
         }
-        let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).into_iter().collect();
-        if seeds.is_empty() {
+        if self.crowd.bodies.is_empty() {
             return false;
         }
+        let mut held = self.leaning(model, state);
+        held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
+        // What flies freely rebounds where it hits something.
+        let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
         };

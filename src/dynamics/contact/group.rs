@@ -7,6 +7,7 @@ use super::super::{Model, State};
 use super::approach::{Approach, TOUCH};
 use super::closed::Closed;
 use super::collider::{Collider, NEAR, SLIGHT, is_passive, scale};
+use super::crowd::Crowd;
 use super::nearest::nearest;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
@@ -31,8 +32,9 @@ pub(in crate::dynamics) struct Parting {
     /// The way of each body within the step where it meets nobody, and the way that it has taken, m.
     free: Vec<f64>,
     taken: Vec<f64>,
-    /// How many impacts there had been before.
+    /// How many impacts there had been before, and who was in the crowd.
     impacts: usize,
+    crowd: Crowd,
 }
 
 /// What is advanced at present, where that is one group.
@@ -49,6 +51,18 @@ pub(super) struct Focus {
 struct Sets(Vec<usize>);
 
 impl Sets {
+    /// Unites the sets of two bodies, if both can move.
+    fn unite_moving(&mut self, [a, b]: [usize; 2], model: &Model) {
+        if model.can_move(a) && model.can_move(b) {
+            self.unite(a, b);
+        }
+    }
+
+    /// Whether uniting the sets of two bodies would change nothing.
+    fn are_one(&mut self, [a, b]: [usize; 2], model: &Model) -> bool {
+        !(model.can_move(a) && model.can_move(b)) || self.first(a) == self.first(b)
+    }
+
     fn first(&mut self, body: usize) -> usize {
         let mut first = body;
         while self.0[first] != first {
@@ -66,7 +80,7 @@ impl Sets {
 
 impl Collider {
     /// The groups of bodies within a step of `duration` seconds. `after` is its end where nobody meets anybody; `held` are bodies that are
-    /// held at rest together.
+    /// held at rest together, and `met` pairs that are in one group whatever their ways.
     pub(in crate::dynamics) fn part<'a>(
         &mut self,
         model: &Model,
@@ -74,6 +88,7 @@ impl Collider {
         duration: f64,
         closed: &[Arc<Closed>],
         held: impl Iterator<Item = &'a BTreeSet<usize>>,
+        met: &[[usize; 2]],
     ) -> Parting {
         self.follow(model, (before, after), duration);
         let Collider { solids, pairs, paths, fastest, crowd, .. } = self;
@@ -83,14 +98,10 @@ impl Collider {
         for island in held {
             island.iter().zip(island.iter().skip(1)).for_each(|(&a, &b)| sets.unite(a, b));
         }
-        let mut unite = |[a, b]: [usize; 2]| {
-            if model.can_move(a) && model.can_move(b) {
-                sets.unite(a, b);
-            }
-        };
+        met.iter().for_each(|pair| sets.unite_moving(*pair, model));
         crowd.bodies().for_each(|&body| is_busy[body] = true);
         for contact in closed {
-            unite(contact.bodies);
+            sets.unite_moving(contact.bodies, model);
             contact.bodies.iter().for_each(|&body| is_busy[body] = true);
         }
         for pair in &mut pairs.list {
@@ -101,14 +112,15 @@ impl Collider {
             }
             let (ways, scale) = (free[a] + free[b], scale(pair.bodies, [x, y], before));
             let (touch, meet) = (NEAR * scale, NEAR * scale + (GENEROUS - 1.0) * ways);
-            if pair.free > meet {
+            let is_settled = |body: usize| is_busy[body] || !model.can_move(body);
+            if pair.free > meet || is_settled(a) && is_settled(b) && sets.are_one([a, b], model) {
                 continue;
             }
             let poses = [a, b].map(|i| pose(i, model, before));
             let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
             pair.free = near.gap - ways;
             if pair.free <= meet {
-                unite(pair.bodies);
+                sets.unite_moving(pair.bodies, model);
             }
             if pair.free > touch || is_busy[a] && is_busy[b] {
                 continue;
@@ -141,7 +153,8 @@ impl Collider {
                 [None, None] => {}
             }
         }
-        Parting { groups, between, taken: free.clone(), free, impacts: self.impacts.len() }
+        let (impacts, crowd) = (self.impacts.len(), self.crowd.without_course());
+        Parting { groups, between, taken: free.clone(), free, impacts, crowd }
     }
 
     /// From now on, only one group is advanced.
@@ -176,29 +189,38 @@ impl Collider {
         bodies.iter().zip(taken).for_each(|(&i, taken)| parting_ways[i] = taken);
     }
 
-    /// All groups have been advanced, and all bodies are looked at again. Returns whether no group can have met another one;
-    /// if one can, the step is to be made anew.
-    pub(in crate::dynamics) fn unite(&mut self, state: &State, mut parting: Parting) -> bool {
+    /// All groups have been advanced, and all bodies are looked at again. Where a group may have met another one, all is as before, and the
+    /// step is to be made anew: gives the pairs that may have met, as far as they are known.
+    pub(in crate::dynamics) fn unite(
+        &mut self,
+        model: &Model,
+        state: &State,
+        mut parting: Parting,
+    ) -> Result<(), Vec<[usize; 2]>> {
         let more: Vec<f64> =
             parting.taken.iter().zip(&parting.free).map(|(taken, free)| taken - free).collect();
-        let mut are_apart = self.pairs.go_farther(&more);
+        let is_enough = self.pairs.go_farther(&more);
+        let mut met = Vec::new();
         let Collider { solids, pairs, .. } = self;
         for pair in &mut parting.between {
             let [a, b] = pair.bodies;
             pair.free -= more[a] + more[b];
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            are_apart &= pair.free > NEAR * scale(pair.bodies, [x, y], state);
+            if !is_passive(pair.bodies, model) && pair.free <= NEAR * scale(pair.bodies, [x, y], state) {
+                met.push(pair.bodies);
+            }
         }
         let groups = parting.groups.into_iter().flat_map(|group| group.pairs);
         pairs.list = parting.between.into_iter().chain(groups).collect();
         pairs.list.sort_by_key(|pair| pair.bodies);
-        if are_apart {
+        if is_enough && met.is_empty() {
             self.impacts[parting.impacts..].sort_by(|a, b| a.time.total_cmp(&b.time));
-        } else {
-            self.impacts.truncate(parting.impacts);
-            self.pairs.forget();
+            return Ok(());
         }
-        are_apart
+        self.impacts.truncate(parting.impacts);
+        self.pairs.expect(parting.taken);
+        self.crowd = parting.crowd;
+        Err(met)
     }
 }
 

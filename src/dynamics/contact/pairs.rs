@@ -32,12 +32,26 @@ pub(super) struct Pairs {
     pub(super) list: Vec<Pair>,
     /// How far each body may still move before the list is made anew, m.
     left: Vec<f64>,
+    /// How far bodies moved in the step that is made again, if the list was not long enough for it, m.
+    expected: Vec<f64>,
     is_known: bool,
 }
 
 impl Pairs {
     /// Bodies have changed: the list is to be made anew.
     pub(super) fn forget(&mut self) {
+        self.is_known = false;
+    }
+
+    /// The list, if it has all pairs of bodies whose boxes, made larger by a margin each, overlap now.
+    pub(super) fn within(&self, margins: &[f64]) -> Option<&[Pair]> {
+        let is_long = self.is_known && margins.iter().zip(&self.left).all(|(margin, left)| margin <= left);
+        is_long.then_some(&self.list[..])
+    }
+
+    /// The list was too short for bodies that move so far, m: it is to be made anew.
+    pub(super) fn expect(&mut self, ways: Vec<f64>) {
+        self.expected = ways;
         self.is_known = false;
     }
 
@@ -58,10 +72,12 @@ impl Pairs {
         let way = |i: usize| way(solids[i].as_ref(), &paths[i]);
         let is_enough = self.is_known && (0..paths.len()).all(|i| way(i) <= self.left[i]);
         if !is_enough {
+            let expected = std::mem::take(&mut self.expected);
             let margins: Vec<f64> = (0..paths.len())
                 .map(|i| {
                     let size = solids[i].as_ref().map_or(0.0, Solid::size);
-                    (WAYS * way(i)).max(if size.is_finite() { 0.25 * size } else { 0.0 })
+                    let least = expected.get(i).map_or(0.0, |way| 2.0 * way);
+                    (WAYS * way(i)).max(least).max(if size.is_finite() { 0.25 * size } else { 0.0 })
                 })
                 .collect();
             self.list = near(contacts, solids, &margins, (model, before));

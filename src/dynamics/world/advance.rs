@@ -84,7 +84,13 @@ impl World {
             let is_idle = self.pass(event, now);
             self.integrator.discontinuity();
             let are_too_many = counts.are_too_many(event, duration, length, is_idle);
-            if counts.is_crowded(event) || self.happens_too_often(event, &bodies) || self.is_in_crowd(event) {
+            let heap = self.heap_of(event, &bodies);
+            if !heap.is_empty() {
+                self.crowd(now, &heap);
+            } else if counts.is_crowded(event)
+                || self.happens_too_often(event, &bodies)
+                || self.is_in_crowd(event)
+            {
                 self.crowd(now, &bodies);
             }
             if are_too_many || self.solver.has_failed() {
@@ -158,10 +164,16 @@ impl World {
     }
 
     fn change(&mut self, due: &[(usize, bool)]) {
-        if !due.is_empty() {
-            self.about_to_change();
-            self.model.let_come_and_go(due, &mut self.state);
+        if due.is_empty() {
+            return;
         }
+        let bodies: Vec<usize> = due.iter().map(|(body, _)| *body).collect();
+        self.let_held_by_go(&bodies);
+        self.about_to_change_some();
+        if let Some(collider) = &mut self.collider {
+            collider.forget_bodies(&bodies);
+        }
+        self.model.let_come_and_go(due, &mut self.state);
     }
 
     /// The present moment, which leaves no trace in the books.

@@ -11,6 +11,9 @@ use crate::dynamics::{Snapshot, State};
 /// The fewest groups that are advanced on their own.
 const GROUPS: usize = 4;
 
+/// How often a step is made again with larger groups, because bodies of two of them met.
+const ATTEMPTS: u32 = 8;
+
 /// After a step with fewer groups, all bodies are advanced together for this many steps before groups are looked for again.
 const TOGETHER: u32 = 8;
 
@@ -34,38 +37,51 @@ impl World {
         self.solver = whole.part(Vec::new());
         self.integrator.discontinuity();
         self.fly(t, dt);
-        let Some(collider) = &mut self.collider else { return false };
-        let ends = (&start, &self.state);
-        let parting = collider.part(&self.model, ends, dt, whole.contacts(), self.rest.held());
-        let is_busy = parting.groups.iter().any(|group| group.is_busy);
-        if is_busy && parting.groups.len() < GROUPS {
-            self.state = start;
-            self.solver = whole;
-            self.integrator.discontinuity();
-            self.together = TOGETHER;
-            return false;
+        let flown = self.state.clone();
+        // Pairs of bodies that met although they were in two groups.
+        let mut met = Vec::new();
+        for attempt in 0..ATTEMPTS {
+            let Some(collider) = &mut self.collider else { break };
+            let ends = (&start, &flown);
+            let parting = collider.part(&self.model, ends, dt, whole.contacts(), self.rest.held(), &met);
+            let is_busy = parting.groups.iter().any(|group| group.is_busy);
+            if is_busy && parting.groups.len() < GROUPS {
+                break;
+            }
+            if attempt == 0 && !moments.is_empty() {
+                let mut copy = self.clone();
+                copy.state.clone_from(&start);
+                copy.solver = whole.clone();
+                copy.integrator.discontinuity();
+                copy.decide_all(t);
+                copy.follow_events(t, dt, moments, see);
+            }
+            if !is_busy {
+                return true;
+            }
+            match self.advance_groups(t, dt, (&start, &flown), (&whole, parting)) {
+                Ok(()) => return true,
+                Err(new) => met.extend(new),
+            }
         }
-        if !moments.is_empty() {
-            let mut copy = self.clone();
-            copy.state.clone_from(&start);
-            copy.solver = whole.clone();
-            copy.integrator.discontinuity();
-            copy.decide_all(t);
-            copy.follow_events(t, dt, moments, see);
-        }
-        if is_busy { self.advance_groups(t, dt, &start, (whole, parting)) } else { true }
+        self.state = start;
+        self.solver = whole;
+        self.integrator.discontinuity();
+        self.together = TOGETHER;
+        false
     }
 
-    /// Advances the groups in which something happens, after a step of all bodies in which nobody meets anybody.
+    /// Advances the groups in which something happens, after a step of all bodies in which nobody meets anybody. Where somebody was struck so
+    /// hard that it may have met another group, all is as before: gives the pairs that may have met, as far as they are known.
     fn advance_groups(
         &mut self,
         t: f64,
         dt: f64,
-        start: &State,
-        (mut whole, mut parting): (Solver, Parting),
-    ) -> bool {
-        let mut end = self.state.clone();
-        let held = self.rest.clone();
+        (start, flown): (&State, &State),
+        (whole, mut parting): (&Solver, Parting),
+    ) -> Result<(), Vec<[usize; 2]>> {
+        let mut end = flown.clone();
+        let (held, is_decided) = (self.rest.clone(), self.is_decided);
         let mut parts = Vec::new();
         let (groups, ways) = parting.busy();
         for group in groups {
@@ -75,15 +91,15 @@ impl World {
             let own = whole.contacts().iter().filter(|contact| contact.bodies.iter().any(is_own));
             let own: Vec<_> = own.cloned().collect();
             let known = self.parts.iter().position(|part| part.has(&own));
-            self.solver = known.map_or_else(|| whole.part(own), |known| self.parts.swap_remove(known));
+            self.solver = known.map_or_else(|| whole.part(own), |known| self.parts[known].clone());
             self.solver.calm();
-            let Some(collider) = &mut self.collider else { return false };
+            let Some(collider) = &mut self.collider else { return Ok(()) };
             collider.focus(group);
             if known.is_none() {
                 self.decide_contacts(t);
             }
             self.follow_events(t, dt, &[], &mut |_| {});
-            let Some(collider) = &mut self.collider else { return false };
+            let Some(collider) = &mut self.collider else { return Ok(()) };
             collider.unfocus(group, ways);
             for &i in &group.bodies {
                 end.location[i] = self.state.location[i];
@@ -95,24 +111,23 @@ impl World {
             end.accounts.add(-1.0, start.accounts);
             parts.push(std::mem::take(&mut self.solver));
         }
-        let Some(collider) = &mut self.collider else { return false };
+        let Some(collider) = &mut self.collider else { return Ok(()) };
         let have_failed = parts.iter().any(Solver::has_failed);
-        let are_apart = collider.unite(&end, parting);
-        if !are_apart && !have_failed {
-            // Somebody was struck so hard that it may have met another group: this step is made together.
+        let apart = collider.unite(&self.model, &end, parting);
+        if let (Err(met), false) = (apart, have_failed) {
             self.state.clone_from(start);
-            self.solver = whole;
-            self.regain(held, t);
-            self.integrator.discontinuity();
-            return false;
+            self.hold_again(held);
+            self.is_decided = is_decided;
+            return Err(met);
         }
         self.state = end;
-        whole.unite(&parts);
+        self.solver = whole.clone();
+        self.solver.unite(&parts);
+        self.solver.leave(collider.crowded());
         self.parts = parts;
-        self.solver = whole;
         self.is_decided = self.solver.contacts().is_empty();
         self.integrator.discontinuity();
-        true
+        Ok(())
     }
 
     /// The same world, in which it is known what each contact does, for somebody who looks.

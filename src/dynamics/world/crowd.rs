@@ -19,6 +19,14 @@ impl World {
         }
     }
 
+    /// Whether an event is one of a heap, whose events are not followed one by one. Gives its bodies.
+    pub(super) fn heap_of(&mut self, event: Event, bodies: &[usize]) -> Vec<usize> {
+        match (event, &mut self.collider) {
+            (Event::Row(_), Some(collider)) => collider.heap_of(bodies, self.solver.contacts(), &self.model),
+            _ => Vec::new(),
+        }
+    }
+
     /// The bodies that an event is about.
     pub(super) fn bodies_of(&self, event: Event) -> Vec<usize> {
         match event {
@@ -63,24 +71,24 @@ impl World {
     /// The end of a step: nothing is advanced by time-stepping any more, unless it is to be for some steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
-        let places = match collider.end_course(&self.model, t, &self.state) {
+        let places = match collider.end_course(&self.model, t, &mut self.state) {
             Ok(places) => places,
             Err(breakdown) => {
                 self.solver.fail(breakdown);
                 return;
             }
         };
+        let stays = collider.crowd_stays(&places);
         let mut contacts = self.solver.contacts().to_vec();
         contacts.extend(places);
         contacts.sort_by_key(|contact| contact.bodies);
         self.integrator.discontinuity();
-        if collider.crowd_stays() && !self.rest.are_due(collider.crowded()) {
-            self.solver.part(contacts).close_all(&self.model, t, &mut self.state);
+        if stays && !self.rest.are_due(collider.crowded()) {
             return;
         }
         collider.dissolve();
         self.solver.take_contacts(contacts);
         self.solver.close_all(&self.model, t, &mut self.state);
-        self.meet(t, false);
+        self.meet_at_rest(t);
     }
 }

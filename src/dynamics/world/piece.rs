@@ -95,9 +95,15 @@ impl World {
     /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch. Where no forces are found that fit, the
     /// bodies are advanced by time-stepping. Returns whether something was struck.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
-        let has_struck = self.meet_once(t, is_touch);
+        let has_struck = self.meet_once(t, is_touch, true);
         self.crowd_undecided(t);
         has_struck
+    }
+
+    /// The same for bodies that come to rest: finds out what all contacts do, also those of heaps.
+    pub(super) fn meet_at_rest(&mut self, t: f64) {
+        self.meet_once(t, false, false);
+        self.crowd_undecided(t);
     }
 
     /// Finds out what contacts do of which nothing else is known.
@@ -113,7 +119,7 @@ impl World {
             if self.solver.has_failed() || !collider.join(&self.model, &self.state, &bodies) {
                 break;
             }
-            self.meet_once(t, false);
+            self.meet_once(t, false, true);
         }
     }
 
@@ -127,10 +133,13 @@ impl World {
         }
     }
 
-    fn meet_once(&mut self, t: f64, is_touch: bool) -> bool {
+    fn meet_once(&mut self, t: f64, is_touch: bool, are_heaps_crowded: bool) -> bool {
         self.is_decided = true;
         while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return false };
+        if are_heaps_crowded {
+            collider.crowd_known_heaps(&self.model, &self.state, self.solver.contacts());
+        }
         let is_crowded = collider.is_crowded();
         self.solver.leave(&BTreeSet::new());
         let strike = match collider.strike(&self.model, t, &mut self.state, &mut self.solver) {

@@ -57,7 +57,8 @@ impl Rest {
 
     /// Whether all of some bodies can be held at the end of this step, if they are at rest.
     pub(super) fn are_due(&self, bodies: &BTreeSet<usize>) -> bool {
-        bodies.iter().all(|&body| self.calm.get(body).is_some_and(|calm| calm % CALM == CALM - 1))
+        let calm = |body: &usize| self.calm.get(*body).copied().unwrap_or(0);
+        bodies.iter().map(calm).min().is_some_and(|least| least % CALM == CALM - 1)
     }
 
     fn holds(&self, body: usize) -> bool {
@@ -105,7 +106,7 @@ impl World {
         self.solver.take_contacts(left);
         self.solver.forget();
         self.integrator.discontinuity();
-        self.meet(t, false);
+        self.meet_at_rest(t);
     }
 
     /// The bodies that hold each other and have all been at rest for long enough.
@@ -185,15 +186,21 @@ impl World {
         true
     }
 
-    /// Goes back to a state in which more was held: what has been let go since stays free, and its contacts are there again.
-    pub(super) fn regain(&mut self, held: Rest, t: f64) {
-        let mut contacts = self.solver.contacts().to_vec();
-        let is_free = |island: &Island| island.bodies.iter().any(|&body| !self.rest.holds(body));
-        contacts.extend(held.islands.into_iter().filter(is_free).flat_map(|island| island.contacts));
-        contacts.sort_by_key(|contact| contact.bodies);
-        if self.solver.take_contacts(contacts) {
-            self.meet(t, false);
+    /// Goes back to a state in which more was held.
+    pub(super) fn hold_again(&mut self, held: Rest) {
+        let freed = held.islands.iter().flat_map(|island| &island.bodies);
+        for &body in freed.filter(|body| !self.rest.holds(**body)) {
+            self.model.freeze(body, &mut self.state);
         }
+        self.rest = held;
+    }
+
+    /// Lets go of bodies that some hold, or that these are.
+    pub(super) fn let_held_by_go(&mut self, bodies: &[usize]) {
+        let is_held_by = |contact: &Arc<Closed>| contact.bodies.iter().any(|body| bodies.contains(body));
+        let islands = self.rest.islands.iter().filter(|island| island.contacts.iter().any(is_held_by));
+        let held: Vec<usize> = islands.filter_map(|island| island.bodies.first().copied()).collect();
+        self.let_go(&held);
     }
 
     /// Lets go of all bodies.

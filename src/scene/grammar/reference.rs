@@ -64,6 +64,8 @@ sticks, slides or rolls as the forces on it ask.
 - **Too many events**: some bodies hit, grip and release each other again and again within one step, as in a chain that falls on the floor.
   Time-stepping (Moreau's scheme) then advances these bodies, without rebounds, to the end of the step or for some steps more. The energy
   stays balanced.
+- **Heaps**: where more than six pairs of bodies touch and some begin to slide or part, time-stepping advances them until they rest. What
+  falls on a heap rebounds from it; within the heap nothing rebounds.
 - **At rest**: bodies that have rested on each other for eight steps are held, until something touches them or a force on them changes. So
   a heap at rest costs nothing.
 - **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much

@@ -4,6 +4,7 @@
 //! Energy that this takes is booked; the order is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom
 //! dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -22,7 +23,7 @@ use super::super::touch::touches;
 use super::Crowd;
 
 /// A step is made in at least so many parts, and in at most so many.
-const PARTS: [f64; 2] = [8.0, 64.0];
+const PARTS: [f64; 2] = [2.0, 64.0];
 
 /// Nothing moves farther in a part than this part of the smaller body, as long as parts are not too many.
 const FAR: f64 = 0.03;
@@ -32,6 +33,12 @@ const GRASP: f64 = 1e-5;
 
 /// Bodies that are deeper within each other at the end than this part of the smaller one are jammed.
 const DEEP: f64 = 0.01;
+
+/// So often these are moved apart before that is said.
+const REPAIRS: usize = 5;
+
+/// Bodies stay in the crowd while they are nearer to others than this part of the smaller one: what rebounds no higher is no flight.
+const LEAN: f64 = 0.01;
 
 /// Times that differ by less than this part are the same.
 const SAME: f64 = 1e-12;
@@ -191,9 +198,26 @@ impl Collider {
             _ => 0.0,
         };
         let margins: Vec<f64> = (0..self.solids.len()).map(margin).collect();
-        let mut pairs = near(&self.contacts, &self.solids, &margins, (model, state));
+        let mut pairs = match self.pairs.within(&margins) {
+            Some(known) => known.to_vec(),
+            None => near(&self.contacts, &self.solids, &margins, (model, state)),
+        };
         pairs.retain(|pair| self.crowd.holds(pair.bodies, model));
         pairs
+    }
+
+    /// The bodies of the crowd that are so near another one, or what nothing moves, that they are not free.
+    pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
+        let mut all = BTreeSet::new();
+        for pair in self.crowd_pairs(model, state, 0.0) {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+            let near = nearest(x, &p, y, &q, f64::INFINITY);
+            if near.is_some_and(|near| near.gap <= LEAN * self.size(pair.bodies)) {
+                all.extend(pair.bodies);
+            }
+        }
+        all
     }
 
     /// In how many parts a step is made.
@@ -247,14 +271,37 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
     }
 
-    /// The end of a step. Gives the places at which bodies of the crowd touch now, or why they cannot go on.
+    /// The end of a step: moves bodies of the crowd apart that are too deep within each other. Gives the places at which they touch now, or
+    /// why they cannot go on.
     pub(in crate::dynamics) fn end_course(
         &mut self,
         model: &Model,
         time: f64,
-        state: &State,
+        state: &mut State,
     ) -> Result<Vec<Arc<Closed>>, Breakdown> {
-        let mut all = Vec::new();
+        let mut jammed = None;
+        for _ in 0..REPAIRS {
+            let (all, deep) = self.touching_in_crowd(model, state);
+            if deep.is_none() {
+                self.crowd.pushing.clear();
+                self.crowd.course = None;
+                return Ok(all);
+            }
+            jammed = deep;
+            let solver = &mut self.crowd.solver;
+            solver.find_by_sweeps(model);
+            solver.take_contacts(all);
+            solver.forget();
+            solver.hold_joints(model, time, state);
+            solver.separate(time, state);
+        }
+        let bodies = jammed.unwrap_or_default().map(BodyId::new);
+        Err(Breakdown::Jammed { bodies, time })
+    }
+
+    /// The places at which bodies of the crowd touch, and two that are too deep within each other.
+    fn touching_in_crowd(&self, model: &Model, state: &State) -> (Vec<Arc<Closed>>, Option<[usize; 2]>) {
+        let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
             let size = self.size(pair.bodies);
@@ -263,14 +310,11 @@ impl Collider {
             let within = if is_pushing { GRASP * size } else { touching };
             let places = self.places_within(model, state, &pair, [x, y], within);
             if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
-                let bodies = pair.bodies.map(BodyId::new);
-                return Err(Breakdown::Jammed { bodies, time });
+                deep = Some(pair.bodies);
             }
             all.extend(places);
         }
-        self.crowd.pushing.clear();
-        self.crowd.course = None;
-        Ok(all)
+        (all, deep)
     }
 }
 
@@ -307,6 +351,7 @@ impl Crowd {
             return;
         }
         let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
+        solver.find_by_sweeps(model);
         solver.take_contacts(closed);
         solver.forget();
         // What comes nearer stops where it would touch at the end of the part.

@@ -1,0 +1,29 @@
+//! The forces at contacts as they were found last, with which the next sweeps begin.
+
+use std::collections::BTreeMap;
+
+use super::super::contact::Closed;
+
+/// The forces at the places where bodies touch, N.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Warm(BTreeMap<[usize; 2], Vec<(Closed, Vec<f64>)>>);
+
+impl Warm {
+    /// Forgets the forces between two bodies.
+    pub(super) fn forget(&mut self, bodies: [usize; 2]) {
+        self.0.remove(&bodies);
+    }
+
+    /// Notes the forces along the rows of a contact.
+    pub(super) fn note(&mut self, contact: &Closed, forces: impl Iterator<Item = f64>) {
+        let known = self.0.entry(contact.bodies).or_default();
+        known.push((contact.clone(), forces.collect()));
+    }
+
+    /// The forces at the same place of the same bodies.
+    pub(super) fn find(&self, contact: &Closed) -> Option<&[f64]> {
+        let known = self.0.get(&contact.bodies)?.iter();
+        let mut same = known.filter(|(other, _)| other.is(contact));
+        same.next().map(|(_, forces)| &forces[..])
+    }
+}

@@ -1,0 +1,111 @@
+//! Heaps: what touches at many places, comes to rest together, and stays there until something disturbs it.
+
+use jabuka::simulate::Frame;
+
+use crate::common::frames;
+
+/// The largest drift of the energy in all frames.
+fn drift(frames: &[Frame]) -> f64 {
+    frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
+}
+
+/// A ball spins on a spot. Nothing brakes that: the place where it touches has no extent.
+#[test]
+fn what_spins_on_the_spot_goes_on_spinning() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.5
+        frame_rate = 10
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [body.ball]
+        shape.sphere.radius = 0.1
+        mass = 1
+        friction = 0.5
+        location = [0, 0.1, 0]
+        angular_velocity = [0, 3, 0]
+        "#,
+    );
+    for frame in &frames {
+        assert!((frame.bodies[0].angular_velocity.y - 3.0).abs() < 1e-12, "{}", frame.time);
+    }
+}
+
+/// Balls are poured into a box, one after another.
+const POURED: &str = r#"
+    [simulation]
+    duration = 2.4
+    frame_rate = 25
+    integrator = "velocity-verlet"
+    gravity = [0, -9.81, 0]
+    contacts = "event-driven"
+    [defaults.body]
+    friction = 0.4
+    restitution = 0.3
+    [body.ball]
+    repeat = 16
+    start = "0.08*i"
+    shape.sphere.radius = 0.05
+    mass = 0.5
+    location = ["0.03*cos(2*i)", 0.8, "0.03*sin(2*i)"]
+    velocity = [0, -2, 0]
+    [body.wall]
+    repeat = 4
+    shape.box.size = [0.3, 0.6, 0.02]
+    location = ["0.11*sin(pi*i/2)", 0.3, "0.11*cos(pi*i/2)"]
+    orientation = [0, "90*i", 0]
+    fixed = true
+    collision_group = "walls"
+"#;
+
+/// They come to rest. None is within another one or a wall, and the books say where the energy of the fall went: but for what it takes to
+/// push apart what is within each other by a ten-thousandth of its size.
+#[test]
+fn what_is_poured_into_a_box_comes_to_rest() {
+    let frames = frames(POURED);
+    assert!(drift(&frames) < 1e-3, "{:e}", drift(&frames));
+    let last = &frames[frames.len() - 1];
+    let balls = &last.bodies[..16];
+    for (i, a) in balls.iter().enumerate() {
+        assert!(a.velocity.length() < 1e-6, "{i}: {}", a.velocity);
+        assert!(a.location.y > 0.05 - 1e-5, "{i}: {}", a.location);
+        assert!(a.location.x.abs() < 0.05 + 1e-5 && a.location.z.abs() < 0.05 + 1e-5, "{i}: {}", a.location);
+        for b in &balls[..i] {
+            let gap = (a.location - b.location).length() - 0.1;
+            assert!(gap > -1e-5, "{i}: {gap:e}");
+        }
+    }
+}
+
+/// A birth far away disturbs no heap: not one bit of what is held at rest changes.
+#[test]
+fn births_leave_what_is_at_rest_alone() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.8
+        frame_rate = 25
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [body.box]
+        repeat = 3
+        shape.box.size = [0.4, 0.4, 0.4]
+        mass = 1
+        location = [0, "0.2+0.4*i", 0]
+        [body.ball]
+        repeat = 5
+        start = "0.3 + 0.1*i"
+        shape.sphere.radius = 0.1
+        mass = 0.5
+        location = ["2 + i", 0.3, 0]
+        "#,
+    );
+    let late: Vec<_> = frames.iter().filter(|frame| frame.time > 0.25).collect();
+    for frame in &late {
+        assert_eq!(frame.bodies[..3], late[0].bodies[..3], "{}", frame.time);
+    }
+    assert_eq!(late[late.len() - 1].bodies.len(), 8);
+}
