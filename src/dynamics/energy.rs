@@ -48,7 +48,7 @@ impl EnergyLedger {
     /// Must be called before bodies or forces are changed by hand.
     pub fn open(&mut self, model: &Model, time: f64, state: &State) {
         if self.before.is_none() {
-            self.before = Some(kinetic(model, state) + model.potential(time, state));
+            self.before = Some(mechanical(model, time, state));
         }
     }
 
@@ -102,6 +102,11 @@ impl Default for EnergyLedger {
 /// The bodies that move as forces make them: of others, the motion costs and gives nothing.
 fn free(model: &Model) -> impl Iterator<Item = usize> + '_ {
     model.inverse_mass().iter().enumerate().filter(|(_, inverse)| **inverse != 0.0).map(|(i, _)| i)
+}
+
+/// Kinetic and potential energy, J.
+pub(super) fn mechanical(model: &Model, time: f64, state: &State) -> f64 {
+    kinetic(model, state) + model.potential(time, state)
 }
 
 fn kinetic(model: &Model, state: &State) -> f64 {

@@ -18,9 +18,9 @@ use super::constraint::Solver;
 use super::contact::Collider;
 use super::presence::Calendar;
 use super::{
-    Balance, BodyId, BodySnapshot, Breakdown, Constraint, Contacts, Dynamics, Effort, EnergyLedger, Force,
-    Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State,
-    System,
+    Balance, BodyId, BodySnapshot, Breakdown, Constraint, ContactSnapshot, Contacts, Dynamics, Effort,
+    EnergyLedger, Force, Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody,
+    Shape, Snapshot, State, System,
 };
 
 /// The longest timestep where none is set, s.
@@ -47,6 +47,8 @@ pub struct World {
     collider: Option<Collider>,
     /// Those that are held at rest.
     rest: Rest,
+    /// The contacts of those that time-stepping advances, for somebody who looks; else nothing.
+    crowd: Vec<ContactSnapshot>,
     steps: u64,
     /// Room for the loads at one moment.
     loads: Loads,
@@ -90,6 +92,7 @@ impl World {
             calendar: Calendar::default(),
             collider: None,
             rest: Rest::default(),
+            crowd: Vec::new(),
             steps: 0,
             loads: Loads::default(),
             end: 0.0,
@@ -277,10 +280,11 @@ impl World {
     pub fn forces(&mut self) -> &[DVec3] {
         self.settle();
         let mut copy = self.decided();
-        let World { model, state, solver, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        let World { model, state, solver, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);
         system.begin(*time, state);
         system.evaluate(*time, state, loads);
+        push_crowd(crowd, model, loads);
         model.guide(*time, loads);
         if let Some(copy) = copy {
             self.loads = copy.loads;
@@ -387,9 +391,9 @@ impl Dynamics for World {
         let balance = self.balance();
         // Whoever looks changes nothing.
         let mut copy = self.decided();
-        let World { model, state, solver, rest, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);
-        let snapshot = picture(&mut system, *time, state, (balance, rest), loads).checked();
+        let snapshot = picture(&mut system, *time, state, (balance, rest, crowd), loads).checked();
         solver.take_failure().map_or(snapshot, Err)
     }
 
@@ -407,12 +411,13 @@ fn picture(
     system: &mut System<'_>,
     time: f64,
     state: &State,
-    (balance, rest): (Balance, &Rest),
+    (balance, rest, crowd): (Balance, &Rest, &[ContactSnapshot]),
     loads: &mut Loads,
 ) -> Snapshot {
     let model = system.model();
     system.begin(time, state);
     system.evaluate(time, state, loads);
+    push_crowd(crowd, model, loads);
     model.guide(time, loads);
     let body = |id: usize| BodySnapshot {
         id,
@@ -426,8 +431,21 @@ fn picture(
     let present = (0..state.len()).filter(|&id| model.is_present(id));
     let mut contacts = system.contacts();
     contacts.extend(rest.contacts());
+    contacts.extend(crowd);
     contacts.sort_by_key(|contact| contact.bodies);
     Snapshot { time, bodies: present.map(body).collect(), reactions, contacts, penetration: 0.0, balance }
+}
+
+/// Adds the forces at contacts of the crowd to the loads.
+fn push_crowd(contacts: &[ContactSnapshot], model: &Model, loads: &mut Loads) {
+    for contact in contacts {
+        let force = contact.force + contact.friction;
+        for (body, force) in contact.bodies.into_iter().zip([-force, force]) {
+            if model.inverse_mass()[body] != 0.0 {
+                loads.force[body] += force;
+            }
+        }
+    }
 }
 
 /// The orientation of a body; within a world it is that of the principal axes.

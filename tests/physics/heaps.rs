@@ -1,5 +1,7 @@
 //! Heaps: what touches at many places, comes to rest together, and stays there until something disturbs it.
 
+use glam::DVec3;
+use jabuka::dynamics::ContactSnapshot;
 use jabuka::simulate::Frame;
 
 use crate::common::frames;
@@ -76,6 +78,16 @@ fn what_is_poured_into_a_box_comes_to_rest() {
             let gap = (a.location - b.location).length() - 0.1;
             assert!(gap > -1e-5, "{i}: {gap:e}");
         }
+    }
+    // Each of them is carried: forces and weight are in balance.
+    for ball in 0..16 {
+        let on = |contact: &ContactSnapshot| match contact.bodies {
+            [first, _] if first == ball => -(contact.force + contact.friction),
+            [_, second] if second == ball => contact.force + contact.friction,
+            _ => DVec3::ZERO,
+        };
+        let sum = last.contacts.iter().map(on).sum::<DVec3>() + DVec3::new(0.0, -0.5 * 9.81, 0.0);
+        assert!(sum.length() < 1e-3, "{ball}: {sum}");
     }
 }
 

@@ -4,7 +4,10 @@
 //! world's axes, the forces that keep them are Jᵀ λ. Source: E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical
 //! Integration*, 2nd ed., VII.1; the joints: D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
+mod anderson;
+mod at_rest;
 mod ball;
+mod columns;
 mod contacts;
 mod coordinate;
 mod events;
@@ -24,6 +27,7 @@ mod reaction;
 mod restless;
 mod rod;
 mod rope;
+mod separate;
 mod servo;
 mod settle;
 mod slider;

@@ -9,12 +9,12 @@ use std::sync::Arc;
 
 use super::super::contact::Closed;
 use super::super::{Breakdown, Model, Motion, State};
+use super::columns::Columns;
 use super::factor::Factor;
 use super::friction::Grip;
 use super::member::{Member, Nature};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
-use super::sweep::Column;
 use super::warm::Warm;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
@@ -75,9 +75,11 @@ pub(in crate::dynamics) struct Solver {
     /// What is solved for.
     pub(super) unknown: Vec<f64>,
     /// What impulses along the rows do, where they are found by sweeps.
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Columns,
     /// The forces that sweeps have found last.
     pub(super) warm: Warm,
+    /// The largest change of a rate by forces in the last part of a step.
+    pub(super) forced: f64,
     /// Whether all forces are found by sweeps, since there are no joints.
     pub(super) is_loose: bool,
     /// A row for which nothing that it may do was right, when this was decided last.

@@ -2,24 +2,20 @@
 //!
 //! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235, for the sweeps.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::super::{Model, State};
-use super::Law;
+use super::anderson::Anderson;
 use super::friction::Grip;
-use super::jacobian::{move_members, product, products, push};
-use super::member::Member;
+use super::jacobian::push;
 use super::solver::Solver;
-use super::structure::Structure;
+use super::{Direction, Law};
 
 /// So many sweeps are made at most.
-const SWEEPS: usize = 300;
+const SWEEPS: usize = 100;
 
 /// Sweeps end when they change rates by less than this part of the largest one.
 const SETTLED: f64 = 1e-7;
-
-/// Sweeps that move bodies apart end when they move them by less than this part of the largest overlap.
-const APART: f64 = 1e-5;
 
 /// What the impulses are for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,23 +24,6 @@ pub(in crate::dynamics) enum Purpose {
     Impact,
     /// Half of what forces do in twice this time, s: the velocities are those in the middle of it.
     Forces(f64),
-}
-
-/// What a unit impulse along a row does: changes of the velocities and the angular velocities of members.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Column {
-    changes: Vec<(usize, DVec3, DVec3)>,
-    /// How much it changes the rate of its own row.
-    weight: f64,
-}
-
-impl Column {
-    fn apply(&self, impulse: f64, members: &mut [Member]) {
-        for &(member, velocity, angular_velocity) in &self.changes {
-            members[member].velocity += impulse * velocity;
-            members[member].angular_velocity += impulse * angular_velocity;
-        }
-    }
 }
 
 impl Solver {
@@ -57,48 +36,7 @@ impl Solver {
     pub(in crate::dynamics) fn prepare_sweeps(&mut self, model: &Model, t: f64, state: &mut State) {
         self.hold_joints(model, t, state);
         self.settle_velocities(model, state);
-        self.columns = (0..self.rows.len()).map(|row| self.column(row)).collect();
-    }
-
-    /// What a unit impulse along a row does, as the joints allow; nothing for a row of a joint itself.
-    fn column(&mut self, row: usize) -> Column {
-        let Some(structure) = &self.structure else { return Column::default() };
-        if self.laws[row] == Law::Tie {
-            return Column::default();
-        }
-        if !self.held.contains(&true) {
-            return self.free_column(structure, row);
-        }
-        let mut moved: Vec<Member> = self.members.clone();
-        for member in &mut moved {
-            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-        }
-        let mut unknown = vec![0.0; self.rows.len()];
-        unknown[row] = 1.0;
-        move_members(structure, &self.jacobian, &unknown, &mut moved);
-        products(structure, &self.jacobian, &moved, &mut unknown);
-        unknown.iter_mut().for_each(|rate| *rate = -*rate);
-        self.factor.solve(&mut unknown);
-        move_members(structure, &self.jacobian, &unknown, &mut moved);
-        let weight = product(structure, &self.jacobian, &moved, row).0;
-        let moves =
-            |member: &Member| member.velocity != DVec3::ZERO || member.angular_velocity != DVec3::ZERO;
-        let changes = moved.iter().enumerate().filter(|(_, member)| moves(member));
-        let changes = changes.map(|(i, member)| (i, member.velocity, member.angular_velocity)).collect();
-        Column { changes, weight }
-    }
-
-    /// The same where no joint holds bodies: only those of the row itself move.
-    fn free_column(&self, structure: &Structure, row: usize) -> Column {
-        let mut column = Column::default();
-        for direction in &self.jacobian[structure.directions_of(row)] {
-            let change = self.members[direction.member].weigh(direction);
-            column.weight += direction.linear.dot(change.linear) + direction.angular.dot(change.angular);
-            if change.linear != DVec3::ZERO || change.angular != DVec3::ZERO {
-                column.changes.push((direction.member, change.linear, change.angular));
-            }
-        }
-        column
+        self.find_columns();
     }
 
     /// Gives the bodies the impulses that contacts, limits and motors exert, after [`prepare_sweeps`](Self::prepare_sweeps) at these
@@ -133,7 +71,9 @@ impl Solver {
                 *account += work;
             }
         }
+        let impulses = self.unknown.clone();
         self.rates_of(model, state);
+        self.unknown = impulses;
     }
 
     /// c' of each row at a state at the places that have been measured last. What joints do not allow is taken out of the velocities.
@@ -172,31 +112,6 @@ impl Solver {
         self.rows.iter().zip(&self.laws).map(gap).collect()
     }
 
-    /// Moves bodies out of each other, after [`prepare_sweeps`](Self::prepare_sweeps) a little earlier.
-    pub(in crate::dynamics) fn separate(&mut self, t: f64, state: &mut State) {
-        self.measure(t, state);
-        let is_within = |(row, law): (&super::Row, &Law)| *law == Law::Stop && row.violation < 0.0;
-        if !self.rows.iter().zip(&self.laws).any(is_within) {
-            return;
-        }
-        self.factorise(true);
-        self.columns = (0..self.rows.len()).map(|row| self.column(row)).collect();
-        let goals: Vec<f64> = self.rows.iter().map(|row| -row.violation).collect();
-        for member in &mut self.members {
-            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-        }
-        let before = vec![0.0; goals.len()];
-        self.sweep_stops(&goals, &before);
-        let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
-        for (&body, member) in bodies.zip(&self.members).filter(|(_, member)| member.inverse_mass != 0.0) {
-            state.location[body] += member.velocity;
-            if member.angular_velocity != DVec3::ZERO {
-                let turn = glam::DQuat::from_scaled_axis(member.angular_velocity);
-                state.orientation[body] = (turn * state.orientation[body]).normalize();
-            }
-        }
-    }
-
     /// The contacts that pushed last, by their numbers. `joints` is the number of constraints before them.
     pub(in crate::dynamics) fn pushing_contacts(&self, joints: usize) -> impl Iterator<Item = usize> {
         let places = self.structure.iter().flat_map(|structure| &structure.places);
@@ -227,22 +142,35 @@ impl Solver {
             self.start_warm(time);
         }
         let fastest = before.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        for _ in 0..SWEEPS {
-            let mut change = self.sweep_rows(goals, purpose);
-            for grip in 0..self.grips.len() {
-                change = change.max(self.sweep_grip(grip, goals));
-            }
-            if change <= SETTLED * fastest {
-                break;
-            }
+        if purpose != Purpose::Impact {
+            self.forced = fastest;
         }
+        // What forces change is so much that impacts far below that need not be known as precisely.
+        self.sweep_until(SETTLED * fastest.max(self.forced), |solver| {
+            let change = solver.sweep_rows(goals, purpose);
+            (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
+        });
         if let Purpose::Forces(time) = purpose {
             self.remember_forces(time);
         }
     }
 
+    /// Makes sweeps until one changes no rate by more than is left open, and goes further where they lead meanwhile.
+    pub(super) fn sweep_until(&mut self, open: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
+        let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
+        for left in (0..SWEEPS).rev() {
+            if sweep(self) <= open || left == 0 {
+                return;
+            }
+            for (row, &further) in anderson.go_further(&self.unknown).iter().enumerate() {
+                self.unknown[row] += further;
+                self.columns.apply(row, further, &mut self.members);
+            }
+        }
+    }
+
     /// Begins with the forces that were found last at the same places: what lies still needs no more sweeps then.
-    fn start_warm(&mut self, time: f64) {
+    pub(super) fn start_warm(&mut self, time: f64) {
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
             let Some(forces) = self.warm.find(&self.contacts[contact]) else { continue };
@@ -250,10 +178,8 @@ impl Solver {
                 self.unknown[row] = force * time;
             }
         }
-        for (column, impulse) in
-            self.columns.iter().zip(&self.unknown).filter(|(_, impulse)| **impulse != 0.0)
-        {
-            column.apply(*impulse, &mut self.members);
+        for (row, &impulse) in self.unknown.iter().enumerate().filter(|(_, impulse)| **impulse != 0.0) {
+            self.columns.apply(row, impulse, &mut self.members);
         }
     }
 
@@ -273,22 +199,11 @@ impl Solver {
         self.first_row.len() - self.contacts.len()
     }
 
-    /// The same, but only stops push, and there is no friction.
-    fn sweep_stops(&mut self, goals: &[f64], before: &[f64]) {
-        self.unknown.fill(0.0);
-        let size = goals.iter().chain(before).fold(0.0_f64, |most, goal| most.max(*goal));
-        for _ in 0..SWEEPS {
-            if self.sweep_rows(goals, Purpose::Impact) <= APART * size {
-                break;
-            }
-        }
-    }
-
     /// One sweep over limits, motors and the normals of contacts. Gives the largest change of a rate.
-    fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
+    pub(super) fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
         let mut change = 0.0_f64;
         for (row, &goal) in goals.iter().enumerate() {
-            let weight = self.columns[row].weight;
+            let weight = self.columns.weights()[row];
             let law = self.laws[row];
             if weight <= 0.0 || !matches!(law, Law::Stop | Law::Drive { .. }) {
                 continue;
@@ -302,7 +217,7 @@ impl Solver {
                 _ => 0.0,
             };
             self.unknown[row] = next;
-            self.columns[row].apply(next - before, &mut self.members);
+            self.columns.apply(row, next - before, &mut self.members);
             change = change.max((next - before).abs() * weight);
         }
         change
@@ -317,7 +232,7 @@ impl Solver {
             return 0.0;
         }
         // The two rows change each other little: their tangents are at right angles.
-        let weight = self.columns[row].weight.max(self.columns[row + 1].weight);
+        let weight = self.columns.weights()[row].max(self.columns.weights()[row + 1]);
         if weight <= 0.0 {
             return 0.0;
         }
@@ -325,8 +240,8 @@ impl Solver {
         let slip = DVec2::new(self.rate_of(row) - goals[row], self.rate_of(row + 1) - goals[row + 1]);
         let next = (before - slip / weight).clamp_length_max(most);
         (self.unknown[row], self.unknown[row + 1]) = (next.x, next.y);
-        self.columns[row].apply(next.x - before.x, &mut self.members);
-        self.columns[row + 1].apply(next.y - before.y, &mut self.members);
+        self.columns.apply(row, next.x - before.x, &mut self.members);
+        self.columns.apply(row + 1, next.y - before.y, &mut self.members);
         (next - before).length() * weight
     }
 
@@ -334,11 +249,11 @@ impl Solver {
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];
-        let changes = &self.columns[row].changes;
-        let of = |direction: &super::Direction| {
-            let change = changes.iter().find(|(member, ..)| *member == direction.member);
-            change.map_or(0.0, |(_, velocity, turn)| {
-                direction.linear.dot(*velocity) + direction.angular.dot(*turn)
+        let changes = self.columns.of(row);
+        let of = |direction: &Direction| {
+            let change = changes.iter().find(|change| change.member == direction.member);
+            change.map_or(0.0, |change| {
+                direction.linear.dot(change.velocity) + direction.angular.dot(change.angular_velocity)
             })
         };
         directions.iter().map(of).sum::<f64>().abs()

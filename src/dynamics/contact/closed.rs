@@ -1,5 +1,7 @@
 //! Two bodies that stay in touch at one place: a constraint that pushes, and never pulls, with friction.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::super::constraint::{Constraint, Equations, Law, Member, Members};
@@ -40,6 +42,11 @@ pub(super) fn heading(normal: DVec3) -> DVec3 {
 }
 
 impl Closed {
+    /// Whether one of some bodies touches there.
+    pub(in crate::dynamics) fn is_of(&self, bodies: &BTreeSet<usize>) -> bool {
+        self.bodies.iter().any(|body| bodies.contains(body))
+    }
+
     /// The pairs of rows of friction and of rolling friction, as far as there are any.
     fn pairs(&self) -> [bool; 2] {
         [self.law.friction > 0.0, self.law.rolling_friction > 0.0]

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use self::course::Course;
 use self::heap::is_heap;
 use super::super::constraint::Solver;
-use super::super::{BodyId, Model, State};
+use super::super::{BodyId, ContactSnapshot, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
@@ -27,6 +27,8 @@ pub(in crate::dynamics) struct Crowd {
     solver: Solver,
     /// Its motion until the end of the step, once that has been found.
     course: Option<Course>,
+    /// The places at which its bodies touched at the end of the last step.
+    places: Vec<Arc<Closed>>,
     /// The pairs that pushed each other at last.
     pushing: BTreeSet<[usize; 2]>,
     /// The bodies that are in the crowd again in the steps that come.
@@ -54,9 +56,7 @@ impl Crowd {
 
     /// The same bodies, for as long, of whose motion nothing is known.
     pub(super) fn without_course(&self) -> Crowd {
-        let Crowd { bodies, pushing, again, heaps, .. } = self;
-        let (bodies, pushing) = (bodies.clone(), pushing.clone());
-        Crowd { bodies, pushing, again: again.clone(), heaps: heaps.clone(), ..Crowd::default() }
+        Crowd { course: None, ..self.clone() }
     }
 
     pub(super) fn bodies(&self) -> impl Iterator<Item = &usize> {
@@ -116,9 +116,32 @@ impl Collider {
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
-    /// Whether a body has been in the crowd in this step, or just before.
+    /// The places at which bodies of the crowd touched at the end of the last step, and the forces there, as time-stepping found them.
+    pub(in crate::dynamics) fn crowd_contacts(
+        &self,
+        model: &Model,
+        t: f64,
+        state: &State,
+    ) -> Vec<ContactSnapshot> {
+        let is_here = |place: &&Arc<Closed>| place.is_of(&self.crowd.bodies);
+        let places: Vec<_> = self.crowd.places.iter().filter(is_here).cloned().collect();
+        self.crowd.solver.forces_known(places, model, t, state)
+    }
+
+    /// The forces at places where bodies rest on each other under `loads`, found by sweeps.
+    pub(in crate::dynamics) fn forces_at_rest(
+        &self,
+        places: &[Arc<Closed>],
+        model: &Model,
+        (t, state): (f64, &State),
+        loads: &Loads,
+    ) -> Vec<ContactSnapshot> {
+        self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
+    }
+
+    /// Whether a body has been in the crowd in this step, or just before, or as part of a heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
-        self.crowd.again.contains_key(&body)
+        self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
     /// Nothing is in the crowd any more.

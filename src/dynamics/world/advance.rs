@@ -180,8 +180,8 @@ impl World {
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         let mut copy = self.decided();
-        let World { model, state, solver, rest, loads, time, .. } = copy.as_mut().unwrap_or(self);
-        picture(&mut System::new(model, solver), *time, state, (balance, rest), loads)
+        let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        picture(&mut System::new(model, solver), *time, state, (balance, rest, crowd), loads)
     }
 
     fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
@@ -212,7 +212,7 @@ impl World {
         if moments.is_empty() {
             return;
         }
-        let Self { model, state, integrator, solver, ledger, loads, before, rest, .. } = self;
+        let Self { model, state, integrator, solver, ledger, loads, before, rest, crowd, .. } = self;
         let step = Step { model, start, duration, before, after: state };
         let mut system = System::new(model, solver);
         let dense = integrator.dense(&mut system, step);
@@ -223,7 +223,7 @@ impl World {
                 system.settle(time, &mut within);
             }
             let balance = ledger.peek(model, time, &within);
-            see(picture(&mut system, time, &within, (balance, rest), loads));
+            see(picture(&mut system, time, &within, (balance, rest, crowd), loads));
         }
     }
 }

@@ -137,10 +137,14 @@ impl World {
             return None;
         }
         let mut copy = self.clone();
-        if let Some(collider) = &mut copy.collider {
-            collider.release();
+        if let Some(collider) = copy.collider.as_mut().filter(|_| is_crowded) {
+            if self.model.constraints().is_empty() {
+                copy.crowd = collider.crowd_contacts(&self.model, self.time, &self.state);
+            } else {
+                collider.release();
+                copy.disperse(self.time);
+            }
         }
-        copy.disperse(self.time);
         copy.decide_all(self.time);
         copy.state.clone_from(&self.state);
         Some(copy)

@@ -2,6 +2,7 @@
 
 use super::World;
 use super::event::Event;
+use crate::dynamics::energy::mechanical;
 
 impl World {
     /// Whether a touch concerns what is advanced by time-stepping.
@@ -83,12 +84,20 @@ impl World {
         contacts.extend(places);
         contacts.sort_by_key(|contact| contact.bodies);
         self.integrator.discontinuity();
-        if stays && !self.rest.are_due(collider.crowded()) {
+        let is_due = self.rest.are_due(collider.crowded());
+        if stays && !is_due {
             return;
         }
         collider.dissolve();
         self.solver.take_contacts(contacts);
+        let before = mechanical(&self.model, t, &self.state);
         self.solver.close_all(&self.model, t, &mut self.state);
-        self.meet_at_rest(t);
+        self.state.accounts.impacts += mechanical(&self.model, t, &self.state) - before;
+        if is_due {
+            // They are held now.
+            self.is_decided = false;
+        } else {
+            self.meet_at_rest(t);
+        }
     }
 }

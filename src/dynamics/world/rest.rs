@@ -85,28 +85,62 @@ impl World {
         if new.is_empty() {
             return;
         }
+        let was_in_crowd = |bodies: &BTreeSet<usize>| bodies.iter().any(|&body| collider.was_in_crowd(body));
+        let (heaps, others): (Vec<_>, Vec<_>) = new.into_iter().partition(was_in_crowd);
+        let mut held = self.seen_by_sweeps(t, heaps);
+        held.extend(self.seen_as_decided(t, others));
+        for &body in held.iter().flat_map(|island| &island.bodies) {
+            self.model.freeze(body, &mut self.state);
+        }
+        self.rest.islands.extend(held);
+        self.solver.forget();
+        self.integrator.discontinuity();
+        self.meet_at_rest(t);
+    }
+
+    /// Islands whose contacts time-stepping has advanced, and takes out their contacts. Their forces are found by sweeps as well: to decide by
+    /// events which of the many contacts of a heap push takes long, and often fails.
+    fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
+        if islands.is_empty() {
+            return Vec::new();
+        }
+        self.model.sum(t, &self.state, &mut self.loads);
+        let mut left = self.solver.contacts().to_vec();
+        let mut all = Vec::new();
+        for bodies in islands {
+            let contacts: Vec<_> = left.extract_if(.., |contact| contact.is_of(&bodies)).collect();
+            let Some(collider) = &self.collider else { continue };
+            let seen = collider.forces_at_rest(&contacts, &self.model, (t, &self.state), &self.loads);
+            let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
+            all.push(Island { bodies, contacts, seen, loads });
+        }
+        self.solver.take_contacts(left);
+        self.is_decided = false;
+        all
+    }
+
+    /// Islands whose contacts are followed by events, and takes out their contacts.
+    fn seen_as_decided(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
+        if islands.is_empty() {
+            return Vec::new();
+        }
         self.decide_all(t);
         let mut system = System::new(&self.model, &mut self.solver);
         system.begin(t, &self.state);
         system.evaluate(t, &self.state, &mut self.loads);
         let seen = system.contacts();
         self.model.sum(t, &self.state, &mut self.loads);
-        let (mut left, mut held) = (self.solver.contacts().to_vec(), Vec::new());
-        for bodies in new {
-            let is_of = |pair: &[usize; 2]| pair.iter().any(|body| bodies.contains(body));
-            let contacts = left.extract_if(.., |contact| is_of(&contact.bodies)).collect();
-            let seen = seen.iter().copied().filter(|contact| is_of(&contact.bodies)).collect();
+        let mut left = self.solver.contacts().to_vec();
+        let mut all = Vec::new();
+        for bodies in islands {
+            let contacts = left.extract_if(.., |contact| contact.is_of(&bodies)).collect();
+            let is_of = |contact: &ContactSnapshot| contact.bodies.iter().any(|body| bodies.contains(body));
+            let seen = seen.iter().copied().filter(is_of).collect();
             let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
-            for &body in &bodies {
-                self.model.freeze(body, &mut self.state);
-            }
-            held.push(Island { bodies, contacts, seen, loads });
+            all.push(Island { bodies, contacts, seen, loads });
         }
-        self.rest.islands.extend(held);
         self.solver.take_contacts(left);
-        self.solver.forget();
-        self.integrator.discontinuity();
-        self.meet_at_rest(t);
+        all
     }
 
     /// The bodies that hold each other and have all been at rest for long enough.

@@ -9,7 +9,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::super::constraint::Purpose;
+use super::super::super::constraint::{Purpose, Solver};
+use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
 use super::super::super::{BodyId, Breakdown, Loads, Model, State};
 use super::super::approach::close;
@@ -285,6 +286,9 @@ impl Collider {
             if deep.is_none() {
                 self.crowd.pushing.clear();
                 self.crowd.course = None;
+                let Crowd { bodies, places, .. } = &mut self.crowd;
+                places.retain(|place| !place.is_of(bodies));
+                places.extend(all.iter().cloned());
                 return Ok(all);
             }
             jammed = deep;
@@ -293,7 +297,7 @@ impl Collider {
             solver.take_contacts(all);
             solver.forget();
             solver.hold_joints(model, time, state);
-            solver.separate(time, state);
+            separate(solver, model, time, state);
         }
         let bodies = jammed.unwrap_or_default().map(BodyId::new);
         Err(Breakdown::Jammed { bodies, time })
@@ -376,7 +380,7 @@ impl Crowd {
         self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
         self.fly(model, 0.5 * part, now);
         model.place(t + part, now);
-        self.solver.separate(t + part, now);
+        separate(&mut self.solver, model, t + part, now);
     }
 
     /// Lets bodies move freely for a time, s.
@@ -390,5 +394,14 @@ impl Crowd {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
             now.angular_momentum[i] += time * loads.torque[i];
         }
+    }
+}
+
+/// Moves bodies out of each other. The energy that this takes counts as work of impacts.
+fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
+    if solver.are_within(t, state) {
+        let before = mechanical(model, t, state);
+        solver.separate(state);
+        state.accounts.impacts += mechanical(model, t, state) - before;
     }
 }

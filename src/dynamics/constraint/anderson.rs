@@ -1,0 +1,166 @@
+//! Goes further where sweeps lead: they alone come near their limit slowly.
+//!
+//! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
+
+/// So many of the last sweeps tell where they lead.
+const MEMORY: usize = 5;
+
+/// Where the last change has become so many times larger, in its square, what was known before misleads.
+const WORSE: f64 = 2.0;
+
+/// The part of the largest square below which a difference tells nothing new.
+const TINY: f64 = 1e-14;
+
+/// What the last sweeps have done.
+pub(super) struct Anderson {
+    /// The square root of the weight of each value.
+    scale: Vec<f64>,
+    /// The values before the next sweep.
+    before: Vec<f64>,
+    last: Sweep,
+    /// The square of the length of the last change.
+    length: f64,
+    /// Whether nothing is known of the last sweep.
+    is_new: bool,
+    /// How each of the last sweeps differed from the one before, the oldest first.
+    steps: Vec<Sweep>,
+    /// What goes further than the last sweep.
+    further: Vec<f64>,
+}
+
+/// A sweep, or how one differs from another.
+#[derive(Default)]
+struct Sweep {
+    /// The values that it found.
+    found: Vec<f64>,
+    /// What it changed, with the weights.
+    change: Vec<f64>,
+    /// The products of that with those of the older ones and with itself.
+    products: Vec<f64>,
+}
+
+impl Anderson {
+    /// Begins at some values, of which each has a weight.
+    pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
+        Anderson {
+            scale: weights.iter().map(|weight| weight.sqrt()).collect(),
+            before: values.to_vec(),
+            last: Sweep::default(),
+            length: f64::INFINITY,
+            is_new: true,
+            steps: Vec::with_capacity(MEMORY),
+            further: Vec::with_capacity(values.len()),
+        }
+    }
+
+    /// What to add to the values that a sweep has found.
+    pub(super) fn go_further(&mut self, found: &[f64]) -> &[f64] {
+        let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
+        let change = found.iter().zip(&self.before).zip(&self.scale);
+        overwrite(&mut step.change, change.map(|((found, before), scale)| scale * (found - before)));
+        overwrite(&mut step.found, found.iter().copied());
+        std::mem::swap(&mut step, &mut self.last);
+        let length = product(&self.last.change, &self.last.change);
+        if length > WORSE * self.length {
+            self.steps.clear();
+        } else if !self.is_new {
+            self.note(step);
+        }
+        (self.length, self.is_new) = (length, false);
+        let parts = self.parts();
+        overwrite(&mut self.further, found.iter().map(|_| 0.0));
+        for (step, part) in self.steps.iter().zip(parts) {
+            self.further.iter_mut().zip(&step.found).for_each(|(further, step)| *further -= part * step);
+        }
+        overwrite(&mut self.before, found.iter().zip(&self.further).map(|(found, further)| found + further));
+        &self.further
+    }
+
+    fn forget_oldest(&mut self) -> Sweep {
+        for step in &mut self.steps {
+            step.products.remove(0);
+        }
+        self.steps.remove(0)
+    }
+
+    /// Notes how the last sweep differs from the one before.
+    fn note(&mut self, before: Sweep) {
+        let Sweep { mut found, mut change, mut products } = before;
+        found.iter_mut().zip(&self.last.found).for_each(|(before, now)| *before = now - *before);
+        change.iter_mut().zip(&self.last.change).for_each(|(before, now)| *before = now - *before);
+        overwrite(&mut products, self.steps.iter().map(|step| product(&step.change, &change)));
+        products.push(product(&change, &change));
+        self.steps.push(Sweep { found, change, products });
+    }
+
+    /// The linear combination of the differences that comes nearest to the last change, by the method of Cholesky.
+    fn parts(&self) -> [f64; MEMORY] {
+        let n = self.steps.len();
+        let largest = self.steps.iter().zip(0..).fold(0.0_f64, |most, (step, i)| most.max(step.products[i]));
+        let mut factor = [[0.0; MEMORY]; MEMORY];
+        let mut parts = [0.0; MEMORY];
+        for i in 0..n {
+            for j in 0..=i {
+                let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+                let left = self.steps[i].products[j] - known;
+                factor[i][j] = match i == j {
+                    true if left > TINY * largest => left.sqrt(),
+                    // A difference that tells nothing new takes no part.
+                    true => f64::INFINITY,
+                    false => left / factor[j][j],
+                };
+            }
+            let known: f64 = (0..i).map(|k| factor[i][k] * parts[k]).sum();
+            parts[i] = (product(&self.steps[i].change, &self.last.change) - known) / factor[i][i];
+        }
+        for i in (0..n).rev() {
+            let known: f64 = (i + 1..n).map(|k| factor[k][i] * parts[k]).sum();
+            parts[i] = (parts[i] - known) / factor[i][i];
+        }
+        parts
+    }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn overwrite(values: &mut Vec<f64>, new: impl Iterator<Item = f64>) {
+    values.clear();
+    values.extend(new);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sweeps that alone need two thousand rounds: x ← A x + b with the eigenvalues 0.99, 0.9 and −0.5. Three differences tell all.
+    #[test]
+    fn a_linear_iteration_reaches_its_limit_in_a_few_sweeps() {
+        let limit = [1.0, -2.0, 0.5];
+        let sweep = |x: &mut [f64]| {
+            for ((x, factor), limit) in x.iter_mut().zip([0.99, 0.9, -0.5]).zip(limit) {
+                *x = limit + factor * (*x - limit);
+            }
+        };
+        let mut x = [0.0; 3];
+        let mut anderson = Anderson::from(&x, &[1.0, 4.0, 9.0]);
+        for _ in 0..6 {
+            sweep(&mut x);
+            let further = anderson.go_further(&x).to_vec();
+            x.iter_mut().zip(further).for_each(|(x, further)| *x += further);
+        }
+        for (x, limit) in x.iter().zip(limit) {
+            assert!((x - limit).abs() < 1e-9, "{x} instead of {limit}");
+        }
+    }
+
+    /// Where nothing changes any more, nothing is added.
+    #[test]
+    fn what_is_at_its_limit_stays_there() {
+        let mut anderson = Anderson::from(&[3.0], &[1.0]);
+        for _ in 0..4 {
+            assert_eq!(anderson.go_further(&[3.0]), [0.0]);
+        }
+    }
+}
