@@ -21,14 +21,15 @@ fn scripts_of_the_gallery() {
     });
 }
 
-/// What makes scripts of thousands of particles short.
+/// What makes scripts of thousands of particles short, and long runs.
 fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
-    let setting = match path.file_stem().and_then(std::ffi::OsStr::to_str) {
-        Some("fountain") => "variables.drops=40",
-        Some("sparks") => "variables.sparks=60",
-        _ => return Vec::new(),
+    let settings: &[&str] = match path.file_stem().and_then(std::ffi::OsStr::to_str) {
+        Some("fountain") => &["variables.drops=40"],
+        Some("sparks") => &["variables.sparks=60"],
+        Some("galton") => &["variables.balls=15", "simulation.duration=2"],
+        _ => &[],
     };
-    vec![jabuka::scene::Override::new(setting)]
+    settings.iter().map(|setting| jabuka::scene::Override::new(*setting)).collect()
 }
 
 /// The figures that the tutorial's scene is known for.

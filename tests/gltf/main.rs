@@ -12,9 +12,10 @@ use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::dynamics::Shape;
 use jabuka::picture::{Lamp, LinkForm, LinkKind, Plan};
+use jabuka::scene::{Options, Override};
 use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
-use support::{jabuka, root, stderr, stdout};
+use support::{jabuka, root, shorter, stderr, stdout};
 
 /// What `look.mjs` says of a file.
 #[derive(Deserialize)]
@@ -208,14 +209,17 @@ fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) 
 fn check(scenes: &[PathBuf], folder: &Path) {
     let both = |scene: &PathBuf| {
         let file = folder.join(scene.file_name().unwrap()).with_extension("glb");
-        export(scene, &file, &[]);
-        export(scene, &file.with_extension("csv"), &[]);
+        export(scene, &file, shorter(scene));
+        export(scene, &file.with_extension("csv"), shorter(scene));
         file
     };
     let files: Vec<PathBuf> = scenes.iter().map(both).collect();
     for ((path, file), seen) in scenes.iter().zip(&files).zip(look(&files)) {
         let name = path.file_stem().unwrap().to_str().unwrap();
-        let scene = Scene::from_path(path).unwrap();
+        let overrides =
+            shorter(path).iter().skip(1).step_by(2).map(|setting| Override::new(*setting)).collect();
+        let options = Options { overrides, ..Options::default() };
+        let scene = Scene::from_path_with(path, &options).unwrap();
         assert_same_motion(name, &seen, &table(&file.with_extension("csv")));
         let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
         let spots = assert_same_picture(name, &seen, &scene, &frames);

@@ -37,7 +37,7 @@ const READ: usize = 40_000_000;
 fn check(scene: &Path) {
     let folder = tempfile::tempdir().unwrap();
     let scripts = folder.path().join("scripts");
-    support::compile(scene, &scripts, &[]);
+    support::compile(scene, &scripts, support::shorter(scene));
     let names = support::contents(&scripts).into_iter().map(|(name, _)| name);
     let names: Vec<_> = names.filter(|name| name.starts_with("frame_")).collect();
     assert!(!names.is_empty());

@@ -40,9 +40,7 @@ fn every_scene_of_the_gallery_is_drawn_without_a_complaint() {
     assert!(scenes.len() > 15, "{scenes:?}");
     // One after another: each server simulates its scene at once, and many together take long.
     for name in &scenes {
-        // The run of 500 dominoes would take a minute; its beginning shows the same.
-        let shorter: &[&str] =
-            if name == "domino_spiral" { &["--set", "simulation.duration=2"] } else { &[] };
+        let shorter = support::shorter(&support::scene(name));
         let scene = Scene::gallery(name).previewed_with(shorter);
         scene.shows("drawing.mjs", "is_drawn_without_a_complaint");
     }

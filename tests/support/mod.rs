@@ -27,6 +27,15 @@ pub(crate) fn scene(name: &str) -> PathBuf {
     root().join("scenes").join(name).with_extension("toml")
 }
 
+/// What makes a scene of the gallery short whose whole run takes long: its beginning shows the same.
+pub(crate) fn shorter(scene: &Path) -> &'static [&'static str] {
+    match scene.file_stem().and_then(std::ffi::OsStr::to_str) {
+        Some("domino_spiral") => &["--set", "simulation.duration=2"],
+        Some("galton") => &["--set", "simulation.duration=2", "--set", "variables.balls=15"],
+        _ => &[],
+    }
+}
+
 /// What a command said to standard output.
 pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
