@@ -355,6 +355,13 @@ impl Model {
         (inverse_mass * push, turn * (inverse * (turn.conjugate() * moment)))
     }
 
+    /// The orientation of a body (`world_from_body`); a state holds that of its principal axes.
+    #[must_use]
+    pub fn world_from_body(&self, body: usize, state: &State) -> DQuat {
+        let (orientation, axes) = (state.orientation[body], self.principal_axes(body));
+        if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
+    }
+
     /// The angular velocity of body `i`, ω = R I⁻¹ Rᵀ L, world axes, rad/s.
     #[must_use]
     pub fn angular_velocity(&self, i: usize, state: &State) -> DVec3 {

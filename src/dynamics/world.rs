@@ -4,6 +4,7 @@ mod advance;
 mod apart;
 mod crowd;
 mod event;
+mod picture;
 mod piece;
 mod rest;
 
@@ -13,14 +14,15 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use self::picture::{picture, push_crowd};
 use self::rest::Rest;
 use super::constraint::Solver;
 use super::contact::Collider;
 use super::presence::Calendar;
 use super::{
-    Balance, BodyId, BodySnapshot, Breakdown, Constraint, ContactSnapshot, Contacts, Dynamics, Effort,
-    EnergyLedger, Force, Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody,
-    Shape, Snapshot, State, System,
+    Balance, BodyId, Breakdown, Constraint, ContactSnapshot, Contacts, Dynamics, Effort, EnergyLedger, Force,
+    Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State,
+    System,
 };
 
 /// The longest timestep where none is set, s.
@@ -343,7 +345,7 @@ impl World {
     /// The orientation of a body (`world_from_body`).
     #[must_use]
     pub fn orientation(&self, body: BodyId) -> DQuat {
-        world_from_body(&self.model, &self.state, body.index())
+        self.model.world_from_body(body.index(), &self.state)
     }
 
     /// A body as it is now.
@@ -404,54 +406,6 @@ impl Dynamics for World {
     fn steps(&self) -> u64 {
         self.steps
     }
-}
-
-/// All that can be known of a moment; `loads` is room to work in.
-fn picture(
-    system: &mut System<'_>,
-    time: f64,
-    state: &State,
-    (balance, rest, crowd): (Balance, &Rest, &[ContactSnapshot]),
-    loads: &mut Loads,
-) -> Snapshot {
-    let model = system.model();
-    system.begin(time, state);
-    system.evaluate(time, state, loads);
-    push_crowd(crowd, model, loads);
-    model.guide(time, loads);
-    let body = |id: usize| BodySnapshot {
-        id,
-        location: state.location[id],
-        orientation: world_from_body(model, state, id),
-        velocity: state.velocity[id],
-        angular_velocity: model.angular_velocity(id, state),
-        force: loads.force[id],
-    };
-    let reactions = system.reactions();
-    let present = (0..state.len()).filter(|&id| model.is_present(id));
-    let mut contacts = system.contacts();
-    contacts.extend(rest.contacts());
-    contacts.extend(crowd);
-    contacts.sort_by_key(|contact| contact.bodies);
-    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts, penetration: 0.0, balance }
-}
-
-/// Adds the forces at contacts of the crowd to the loads.
-fn push_crowd(contacts: &[ContactSnapshot], model: &Model, loads: &mut Loads) {
-    for contact in contacts {
-        let force = contact.force + contact.friction;
-        for (body, force) in contact.bodies.into_iter().zip([-force, force]) {
-            if model.inverse_mass()[body] != 0.0 {
-                loads.force[body] += force;
-            }
-        }
-    }
-}
-
-/// The orientation of a body; within a world it is that of the principal axes.
-fn world_from_body(model: &Model, state: &State, body: usize) -> DQuat {
-    let (orientation, axes) = (state.orientation[body], model.principal_axes(body));
-    if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
 }
 
 #[cfg(test)]

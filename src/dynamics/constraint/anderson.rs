@@ -1,14 +1,14 @@
-//! Goes further where sweeps lead: they alone come near their limit slowly.
+//! Anderson acceleration. Sweeps alone approach their limit slowly; from the last few of them it follows where they lead.
 //!
 //! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
 
-/// So many of the last sweeps tell where they lead.
+/// It looks at so many of the last sweeps.
 const MEMORY: usize = 5;
 
-/// Where the last change has become so many times larger, in its square, what was known before misleads.
+/// When the square of the change grows by more than this factor from one sweep to the next, the sweeps before are forgotten.
 const WORSE: f64 = 2.0;
 
-/// The part of the largest square below which a difference tells nothing new.
+/// A difference counts as a combination of the others if less than this part of the largest square is new in it.
 const TINY: f64 = 1e-14;
 
 /// What the last sweeps have done.
@@ -24,7 +24,7 @@ pub(super) struct Anderson {
     is_new: bool,
     /// How each of the last sweeps differed from the one before, the oldest first.
     steps: Vec<Sweep>,
-    /// What goes further than the last sweep.
+    /// What is added to the values after the last sweep.
     further: Vec<f64>,
 }
 
@@ -40,7 +40,7 @@ struct Sweep {
 }
 
 impl Anderson {
-    /// Begins at some values, of which each has a weight.
+    /// Begins with the values before the first sweep. Each has a weight, by which changes are compared.
     pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
         Anderson {
             scale: weights.iter().map(|weight| weight.sqrt()).collect(),
@@ -53,7 +53,7 @@ impl Anderson {
         }
     }
 
-    /// What to add to the values that a sweep has found.
+    /// What to add to the values that a sweep has found, so that the next sweep begins nearer to the limit.
     pub(super) fn go_further(&mut self, found: &[f64]) -> &[f64] {
         let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
         let change = found.iter().zip(&self.before).zip(&self.scale);
@@ -93,7 +93,8 @@ impl Anderson {
         self.steps.push(Sweep { found, change, products });
     }
 
-    /// The linear combination of the differences that comes nearest to the last change, by the method of Cholesky.
+    /// How much of each difference to take, so that their sum comes as near as possible to the last change. This is a problem of least squares;
+    /// its equations are solved by Cholesky's factorization.
     fn parts(&self) -> [f64; MEMORY] {
         let n = self.steps.len();
         let largest = self.steps.iter().zip(0..).fold(0.0_f64, |most, (step, i)| most.max(step.products[i]));
@@ -134,7 +135,8 @@ fn overwrite(values: &mut Vec<f64>, new: impl Iterator<Item = f64>) {
 mod tests {
     use super::*;
 
-    /// Sweeps that alone need two thousand rounds: x ← A x + b with the eigenvalues 0.99, 0.9 and −0.5. Three differences tell all.
+    /// Each sweep brings three values nearer to their limit, by the factors 0.99, 0.9 and −0.5. By sweeps alone, this would take two thousand of
+    /// them. Three differences are enough to find the limit.
     #[test]
     fn a_linear_iteration_reaches_its_limit_in_a_few_sweeps() {
         let limit = [1.0, -2.0, 0.5];

@@ -51,7 +51,7 @@ impl Columns {
         &self.weights
     }
 
-    /// Changes the velocities of members by an impulse along a row.
+    /// Gives members the velocities that an impulse along a row causes.
     #[inline]
     pub(super) fn apply(&self, row: usize, impulse: f64, members: &mut [Member]) {
         for change in self.of(row) {
@@ -79,6 +79,7 @@ impl Solver {
         self.columns = columns;
     }
 
+    /// Adds what an impulse along a row does while joints hold: their reactions move other bodies as well.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let mut moved: Vec<Member> = self.members.clone();

@@ -5,7 +5,6 @@
 //! Integration*, 2nd ed., VII.1; the joints: D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
 mod anderson;
-mod at_rest;
 mod ball;
 mod columns;
 mod contacts;
@@ -30,6 +29,7 @@ mod rope;
 mod separate;
 mod servo;
 mod settle;
+mod shown;
 mod slider;
 mod sliding;
 mod solver;

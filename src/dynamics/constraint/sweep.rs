@@ -145,7 +145,7 @@ impl Solver {
         if purpose != Purpose::Impact {
             self.forced = fastest;
         }
-        // What forces change is so much that impacts far below that need not be known as precisely.
+        // Rates far below those that forces change in a part of a step need not be exact.
         self.sweep_until(SETTLED * fastest.max(self.forced), |solver| {
             let change = solver.sweep_rows(goals, purpose);
             (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
@@ -155,11 +155,11 @@ impl Solver {
         }
     }
 
-    /// Makes sweeps until one changes no rate by more than is left open, and goes further where they lead meanwhile.
-    pub(super) fn sweep_until(&mut self, open: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
+    /// Makes sweeps, accelerated by Anderson's method, until one changes no rate by more than `tolerance`.
+    pub(super) fn sweep_until(&mut self, tolerance: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
         for left in (0..SWEEPS).rev() {
-            if sweep(self) <= open || left == 0 {
+            if sweep(self) <= tolerance || left == 0 {
                 return;
             }
             for (row, &further) in anderson.go_further(&self.unknown).iter().enumerate() {

@@ -116,7 +116,7 @@ impl Collider {
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
-    /// The places at which bodies of the crowd touched at the end of the last step, and the forces there, as time-stepping found them.
+    /// The places at which bodies of the crowd touched at the end of the last step, and the forces that time-stepping found there.
     pub(in crate::dynamics) fn crowd_contacts(
         &self,
         model: &Model,
@@ -125,10 +125,10 @@ impl Collider {
     ) -> Vec<ContactSnapshot> {
         let is_here = |place: &&Arc<Closed>| place.is_of(&self.crowd.bodies);
         let places: Vec<_> = self.crowd.places.iter().filter(is_here).cloned().collect();
-        self.crowd.solver.forces_known(places, model, t, state)
+        self.crowd.solver.last_forces(places, model, t, state)
     }
 
-    /// The forces at places where bodies rest on each other under `loads`, found by sweeps.
+    /// The forces at places where bodies rest on each other. `loads` are the other forces on them.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
         places: &[Arc<Closed>],
@@ -139,7 +139,7 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Whether a body has been in the crowd in this step, or just before, or as part of a heap.
+    /// Whether a body is in the crowd, has just left it, or has been in it as part of a heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }

@@ -81,9 +81,7 @@ impl Path {
 
 /// Where body `i` is.
 pub(super) fn pose(i: usize, model: &Model, state: &State) -> Pose {
-    let (orientation, axes) = (state.orientation[i], model.principal_axes(i));
-    let orientation = if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() };
-    Pose { location: state.location[i], orientation }
+    Pose { location: state.location[i], orientation: model.world_from_body(i, state) }
 }
 
 /// The vector about which and by which a body turns, rad. Of the turns that lead to the end, it is the one that fits the angular

@@ -41,7 +41,8 @@ const ALIKE: f64 = 1e-13;
 /// So many impacts may follow each other in an instant, for each pair that touches.
 const ROUNDS: usize = 2_000;
 
-/// The same where no pair keeps its energy. Wedged bodies lose theirs slowly from one to another; what is left then is lost at once.
+/// The same where every impact loses energy. Between wedged bodies, many impacts follow that each lose little. After so many rounds, the rest
+/// of the approach is lost at once.
 const ROUNDS_WITH_LOSSES: usize = 100;
 
 /// The place of an impact: the directions of its normal and its tangents, and where it is.

@@ -1,8 +1,9 @@
 //! How a world advances: steps, births and deaths on the way, and looks between two steps.
 
 use super::super::{Snapshot, State, Step, System};
+use super::World;
 use super::event::Counts;
-use super::{World, picture};
+use super::picture::picture;
 
 /// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
 /// fractions have rounding errors, and 0.1 s are ten steps of 0.01 s.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::World;
-use crate::dynamics::contact::Closed;
+use crate::dynamics::contact::{Closed, Collider};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
 /// Bodies that have been at rest for so many steps are held.
@@ -98,28 +98,23 @@ impl World {
         self.meet_at_rest(t);
     }
 
-    /// Islands whose contacts time-stepping has advanced, and takes out their contacts. Their forces are found by sweeps as well: to decide by
-    /// events which of the many contacts of a heap push takes long, and often fails.
+    /// Makes islands of bodies that time-stepping brought to rest. The forces at their contacts are found by sweeps as well: to follow by events
+    /// which of the many contacts of a heap push takes long, and often fails.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
-        if islands.is_empty() {
-            return Vec::new();
-        }
-        self.model.sum(t, &self.state, &mut self.loads);
-        let mut left = self.solver.contacts().to_vec();
-        let mut all = Vec::new();
-        for bodies in islands {
-            let contacts: Vec<_> = left.extract_if(.., |contact| contact.is_of(&bodies)).collect();
-            let Some(collider) = &self.collider else { continue };
-            let seen = collider.forces_at_rest(&contacts, &self.model, (t, &self.state), &self.loads);
-            let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
-            all.push(Island { bodies, contacts, seen, loads });
-        }
-        self.solver.take_contacts(left);
-        self.is_decided = false;
-        all
+        self.is_decided &= islands.is_empty();
+        let make = |bodies: BTreeSet<usize>| {
+            let contacts = self.take_out(&bodies);
+            self.model.sum(t, &self.state, &mut self.loads);
+            let forces = |collider: &Collider| {
+                collider.forces_at_rest(&contacts, &self.model, (t, &self.state), &self.loads)
+            };
+            let seen = self.collider.as_ref().map(forces).unwrap_or_default();
+            self.island(bodies, contacts, seen)
+        };
+        islands.into_iter().map(make).collect()
     }
 
-    /// Islands whose contacts are followed by events, and takes out their contacts.
+    /// Makes islands of bodies whose contacts are followed by events.
     fn seen_as_decided(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         if islands.is_empty() {
             return Vec::new();
@@ -128,19 +123,33 @@ impl World {
         let mut system = System::new(&self.model, &mut self.solver);
         system.begin(t, &self.state);
         system.evaluate(t, &self.state, &mut self.loads);
-        let seen = system.contacts();
+        let all = system.contacts();
         self.model.sum(t, &self.state, &mut self.loads);
-        let mut left = self.solver.contacts().to_vec();
-        let mut all = Vec::new();
-        for bodies in islands {
-            let contacts = left.extract_if(.., |contact| contact.is_of(&bodies)).collect();
+        let make = |bodies: BTreeSet<usize>| {
             let is_of = |contact: &ContactSnapshot| contact.bodies.iter().any(|body| bodies.contains(body));
-            let seen = seen.iter().copied().filter(is_of).collect();
-            let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
-            all.push(Island { bodies, contacts, seen, loads });
-        }
+            let seen = all.iter().copied().filter(is_of).collect();
+            let contacts = self.take_out(&bodies);
+            self.island(bodies, contacts, seen)
+        };
+        islands.into_iter().map(make).collect()
+    }
+
+    /// Takes the contacts of some bodies out of those that are followed.
+    fn take_out(&mut self, bodies: &BTreeSet<usize>) -> Vec<Arc<Closed>> {
+        let (taken, left) = self.solver.contacts().iter().cloned().partition(|contact| contact.is_of(bodies));
         self.solver.take_contacts(left);
-        all
+        taken
+    }
+
+    /// Bodies with their contacts, as they are seen, and with the loads that were summed up last.
+    fn island(
+        &self,
+        bodies: BTreeSet<usize>,
+        contacts: Vec<Arc<Closed>>,
+        seen: Vec<ContactSnapshot>,
+    ) -> Island {
+        let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
+        Island { bodies, contacts, seen, loads }
     }
 
     /// The bodies that hold each other and have all been at rest for long enough.

@@ -1,4 +1,4 @@
-//! The forces at the contacts of what time-stepping advances, for somebody who looks.
+//! The contact forces that frames show of bodies that time-stepping advances.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The forces on what rests are found in so many rounds of sweeps; each begins with what the one before has found.
+/// The forces between bodies at rest are found in so many rounds of sweeps. Each round begins with the forces of the one before.
 const ROUNDS: usize = 10;
 
 impl Solver {
-    /// The forces at places where bodies rest on each other, under `loads`.
+    /// The forces at places where bodies rest on each other. `loads` are the other forces on them.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
         contacts: Vec<Arc<Closed>>,
@@ -21,7 +21,8 @@ impl Solver {
         (t, state): (f64, &State),
         loads: &Loads,
     ) -> Vec<ContactSnapshot> {
-        // The velocities that the loads give in a second are to be stopped: the impulses in newton seconds are the forces in newtons.
+        // In one second, the loads give the bodies these velocities. The impulses that stop them, in newton seconds, are as large as the
+        // forces in newtons.
         let mut given = state.clone();
         for &i in contacts.iter().flat_map(|contact| &contact.bodies) {
             given.velocity[i] = model.inverse_mass()[i] * loads.force[i];
@@ -31,17 +32,16 @@ impl Solver {
         let mut solver = self.part(contacts);
         solver.warm = self.warm.clone();
         solver.find_by_sweeps(model);
+        solver.prepare_sweeps(model, t, &mut given);
+        let goals = vec![0.0; solver.rows.len()];
         for _ in 0..ROUNDS {
-            let mut stopped = given.clone();
-            solver.prepare_sweeps(model, t, &mut stopped);
-            let goals = vec![0.0; solver.rows.len()];
-            solver.push_all(model, &goals, Purpose::Forces(1.0), &mut stopped);
+            solver.push_all(model, &goals, Purpose::Forces(1.0), &mut given.clone());
         }
         solver.contact_snapshots(model)
     }
 
-    /// The forces at contacts as they were found last.
-    pub(in crate::dynamics) fn forces_known(
+    /// The forces at contacts that were found in the last part of a step.
+    pub(in crate::dynamics) fn last_forces(
         &self,
         contacts: Vec<Arc<Closed>>,
         model: &Model,
