@@ -5,6 +5,8 @@
 //! own: one corner can leave the floor while another comes down. Source: B. V. Mirtich,
 //! *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
 
+use glam::DVec3;
+
 use super::nearest::{Nearest, nearest};
 use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
@@ -48,6 +50,11 @@ pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, with
     all
 }
 
+/// Whether both are convex. While neither turns, a plane between them, where they are nearest, bounds their gap at all places.
+pub(super) fn are_convex(solids: [&Solid; 2]) -> bool {
+    solids.iter().all(|solid| solid.parts().len() == 1 && !solid.is_surface())
+}
+
 /// How near bodies are that are looked at place by place, m.
 pub(super) fn close(solids: [&Solid; 2]) -> f64 {
     CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
@@ -57,16 +64,20 @@ impl Approach<'_> {
     /// The first time at which they touch and come nearer, s after the beginning, if that is before `end`.
     pub(super) fn first(&self, end: f64) -> Option<f64> {
         let close = close(self.solids);
+        let turns = self.paths.map(|path| path.turning != DVec3::ZERO || path.first_turning != DVec3::ZERO);
+        let is_shift = are_convex(self.solids) && turns == [false; 2];
         let mut time = 0.0;
         for step in 0.. {
             let moving = self.paths.map(|path| path.at(time));
             let poses = [&moving[0].pose, &moving[1].pose];
             let near = nearest(self.solids[0], poses[0], self.solids[1], poses[1], f64::INFINITY)?;
             let (shrink, bend) = self.bounds(&near, &moving);
-            let mut safe = self.until(near.gap.max(close), shrink, bend);
+            let mut safe =
+                if is_shift { f64::INFINITY } else { self.until(near.gap.max(close), shrink, bend) };
             let mut is_stuck = step > STEPS;
-            if near.gap <= close {
-                for place in places(self.solids, poses, near, close) {
+            if is_shift || near.gap <= close {
+                let near = if is_shift { vec![near] } else { places(self.solids, poses, near, close) };
+                for place in near {
                     let rate = self.rate(&place, &moving, time);
                     let is_touched = place.gap <= self.touch;
                     if is_touched && rate < -self.slight {

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::super::{BodyId, Breakdown, Constraint, Model, State};
-use super::approach::{Approach, TOUCH, close, places};
+use super::approach::{Approach, TOUCH, are_convex, close, places};
 use super::closed::Closed;
 use super::crowd::Crowd;
 use super::group::Focus;
@@ -204,6 +206,10 @@ impl Collider {
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
         let touch = TOUCH * scale(bodies, [x, y], state);
         let gap = |place: &Nearest| if place.gap.abs() > touch { place.gap } else { 0.0 };
+        let turns = |&body: &usize| model.angular_velocity(body, state) != DVec3::ZERO;
+        if are_convex([x, y]) && !bodies.iter().any(turns) {
+            return Some((gap(&near), rate(&near, bodies, (model, state))));
+        }
         let found = places([x, y], [&poses[0], &poses[1]], near, close([x, y])).into_iter();
         let found = found.map(|place| (gap(&place), rate(&place, bodies, (model, state))));
         let nearest = (gap(&near), rate(&near, bodies, (model, state)));

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::feature::Feature;
 use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, margin};
-use super::patch::{Patch, meet};
+use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
 /// A flat end lies flat where the sine of its tilt is smaller.
@@ -147,20 +147,28 @@ impl Pair<'_> {
         self.depth = self.within + nearest.gap.abs() + SAME * self.a.bound.min(self.b.bound);
         let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, self.depth);
         let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, self.depth);
-        for &i in &near_a {
-            for &j in &near_b {
-                if is_needed(&self.a.features[i].patch, &self.b.features[j].patch) {
-                    self.add(i, j);
-                }
-            }
-        }
+        // Each is placed once, and not for each pair.
+        let near_a = placed(self.a, self.pa, self.pa.location, near_a);
+        let near_b = placed(self.b, self.pb, self.pa.location, near_b);
+        self.add_where(&near_a, &near_b, is_needed);
         if self.found.is_empty() {
             // A corner touches a corner or an edge: neither has a normal there.
-            for &i in &near_a {
-                for &j in &near_b {
-                    if self.a.features[i].patch.has_no_normal_with(&self.b.features[j].patch) {
-                        self.add(i, j);
-                    }
+            self.add_where(&near_a, &near_b, Patch::has_no_normal_with);
+        }
+    }
+
+    /// Adds the touches of all wanted pairs of features, which are placed around the first body.
+    fn add_where(
+        &mut self,
+        near_a: &[(usize, Patch)],
+        near_b: &[(usize, Patch)],
+        is_wanted: fn(&Patch, &Patch) -> bool,
+    ) {
+        let origin = self.pa.location;
+        for (i, a) in near_a {
+            for (j, b) in near_b {
+                if is_wanted(a, b) {
+                    self.add_met(*i, *j, &|| meet_placed(a, b).moved(origin));
                 }
             }
         }
@@ -168,6 +176,13 @@ impl Pair<'_> {
 
     /// Adds the touches of a pair of features, if there are any.
     fn add(&mut self, i: usize, j: usize) {
+        let (a, b) = (&self.a.features[i].patch, &self.b.features[j].patch);
+        let (pa, pb) = (self.pa, self.pb);
+        self.add_met(i, j, &|| meet(a, pa, b, pb));
+    }
+
+    /// The same for two features whose patches meet there.
+    fn add_met(&mut self, i: usize, j: usize, meeting: &dyn Fn() -> Nearest) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
         if a.is_seam || b.is_seam {
             return;
@@ -175,15 +190,15 @@ impl Pair<'_> {
         match (a.patch, b.patch) {
             (Patch::Circle { .. }, Patch::Plane { normal, .. }) if self.is_flat(&a.patch, normal, false) => {
                 for patch in self.rim_points(0, &a.patch, b) {
-                    self.keep([patch, b.patch], [None, Some(j)]);
+                    self.keep_rim([patch, b.patch], [None, Some(j)]);
                 }
             }
             (Patch::Plane { normal, .. }, Patch::Circle { .. }) if self.is_flat(&b.patch, normal, true) => {
                 for patch in self.rim_points(1, &b.patch, a) {
-                    self.keep([a.patch, patch], [Some(i), None]);
+                    self.keep_rim([a.patch, patch], [Some(i), None]);
                 }
             }
-            _ => self.keep([a.patch, b.patch], [Some(i), Some(j)]),
+            _ => self.keep([a.patch, b.patch], [Some(i), Some(j)], meeting()),
         }
     }
 
@@ -219,9 +234,14 @@ impl Pair<'_> {
         places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
     }
 
-    /// Adds the touch of a pair of patches, if the bodies touch there and it is new.
-    fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
+    /// Adds the touch of a place of a rim and a face, if the bodies touch there and it is new.
+    fn keep_rim(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
+        self.keep(patches, features, meeting);
+    }
+
+    /// Adds the touch of a pair of patches that meet there, if the bodies touch there and it is new.
+    fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: Nearest) {
         let expected = -2.0 * self.depth..=self.within;
         if !expected.contains(&meeting.gap) {
             return;
@@ -302,6 +322,12 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
         }
         _ => !a.has_no_normal_with(b),
     }
+}
+
+/// Some features of a part with their patches, in the axes of the world, from an origin.
+fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
+    let pose = Pose { location: pose.location - origin, orientation: pose.orientation };
+    features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
 /// The features of a part that reach as far along a normal as its nearest place `at`, within `depth`.
