@@ -107,6 +107,11 @@ impl Patch {
         }
     }
 
+    /// Whether it is the rim of a flat end.
+    pub(super) fn is_rim(&self) -> bool {
+        matches!(self, Patch::Circle { .. })
+    }
+
     /// Whether neither patch has a normal of its own where they meet, nor do two edges cross there, which would give one.
     pub(super) fn has_no_normal_with(&self, other: &Patch) -> bool {
         let corner = |patch: &Patch| matches!(patch, Patch::Point { .. });

@@ -167,8 +167,12 @@ impl Pair<'_> {
         let origin = self.pa.location;
         for (i, a) in near_a {
             for (j, b) in near_b {
-                if is_wanted(a, b) {
-                    self.add_met(*i, *j, &|| meet_placed(a, b).moved(origin));
+                if !is_wanted(a, b) {
+                    continue;
+                }
+                let meeting = meet_placed(a, b);
+                if self.is_within_reach(&meeting) || a.is_rim() || b.is_rim() {
+                    self.add_met(*i, *j, meeting.moved(origin));
                 }
             }
         }
@@ -177,12 +181,11 @@ impl Pair<'_> {
     /// Adds the touches of a pair of features, if there are any.
     fn add(&mut self, i: usize, j: usize) {
         let (a, b) = (&self.a.features[i].patch, &self.b.features[j].patch);
-        let (pa, pb) = (self.pa, self.pb);
-        self.add_met(i, j, &|| meet(a, pa, b, pb));
+        self.add_met(i, j, meet(a, self.pa, b, self.pb));
     }
 
     /// The same for two features whose patches meet there.
-    fn add_met(&mut self, i: usize, j: usize, meeting: &dyn Fn() -> Nearest) {
+    fn add_met(&mut self, i: usize, j: usize, meeting: Nearest) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
         if a.is_seam || b.is_seam {
             return;
@@ -198,7 +201,7 @@ impl Pair<'_> {
                     self.keep_rim([a.patch, patch], [Some(i), None]);
                 }
             }
-            _ => self.keep([a.patch, b.patch], [Some(i), Some(j)], meeting()),
+            _ => self.keep([a.patch, b.patch], [Some(i), Some(j)], meeting),
         }
     }
 
@@ -234,6 +237,11 @@ impl Pair<'_> {
         places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
     }
 
+    /// Whether patches touch at a meeting, and not on the far sides of the parts.
+    fn is_within_reach(&self, meeting: &Nearest) -> bool {
+        (-2.0 * self.depth..=self.within).contains(&meeting.gap)
+    }
+
     /// Adds the touch of a place of a rim and a face, if the bodies touch there and it is new.
     fn keep_rim(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
@@ -242,8 +250,7 @@ impl Pair<'_> {
 
     /// Adds the touch of a pair of patches that meet there, if the bodies touch there and it is new.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: Nearest) {
-        let expected = -2.0 * self.depth..=self.within;
-        if !expected.contains(&meeting.gap) {
+        if !self.is_within_reach(&meeting) {
             return;
         }
         let parts = [(self.a, self.pa, meeting.normal), (self.b, self.pb, -meeting.normal)];
