@@ -111,6 +111,11 @@ impl Model {
             && self.forces.iter().all(|force| force.is_local())
     }
 
+    /// Whether some force depends on how the bodies move, or does work that is counted as it is done.
+    pub(super) fn depends_on_motion(&self) -> bool {
+        !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
+    }
+
     /// Whether no body is moved by forces, be it there or not.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()

@@ -46,7 +46,9 @@ fn a_charge_in_crossed_fields_drifts_across_both() {
         let slope = libm::log2(coarse.0 / fine.0);
         assert!((slope - f64::from(method.order)).abs() < 0.1, "{}: order {slope}", method.name);
         let slope = libm::log2(coarse.1 / fine.1);
-        assert!(slope > f64::from(method.order) - 0.1, "{}: drift of order {slope}", method.name);
+        // Yoshida's method takes the mean velocity, so that the magnetic force does no work at all.
+        let is_exact = coarse.1.max(fine.1) < 1e-13;
+        assert!(is_exact || slope > f64::from(method.order) - 0.1, "{}: drift of order {slope}", method.name);
     }
 }
 

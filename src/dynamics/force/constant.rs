@@ -34,6 +34,10 @@ impl Force for ConstantForce {
         self.torque == DVec3::ZERO
     }
 
+    fn depends_on_motion(&self) -> bool {
+        self.torque != DVec3::ZERO
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let mut potential = 0.0;
         for body in &self.bodies {

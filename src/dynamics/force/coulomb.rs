@@ -42,6 +42,10 @@ impl Force for Coulomb {
         self.of(moment).apply(moment, loads);
     }
 
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         self.of(moment).potential(moment)
     }

@@ -41,6 +41,10 @@ impl Force for Gravitation {
         self.of(moment).apply(moment, loads);
     }
 
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         self.of(moment).potential(moment)
     }

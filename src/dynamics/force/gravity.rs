@@ -22,6 +22,10 @@ impl Force for UniformGravity {
         true
     }
 
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let model = moment.model;
         let mut potential = 0.0;

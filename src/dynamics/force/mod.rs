@@ -51,6 +51,11 @@ pub trait Force: Send + Sync {
         false
     }
 
+    /// Whether it depends on how the bodies move, or does work that has no potential.
+    fn depends_on_motion(&self) -> bool {
+        true
+    }
+
     /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
     fn pairs(&self) -> u64 {
         0

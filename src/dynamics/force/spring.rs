@@ -111,6 +111,10 @@ impl Force for Spring {
         }
     }
 
+    fn depends_on_motion(&self) -> bool {
+        self.damping != 0.0
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         if !self.is_whole(moment) {
             return 0.0;

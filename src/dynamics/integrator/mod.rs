@@ -11,6 +11,7 @@ mod rotation;
 mod runge_kutta;
 mod splitting;
 mod velocity_verlet;
+mod yoshida4;
 
 use super::{State, System};
 
@@ -63,7 +64,7 @@ pub struct Method {
 
 /// All methods; the first is the default.
 pub static METHODS: &[Method] =
-    &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD];
+    &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
 impl Method {
     /// The method of this name.

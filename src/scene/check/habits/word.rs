@@ -2,9 +2,10 @@
 
 /// A word that is meant by another one, if it is one of those that there are.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
-    const OTHERS: [(&str, &[&str]); 17] = [
+    const OTHERS: [(&str, &[&str]); 18] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4", "rk45", "ode45", "dopri5"]),
         ("velocity-verlet", &["verlet", "leapfrog", "leap-frog", "stormer-verlet", "vv", "kdk"]),
+        ("yoshida4", &["yoshida", "yoshida-4", "forest-ruth", "symplectic4", "symplectic-4"]),
         ("euler-cromer", &["euler", "symplectic", "symplectic-euler", "semi-implicit-euler", "cromer"]),
         ("explicit-euler", &["forward-euler", "euler-forward", "explicit"]),
         ("event-driven", &["true", "yes", "on", "event", "events", "exact", "hard", "rigid", "impulse"]),

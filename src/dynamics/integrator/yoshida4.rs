@@ -1,0 +1,118 @@
+//! Yoshida's method of fourth order: three steps of second order, of which the one in the middle goes back in time.
+
+use glam::DVec3;
+
+use super::super::{Loads, State, System};
+use super::{Integrator, Method, splitting};
+
+/// Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150 (1990) 262.
+///
+/// The step of second order must be symmetric in time, or the fourth order is lost. So it is half a drift, a kick, and half a drift; a force
+/// that depends on velocity is taken at the mean of the velocities before and after the kick.
+pub(super) const METHOD: Method = Method {
+    name: "yoshida4",
+    order: 4,
+    symplectic: true,
+    constraints: false,
+    summary: "fourth order, symplectic: for long and precise motion without joints and impacts",
+    create: || Box::new(Yoshida4::default()),
+};
+
+/// 1 / (2 − ∛2): the length of the first and the third step. The second one is as long as is missing to 1.
+const OUTER: f64 = 1.351_207_191_959_657_8;
+
+/// The mean velocity is looked for at most so many times.
+const TRIALS: usize = 60;
+
+/// It is found where it changes by less than this part.
+const SAME: f64 = 4e-16;
+
+#[derive(Clone, Default)]
+struct Yoshida4 {
+    loads: Loads,
+    before: Velocities,
+    after: Velocities,
+}
+
+/// How all bodies move.
+#[derive(Clone, Default)]
+struct Velocities {
+    velocity: Vec<DVec3>,
+    angular_momentum: Vec<DVec3>,
+}
+
+impl Velocities {
+    fn read(&mut self, state: &State) {
+        self.velocity.clone_from(&state.velocity);
+        self.angular_momentum.clone_from(&state.angular_momentum);
+    }
+
+    fn write(&self, state: &mut State) {
+        state.velocity.clone_from(&self.velocity);
+        state.angular_momentum.clone_from(&self.angular_momentum);
+    }
+
+    /// Writes the mean of these and others to a state.
+    fn write_mean(&self, others: &Velocities, state: &mut State) {
+        let mean = |(a, b): (&DVec3, &DVec3)| 0.5 * (*a + *b);
+        state.velocity.clear();
+        state.velocity.extend(self.velocity.iter().zip(&others.velocity).map(mean));
+        state.angular_momentum.clear();
+        state.angular_momentum.extend(self.angular_momentum.iter().zip(&others.angular_momentum).map(mean));
+    }
+
+    /// Lets the bodies of a state that move as fast as this, but for rounding, move exactly so. Returns whether all do.
+    ///
+    /// Each body is judged by itself, so that particles that are advanced side by side do not depend on each other.
+    fn settle(&self, state: &mut State) -> bool {
+        let take = |known: &[DVec3], new: &mut [DVec3]| {
+            let mut are_all = true;
+            for (known, new) in known.iter().zip(new) {
+                let is_same = (*known - *new).abs().max_element() <= SAME * known.abs().max_element();
+                are_all &= is_same;
+                *new = if is_same { *known } else { *new };
+            }
+            are_all
+        };
+        let velocities = take(&self.velocity, &mut state.velocity);
+        take(&self.angular_momentum, &mut state.angular_momentum) && velocities
+    }
+}
+
+impl Yoshida4 {
+    /// A step of second order, which can go back in time.
+    fn leap(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        let (model, half) = (system.model(), 0.5 * dt);
+        splitting::drift(model, half, state);
+        model.place(t + half, state);
+        self.before.read(state);
+        system.evaluate_forces(t + half, state, &mut self.loads);
+        splitting::kick(model, &self.loads, dt, state);
+        let trials = if model.depends_on_motion() { TRIALS } else { 0 };
+        for _ in 0..trials {
+            self.after.read(state);
+            self.before.write_mean(&self.after, state);
+            system.evaluate_forces(t + half, state, &mut self.loads);
+            self.before.write(state);
+            splitting::kick(model, &self.loads, dt, state);
+            if self.after.settle(state) {
+                break;
+            }
+        }
+        state.accounts.add(dt, self.loads.power);
+        splitting::drift(model, half, state);
+    }
+}
+
+impl Integrator for Yoshida4 {
+    fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
+        let outer = OUTER * dt;
+        self.leap(system, t, outer, state);
+        self.leap(system, t + outer, dt - 2.0 * outer, state);
+        self.leap(system, t + dt - outer, outer, state);
+    }
+
+    fn clone_box(&self) -> Box<dyn Integrator> {
+        Box::new(self.clone())
+    }
+}
