@@ -68,6 +68,11 @@ fn evaluations(method: &'static Method) -> u64 {
         fn potential(&self, _: &Moment) -> f64 {
             0.0
         }
+
+        // As those between pairs, which are what takes long.
+        fn depends_on_motion(&self) -> bool {
+            false
+        }
     }
 
     let count = Arc::new(AtomicU64::new(0));
