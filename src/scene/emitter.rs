@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Color;
-use crate::dynamics::{BodyId, ParticleSource};
+use crate::dynamics::{BodyId, ParticleSource, Surface};
 
 /// What sends out particles, and what they look like.
 #[derive(Clone, Debug)]
@@ -16,6 +16,8 @@ pub struct Emitter {
     pub carrier: Option<BodyId>,
     /// The radius of a particle, m.
     pub radius: f64,
+    /// The surface of a particle; none: it passes through bodies.
+    pub collides: Option<Surface>,
     /// How many times larger it is drawn over its life: the first at its birth, the last at its death, evenly between.
     pub sizes: Vec<f64>,
     /// Its color over its life, in the same way.

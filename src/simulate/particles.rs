@@ -11,9 +11,9 @@ use glam::DVec3;
 use super::{Bounds, Frame};
 use crate::dynamics::{
     BodyId, BodySnapshot, Cloud, ConstantForce, Coulomb, Course, Drag, Field, Gravitation, Lorentz, Method,
-    Particle, RigidBody, UniformGravity, World, find,
+    Obstacle, Particle, RigidBody, Scenery, UniformGravity, World, find,
 };
-use crate::scene::{Emitter, Force, ForceKind, Scene};
+use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 
 /// The particles of one emitter at one moment, in the order of their births.
 pub type Swarm = Arc<[Particle]>;
@@ -22,6 +22,8 @@ pub type Swarm = Arc<[Particle]>;
 #[derive(Clone)]
 pub(super) struct Clouds {
     makers: Arc<[Maker]>,
+    /// What stops the particles that collide; empty where none do.
+    obstacles: Arc<[Obstacle]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
     /// For each emitter: only every n-th particle is computed.
@@ -54,6 +56,7 @@ impl Clouds {
         Clouds {
             strides: vec![1; makers.len()],
             makers,
+            obstacles: obstacles(scene),
             method: scene.simulation.method,
             clouds: Vec::new(),
             interval,
@@ -135,18 +138,23 @@ impl Clouds {
     /// Begins with a frame. What was born before the run has bodies around it that stand as they do at its beginning.
     fn start(&mut self, frame: &Frame, bodies: &[BodySnapshot]) {
         let step = self.step();
-        let Clouds { makers, method, interval, strides, .. } = self;
+        let Clouds { makers, method, interval, strides, .. } = &*self;
         let course = |body: BodyId| find(bodies, body.index()).copied().map(Course::still);
-        let cloud = |(maker, stride): (&Maker, &mut u64)| {
-            let Maker { emitter: Emitter { source, carrier, .. }, fields } = maker;
+        let scenery = self.scenery(&course);
+        let cloud = |(maker, stride): (&Maker, &u64)| {
+            let Maker { emitter: Emitter { source, carrier, radius, collides, .. }, fields } = maker;
             let early = (frame.time - Cloud::needed_from(source, frame.time)) / *interval;
             let early = if frame.index == 0 { early.max(0.0).ceil() } else { 0.0 };
             let from = frame.time - early * *interval;
             let mut cloud = Cloud::new(source.clone(), *carrier, fields, method, (from, *stride));
-            cloud.advance(frame.time, step, &course);
+            if let Some(surface) = collides {
+                cloud = cloud.colliding(*radius, *surface);
+            }
+            cloud.advance_among(frame.time, step, &course, scenery.as_ref());
             cloud
         };
-        self.clouds = makers.iter().zip(strides).map(cloud).collect();
+        let clouds = makers.iter().zip(strides).map(cloud).collect();
+        self.clouds = clouds;
     }
 
     fn advance(&mut self, before: &(f64, Arc<[BodySnapshot]>), to: f64, bodies: &[BodySnapshot]) {
@@ -161,7 +169,13 @@ impl Clouds {
             }
         };
         let step = self.step();
-        self.clouds.iter_mut().for_each(|cloud| cloud.advance(to, step, &course));
+        let scenery = self.scenery(&course);
+        self.clouds.iter_mut().for_each(|cloud| cloud.advance_among(to, step, &course, scenery.as_ref()));
+    }
+
+    /// What stops particles in an interval; none where nothing does.
+    fn scenery(&self, course: &dyn Fn(BodyId) -> Option<Course>) -> Option<Scenery> {
+        (!self.obstacles.is_empty()).then(|| Scenery::new(&self.obstacles, course))
     }
 
     /// The box around the particles at the last frame that the ground does not hide; none where there are none.
@@ -202,6 +216,18 @@ fn steps(scene: &Scene, interval: f64) -> u32 {
     let mut world = World::new();
     world.set_step(scene.simulation.step);
     world.steps_within(interval)
+}
+
+/// What stops particles: the bodies that collide, and the ground. The check has refused shapes that are no obstacles.
+fn obstacles(scene: &Scene) -> Arc<[Obstacle]> {
+    if scene.emitters.iter().all(|emitter| emitter.collides.is_none()) {
+        return [].into();
+    }
+    let body = |(number, body): (usize, &Body)| {
+        Obstacle::body(BodyId::new(number), &body.shape, body.collider.as_ref()?.surface)
+    };
+    let ground = scene.ground_that_stops().and_then(|(height, surface)| Obstacle::ground(height, surface));
+    scene.bodies.iter().enumerate().filter_map(body).chain(ground).collect()
 }
 
 /// The forces on the particles of an emitter.

@@ -46,7 +46,7 @@ pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest>
 
 /// A tree of the boxes of many parts.
 #[derive(Clone)]
-pub(super) struct Tree(Bvh);
+pub(in crate::dynamics) struct Tree(Bvh);
 
 impl std::fmt::Debug for Tree {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -56,13 +56,13 @@ impl std::fmt::Debug for Tree {
 
 impl Tree {
     /// The tree of boxes. Each is given by its lowest and its highest corner.
-    pub(super) fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Tree {
+    pub(in crate::dynamics) fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Tree {
         let boxes: Vec<Aabb> = boxes.map(|[low, high]| Aabb::new(low, high)).collect();
         Tree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
     }
 
     /// The numbers of the boxes that are at most `within` from a box, in rising order. `count` is the number of all boxes.
-    pub(super) fn near(&self, [low, high]: [DVec3; 2], within: f64, count: usize) -> Vec<usize> {
+    pub(in crate::dynamics) fn near(&self, [low, high]: [DVec3; 2], within: f64, count: usize) -> Vec<usize> {
         if !(low.is_finite() && high.is_finite() && within.is_finite()) {
             return (0..count).collect();
         }

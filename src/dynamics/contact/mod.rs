@@ -5,6 +5,7 @@
 //! Glocker, *Multibody Dynamics with Unilateral Contacts* (1996).
 
 mod approach;
+mod ball;
 mod change;
 mod closed;
 mod collider;
@@ -29,9 +30,12 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+pub(super) use ball::Ball;
 pub(super) use closed::Closed;
 pub(super) use collider::Collider;
+pub(super) use gjk::Tree;
 pub(super) use group::Parting;
+pub(super) use solid::{Pose, Solid};
 pub use surface::{Meeting, Surface};
 
 /// Which bodies touch, and how.

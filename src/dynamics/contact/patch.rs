@@ -287,15 +287,16 @@ fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
 
 impl Pose {
     /// A place of the body in the world.
-    pub(super) fn point(&self, point: DVec3) -> DVec3 {
+    pub(in crate::dynamics) fn point(&self, point: DVec3) -> DVec3 {
         self.location + self.orientation * point
     }
 
     /// A place of the world in the axes of the body.
-    pub(super) fn local(&self, place: DVec3) -> DVec3 {
+    pub(in crate::dynamics) fn local(&self, place: DVec3) -> DVec3 {
         self.orientation.conjugate() * (place - self.location)
     }
 
     /// Not moved and not turned.
-    pub(super) const IDENTITY: Pose = Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
+    pub(in crate::dynamics) const IDENTITY: Pose =
+        Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
 }

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::bounce::Bouncer;
 use super::stepper::{Grid, Stepper};
-use super::{Course, Field, ParticleSource};
+use super::{Course, Field, ParticleSource, Scenery};
+use crate::dynamics::contact::{Ball, Surface};
 use crate::dynamics::{BodyId, Method};
 
 /// So many particles are advanced side by side: what is known of them fits into the first-level cache.
@@ -48,6 +50,8 @@ pub struct Cloud {
     alive: Vec<Particle>,
     wide: Stepper,
     single: Stepper,
+    /// What moves them among obstacles, if these stop them.
+    bouncer: Option<Bouncer>,
 }
 
 impl Cloud {
@@ -64,7 +68,15 @@ impl Cloud {
         let kind = (source.mass, source.charge);
         let [wide, single] = [LANES, 1].map(|lanes| Stepper::new(lanes, kind, fields, method));
         let next = source.births.first_from(from).next_multiple_of(stride);
-        Cloud { source, carrier, time: from, next, stride, alive: Vec::new(), wide, single }
+        Cloud { source, carrier, time: from, next, stride, alive: Vec::new(), wide, single, bouncer: None }
+    }
+
+    /// The same, but what a [`Scenery`] holds stops its particles, which are balls of a radius, m, with a surface.
+    #[must_use]
+    pub fn colliding(mut self, radius: f64, surface: Surface) -> Cloud {
+        let bouncer = |ball| Bouncer::new(ball, surface, self.single.clone());
+        self.bouncer = Ball::new(radius).map(bouncer);
+        self
     }
 
     /// The time that is reached, s.
@@ -88,22 +100,48 @@ impl Cloud {
     /// Advances to time `to` (s) by steps of `step` seconds from the present time on. Each particle begins at the very time of its
     /// birth. `course` says how a body moves meanwhile; none while it is not there.
     pub fn advance(&mut self, to: f64, step: f64, course: &dyn Fn(BodyId) -> Option<Course>) {
+        self.advance_among(to, step, course, None);
+    }
+
+    /// The same among obstacles, which stop the particles of a cloud that is [colliding](Cloud::colliding).
+    pub fn advance_among(
+        &mut self,
+        to: f64,
+        step: f64,
+        course: &dyn Fn(BodyId) -> Option<Course>,
+        scenery: Option<&Scenery>,
+    ) {
         let grid = Grid { begin: self.time, end: to, step };
         self.alive.retain(|particle| particle.dies > to);
         if !(self.alive.is_empty() && self.source.births.time(self.next).is_none_or(|birth| birth > to)) {
             self.wide.follow(course);
             self.single.follow(course);
+            self.bouncer.iter_mut().for_each(|bouncer| bouncer.spare().follow(course));
         }
+        let obstacles = self.bouncer.as_mut().zip(scenery.filter(|scenery| !scenery.is_empty()));
         if to > self.time {
-            for some in self.alive.chunks_mut(LANES) {
-                self.wide.advance(some, self.time, &grid);
+            match obstacles {
+                None => {
+                    for some in self.alive.chunks_mut(LANES) {
+                        self.wide.advance(some, self.time, &grid);
+                    }
+                }
+                Some((bouncer, scenery)) => {
+                    advance_some(&mut self.wide, bouncer, &mut self.alive, self.time, &grid, scenery);
+                }
             }
         }
-        self.give_birth(&grid, course);
+        self.give_birth(&grid, course, scenery);
         self.time = to;
     }
 
-    fn give_birth(&mut self, grid: &Grid, course: &dyn Fn(BodyId) -> Option<Course>) {
+    fn give_birth(
+        &mut self,
+        grid: &Grid,
+        course: &dyn Fn(BodyId) -> Option<Course>,
+        scenery: Option<&Scenery>,
+    ) {
+        let scenery = scenery.filter(|scenery| !scenery.is_empty());
         let carrier = self.carrier.map(course);
         while let Some(born) = self.source.births.time(self.next).filter(|born| *born <= grid.end) {
             let number = self.next;
@@ -120,8 +158,46 @@ impl Cloud {
             }
             let (location, velocity) = self.source.begin(number, born, spot.as_ref());
             let mut particle = [Particle { number, location, velocity, born, dies }];
-            self.single.advance(&mut particle, born, grid);
+            match self.bouncer.as_mut().zip(scenery) {
+                None => self.single.advance(&mut particle, born, grid),
+                Some((bouncer, scenery)) => {
+                    advance_some(&mut self.single, bouncer, &mut particle, born, grid, scenery);
+                }
+            }
             self.alive.extend(particle);
         }
+    }
+}
+
+/// Advances particles among obstacles. Those that come near none of them move as they would without any; for the others, each step is
+/// looked at.
+fn advance_some(
+    stepper: &mut Stepper,
+    bouncer: &mut Bouncer,
+    particles: &mut [Particle],
+    t: f64,
+    grid: &Grid,
+    scenery: &Scenery,
+) {
+    let lanes = stepper.lanes();
+    let mut near: Vec<usize> = Vec::new();
+    for (chunk, some) in particles.chunks_mut(lanes).enumerate() {
+        let begin: Vec<Particle> = some.to_vec();
+        let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; some.len()];
+        stepper.advance_seen(some, t, grid, &mut |lane, leap| {
+            let ([low, high], [from, to]) = (boxes[lane], leap.bounds());
+            boxes[lane] = [low.min(from), high.max(to)];
+        });
+        for (lane, bounds) in boxes.into_iter().enumerate() {
+            if scenery.may_stop(&bouncer.ball, bounds, [t, grid.end]) {
+                some[lane] = begin[lane];
+                near.push(chunk * lanes + lane);
+            }
+        }
+    }
+    for some in near.chunks(lanes) {
+        let mut moved: Vec<Particle> = some.iter().map(|&number| particles[number]).collect();
+        stepper.advance_changed(&mut moved, t, grid, &mut |leap| bouncer.step(leap, scenery));
+        some.iter().zip(moved).for_each(|(&number, moved)| particles[number] = moved);
     }
 }

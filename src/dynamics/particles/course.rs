@@ -35,6 +35,51 @@ impl Course {
         Course { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
     }
 
+    /// The same body at rest, where the course has no length.
+    pub(super) fn at_rest(self) -> Course {
+        if self.end > self.begin {
+            return self;
+        }
+        let (velocity, angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        Course::still(BodySnapshot { velocity, angular_velocity, ..self.from })
+    }
+
+    /// Whether the body neither moves nor turns.
+    pub(super) fn is_still(&self) -> bool {
+        let Course { from, to, rest, .. } = self;
+        let speeds = [from.velocity, to.velocity, from.angular_velocity, to.angular_velocity, *rest];
+        from.location == to.location && speeds == [DVec3::ZERO; 5]
+    }
+
+    /// The centre of mass moves no faster than this, m/s.
+    pub(super) fn largest_speed(&self) -> f64 {
+        let (span, ends) = (self.end - self.begin, [self.from.velocity, self.to.velocity].map(DVec3::length));
+        ends[0].max(ends[1]) + 0.5 * span * self.largest_acceleration()
+    }
+
+    /// The largest acceleration of the centre of mass, m/s².
+    pub(super) fn largest_acceleration(&self) -> f64 {
+        // It is linear in time.
+        self.at(self.begin).acceleration.length().max(self.at(self.end).acceleration.length())
+    }
+
+    /// The body turns no faster than this, rad/s.
+    pub(super) fn largest_turning(&self) -> f64 {
+        let span = self.end - self.begin;
+        let rest = if span > 0.0 { self.rest.length() / span } else { 0.0 };
+        (self.from.angular_velocity.length() + rest).max(self.to.angular_velocity.length())
+    }
+
+    /// A box around all places of the centre of mass: its lowest and its highest corner.
+    pub(super) fn places(&self) -> [DVec3; 2] {
+        let Course { begin, end, from, to, .. } = self;
+        let (span, way) = (end - begin, to.location - from.location);
+        // Hermite's polynomials for velocities are at most 4/27.
+        let aside = (span * from.velocity - way).abs() + (span * to.velocity - way).abs();
+        let margin = (4.0 / 27.0) * aside;
+        [from.location.min(to.location) - margin, from.location.max(to.location) + margin]
+    }
+
     /// The body at time `t`, s.
     #[must_use]
     pub fn spot(&self, t: f64) -> Spot {

@@ -1,7 +1,7 @@
 //! Particles: many small bodies that a source sends out, each with a life of its own.
 //!
 //! They are not bodies of a [`World`](super::World). Forces act on them as on bodies, by the same method and the same
-//! steps; they do not act on bodies nor on each other. Each follows from the seed of its source and its number alone, so any of
+//! steps, and bodies may stop them; they do not act on bodies nor on each other. Each follows from the seed of its source and its number alone, so any of
 //! them can be computed without the others.
 //!
 //! | what | where |
@@ -11,20 +11,27 @@
 //! | all that a particle begins with | [`ParticleSource`] |
 //! | where a body is that sends them out or attracts them | [`Course`] |
 //! | those that are alive, and how they move | [`Cloud`] |
+//! | the bodies that stop them | [`Scenery`] |
+//! | what happens where they touch one | `bounce.rs`, `hold.rs` |
 
 mod births;
+mod bounce;
 mod cloud;
 mod course;
+mod hold;
+mod obstacles;
 mod origin;
 mod source;
 mod stepper;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod way;
 
 pub use births::Births;
 pub use cloud::{Cloud, Particle};
 pub use course::Course;
+pub use obstacles::{Obstacle, Scenery};
 pub use origin::{Origin, Spot};
 pub use source::{Draw, ParticleSource};
 pub use stepper::Field;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::way::Leap;
 use super::{Course, Particle};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
@@ -77,6 +78,8 @@ pub(super) struct Stepper {
     integrator: Box<dyn Integrator>,
     /// The bodies that forces come from, which stand behind the particles.
     sources: Vec<BodyId>,
+    /// Places and velocities at the beginning of a step, where somebody asks for them.
+    before: Vec<(DVec3, DVec3)>,
 }
 
 impl Stepper {
@@ -102,7 +105,12 @@ impl Stepper {
             model.push_force(make(particles.clone(), numbers));
         }
         let (solver, integrator) = (Solver::default(), (method.create)());
-        Stepper { lanes, model, state, solver, integrator, sources }
+        Stepper { lanes, model, state, solver, integrator, sources, before: Vec::new() }
+    }
+
+    /// How many particles it advances side by side.
+    pub(super) fn lanes(&self) -> usize {
+        self.lanes
     }
 
     /// Says how the bodies move that forces come from. One that is not there has none, and stays away.
@@ -119,26 +127,111 @@ impl Stepper {
 
     /// Advances at most as many particles as there are lanes, from time `t` (s) to the end of the grid.
     pub(super) fn advance(&mut self, particles: &mut [Particle], t: f64, grid: &Grid) {
+        self.enter(particles, t);
+        let (mut now, mut number) = (t, grid.first_after(t));
+        while now < grid.end {
+            let next = grid.time(number);
+            self.step(now, next);
+            (now, number) = (next, number + 1);
+        }
+        self.leave(particles);
+    }
+
+    /// The same, but `look` sees each step of each particle, by its place among them.
+    pub(super) fn advance_seen(
+        &mut self,
+        particles: &mut [Particle],
+        t: f64,
+        grid: &Grid,
+        look: &mut dyn FnMut(usize, &Leap),
+    ) {
+        self.enter(particles, t);
+        let (mut now, mut number) = (t, grid.first_after(t));
+        while now < grid.end {
+            let next = grid.time(number);
+            self.note(particles.len());
+            self.step(now, next);
+            (0..particles.len()).for_each(|lane| look(lane, &self.made(lane, [now, next])));
+            (now, number) = (next, number + 1);
+        }
+        self.leave(particles);
+    }
+
+    /// The same, but `change` gives the end of each step of each particle. Each step begins anew, so that no particle depends on
+    /// what happens to another.
+    pub(super) fn advance_changed(
+        &mut self,
+        particles: &mut [Particle],
+        t: f64,
+        grid: &Grid,
+        change: &mut dyn FnMut(&Leap) -> (DVec3, DVec3),
+    ) {
+        self.enter(particles, t);
+        let (mut now, mut number) = (t, grid.first_after(t));
+        while now < grid.end {
+            let next = grid.time(number);
+            self.note(particles.len());
+            self.step(now, next);
+            for lane in 0..particles.len() {
+                (self.state.location[lane], self.state.velocity[lane]) =
+                    change(&self.made(lane, [now, next]));
+            }
+            self.integrator.discontinuity();
+            (now, number) = (next, number + 1);
+        }
+        self.leave(particles);
+    }
+
+    /// Makes one step of a single particle: from a place and a velocity to a place and a velocity.
+    pub(super) fn leap(&mut self, (place, velocity): (DVec3, DVec3), times: [f64; 2]) -> (DVec3, DVec3) {
+        (self.state.location[0], self.state.velocity[0]) = (place, velocity);
+        self.integrator.discontinuity();
+        self.model.place(times[0], &mut self.state);
+        self.step(times[0], times[1]);
+        let end = (self.state.location[0], self.state.velocity[0]);
+        self.rest();
+        end
+    }
+
+    fn enter(&mut self, particles: &[Particle], t: f64) {
         for (lane, particle) in particles.iter().enumerate() {
             self.state.location[lane] = particle.location;
             self.state.velocity[lane] = particle.velocity;
         }
         self.integrator.discontinuity();
         self.model.place(t, &mut self.state);
-        let (mut now, mut number) = (t, grid.first_after(t));
-        while now < grid.end {
-            let next = grid.time(number);
-            let mut system = System::new(&self.model, &mut self.solver);
-            system.set_out(now, next - now, &self.state);
-            self.integrator.advance(&mut system, now, next - now, &mut self.state);
-            self.model.place(next, &mut self.state);
-            (now, number) = (next, number + 1);
-        }
+    }
+
+    fn step(&mut self, now: f64, next: f64) {
+        let mut system = System::new(&self.model, &mut self.solver);
+        system.set_out(now, next - now, &self.state);
+        self.integrator.advance(&mut system, now, next - now, &mut self.state);
+        self.model.place(next, &mut self.state);
+    }
+
+    fn leave(&mut self, particles: &mut [Particle]) {
         for (lane, particle) in particles.iter_mut().enumerate() {
             particle.location = self.state.location[lane];
             particle.velocity = self.state.velocity[lane];
         }
         self.rest();
+    }
+
+    /// Notes where the first lanes are at the beginning of a step.
+    fn note(&mut self, lanes: usize) {
+        self.before.clear();
+        let state = &self.state;
+        self.before.extend((0..lanes).map(|lane| (state.location[lane], state.velocity[lane])));
+    }
+
+    /// The step that a lane has made.
+    fn made(&self, lane: usize, times: [f64; 2]) -> Leap {
+        let (place, velocity) = self.before[lane];
+        Leap {
+            times,
+            places: [place, self.state.location[lane]],
+            velocities: [velocity, self.state.velocity[lane]],
+        }
     }
 
     /// Stops what is left in lanes that the next particles may not fill: it would fly on, and become non-finite.

@@ -68,7 +68,7 @@ pub(super) fn collider(
     Some(Collider { surface: surface(view), group: view.shared_text("collision_group") })
 }
 
-fn has_torus(shape: &Shape) -> bool {
+pub(super) fn has_torus(shape: &Shape) -> bool {
     match shape {
         Shape::Torus { .. } => true,
         Shape::Compound(compound) => compound.parts().iter().any(|part| has_torus(&part.shape)),
@@ -132,14 +132,21 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     if let Some(ground) = root.table("environment").variant("ground") {
         wrong.extend(SURFACE.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
     }
+    let bodies = "without it, bodies pass through each other";
+    let mut wrong: Vec<(&str, Span, &str)> =
+        wrong.into_iter().map(|(key, span)| (key, span, bodies)).collect();
+    for (_, _, emitter) in root.named("emitter") {
+        let span = emitter.key_span("collides").filter(|_| emitter.boolean("collides") == Some(true));
+        wrong.extend(span.map(|span| ("collides", span, "without it, particles pass through bodies")));
+    }
     let mut said: Vec<Span> = Vec::new();
-    for (key, span) in wrong {
+    for (key, span, label) in wrong {
         if said.contains(&span) {
             continue;
         }
         let message = format!("`{key}` needs `simulation.contacts`");
         let error = Diagnostic::error(Code::NoContacts, message)
-            .at(span, "without it, bodies pass through each other")
+            .at(span, label)
             .help("write `contacts = \"event-driven\"` in [simulation]");
         let fix = said.is_empty().then(|| insertion(root, simulation, span.source, context));
         said.push(span);

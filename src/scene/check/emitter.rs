@@ -8,20 +8,25 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, has_surface};
+use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, Surface, has_surface};
 use crate::random::Stream;
 use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
-use crate::scene::{Body, Color, Emitter, Simulation};
+use crate::scene::{Body, Color, ContactLaw, Emitter, Simulation};
 
 /// More particles at once than anybody wants to draw.
 const MAX_ALIVE: f64 = 1_000_000.0;
+/// So many that collide are bearable where few bodies are computed exactly.
+const MAX_COLLIDING: f64 = 1_000.0;
 /// More timesteps before the run than anybody wants to wait for.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
 /// Births before the run are numbered, and from about this number on an `f64` cannot tell their times apart.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
 /// So many values of a formula with random numbers are looked at.
 const DRAWS: u64 = 4096;
+
+/// The keys of a surface.
+const SURFACE: [&str; 2] = ["restitution", "friction"];
 
 /// What an emitter is read with.
 struct Reader<'a, 'c> {
@@ -80,20 +85,71 @@ impl Reader<'_, '_> {
             radius: view.table("shape").table("sphere").number("radius").unwrap_or(1.0),
             sizes: view.numbers("size").unwrap_or_else(|| vec![1.0]),
             colors: view.colors("color").unwrap_or_else(|| vec![Color::WHITE]),
+            collides: self.surface(),
             glow: view.number("glow").unwrap_or_default(),
             streak: view.number("streak").unwrap_or_default(),
         };
         self.not_too_many(&emitter);
         self.not_too_early(&emitter);
-        if view.boolean("collides") == Some(true) {
-            let message = format!("the particles of `{}` cannot collide yet", self.name);
-            let error = Diagnostic::error(Code::BadEmitter, message);
-            let help = "they pass through bodies and the ground: leave the line out, or let a body with \
-                        `repeat` stand for a few of them";
-            let span = view.span("collides").unwrap_or(self.span);
-            self.context.diagnostics.push(error.at(span, "only `false` is built yet").help(help));
+        if emitter.collides.is_some() {
+            self.can_collide(&emitter);
         }
         emitter
+    }
+
+    /// The surface of its particles, if bodies stop them.
+    fn surface(&mut self) -> Option<Surface> {
+        let view = self.view;
+        let [restitution, friction] = SURFACE.map(|key| view.number(key));
+        if view.boolean("collides") == Some(true) {
+            return Some(Surface { restitution, friction, rolling_friction: None });
+        }
+        for key in SURFACE {
+            let message = format!("`{key}` of `{}` has no effect", self.name);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
+            let help = "let bodies stop its particles: `collides = true`";
+            let warning = |span| warning.at(span, "its particles do not collide").help(help);
+            self.context.diagnostics.extend(view.key_span(key).map(warning));
+        }
+        None
+    }
+
+    /// Says what keeps particles from being stopped.
+    fn can_collide(&mut self, emitter: &Emitter) {
+        let span = self.view.key_span("collides").unwrap_or(self.span);
+        let most = emitter.most_alive(self.simulation.end());
+        match self.simulation.contacts {
+            Some(ContactLaw::EventDriven) if most > MAX_COLLIDING && most <= MAX_ALIVE => {
+                let message = format!("`{}` would have {most:.0} particles at once that collide", self.name);
+                let error = Diagnostic::error(Code::TooManyParticles, message);
+                let label = format!("with `event-driven` contacts, at most {MAX_COLLIDING} may");
+                let key = if self.view.has("burst") { "burst" } else { "rate" };
+                let help = format!(
+                    "take the other scheme, which has no such limit: `simulation.contacts = \"time-stepping\"`; or let fewer \
+                     be born by `{key}`, or let them live shorter by `lifetime`"
+                );
+                self.context.diagnostics.push(error.at(span, label).help(help));
+            }
+            Some(ContactLaw::TimeStepping) => {
+                for body in self.bodies.iter().filter(|body| body.collider.is_some()) {
+                    if !super::contact::has_torus(&body.shape) {
+                        continue;
+                    }
+                    let message = format!("particles of `{}` cannot collide with `{}`", self.name, body.name);
+                    let error = Diagnostic::error(Code::BadContacts, message);
+                    let help = format!(
+                        "build `{}` as a `compound` of capsules or spheres, or let all pass through it: `collides = false`",
+                        body.name
+                    );
+                    let label = "no distance is computed for a torus";
+                    self.context.diagnostics.push(error.at(span, label).help(help));
+                    // Copies of a body are all the same.
+                    break;
+                }
+            }
+            // That contacts are missing is said of all keys that need them.
+            _ => {}
+        }
     }
 
     /// When they are born.

@@ -1,6 +1,7 @@
 //! The keys of `[emitter.NAME]`.
 
 use super::Kind::{Boolean, Colors, Drawn, Integer, List, Number, Reference, Table};
+use super::contact::{FRICTION, RESTITUTION};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, Collection, Key, Rule, TableSpec};
 
@@ -88,9 +89,15 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         .unit("s")
         .default_number(0.0)
         .also(&["trail", "tail", "exposure"]),
-        Key::new("collides", Boolean, "Whether bodies stop them; only `false` is built yet")
-            .default_flag(false)
-            .also(&["collision", "collisions", "collide", "contact", "contacts"]),
+        Key::new(
+            "collides",
+            Boolean,
+            "Whether bodies and the ground stop them: they bounce, slide and rest. Needs `simulation.contacts`",
+        )
+        .default_flag(false)
+        .also(&["collision", "collisions", "collide", "contact", "contacts"]),
+        RESTITUTION,
+        FRICTION,
     ],
 };
 

@@ -158,7 +158,7 @@ on = [\"sparks\"]
 
 A particle is a small ball that an emitter sends out and that dies some time later. Three things act on it: gravity, forces without
 `on`, and forces that name its emitter in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
-bodies nor on each other, and pass through all of them. They have no part in the energy balance, in labels or in tables.
+bodies nor on each other. They pass through bodies unless the emitter says `collides = true`. They have no part in the energy balance, in labels or in tables.
 
 - **Births**: `rate` sends out one after another at even intervals, each at its exact time, also between two steps. `burst` sends out
   many at once, and again after `every`. With a `start` before 0, particles are there when the run begins; bodies stand still until then.
@@ -167,6 +167,11 @@ bodies nor on each other, and pass through all of them. They have no part in the
   shows the same particles as the whole film.
 - **From a body**: with `from.surface`, or `body` beside a point, a disc or a box, they leave from where the body is, and have the
   velocity of that point of it on top. `direction` is then in the axes of the body.
+- **Collisions**: with `collides = true` and `simulation.contacts`, the ground and all bodies that collide stop the particles. Each is a ball
+  of its `radius` that does not turn. It bounces by `restitution`, slides and sticks by `friction`, and rests on what moves.
+  Values mix with those of the body as between two bodies. Between two frames, a body moves along a smooth curve. What begins inside
+  a body passes out of it first. A torus does not stop particles. With `event-driven` contacts, an emitter
+  has at most 1,000 particles at once that collide; with `time-stepping`, as many as any other.
 - **Looks**: `color` and `size` go from birth to death in 32 steps. What glows casts no shadow; it does not light other things: that takes
   a `[light.NAME]`. Places are written to a hundredth of the radius.
 - **Many**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview, models and tables do

@@ -1,0 +1,211 @@
+//! What obstacles do to a particle: impacts, friction and rest.
+//!
+//! A particle is a small ball that does not turn. Where its way through a step leads into an obstacle, the first time of touch is
+//! found by conservative advancement (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2).
+//! There it gets an impulse by Newton's law of impact and Coulomb's law of friction, and makes the rest of the step anew. A particle that would
+//! rebound by less than a fraction of a step stays in touch: it slides or sticks.
+
+use glam::DVec3;
+
+use super::hold;
+use super::obstacles::{Near, Scenery, Target};
+use super::stepper::Stepper;
+use super::way::{Leap, Way};
+use crate::dynamics::contact::{Ball, Meeting, Surface};
+
+/// Particles touch where the gap is below this part of their radius, or of the coordinates.
+const TOUCH: f64 = 1e-11;
+const DIGITS: f64 = 2e-15;
+/// What is nearer than this part of the radius touches as well, where nothing moves apart.
+const SNUG: f64 = 1e-6;
+/// Approaches below this part of the speed have come from rounding.
+const SLIGHT: f64 = 1e-10;
+/// A rebound that is over after this part of a step is none.
+const SHORT: f64 = 0.25;
+/// So many events are followed in a step.
+const MOST: usize = 12;
+/// So many safe steps lead to a touch; from then on, the way is passed in parts.
+const ADVANCES: usize = 60;
+const PART: f64 = 1.0 / 64.0;
+/// Impulses at several places are found by at most so many rounds.
+const ROUNDS: usize = 50;
+
+/// Moves the particles of one emitter among obstacles.
+#[derive(Clone)]
+pub(super) struct Bouncer {
+    pub(super) ball: Ball,
+    surface: Surface,
+    /// It makes the rest of a step anew.
+    spare: Stepper,
+    targets: Vec<Target>,
+    seen: Vec<Contact>,
+}
+
+/// A part that may be touched, as it is seen at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    pub(super) target: Target,
+    pub(super) near: Near,
+    pub(super) law: Meeting,
+    /// How fast the gap grows, m/s.
+    rate: f64,
+    /// An approach that is not faster is none, m/s.
+    slight: f64,
+    /// A slower rebound is none, m/s.
+    slow: f64,
+    /// Whether the particle is pressed against the part.
+    is_pressed: bool,
+}
+
+impl Bouncer {
+    pub(super) fn new(ball: Ball, surface: Surface, spare: Stepper) -> Bouncer {
+        Bouncer { ball, surface, spare, targets: Vec::new(), seen: Vec::new() }
+    }
+
+    pub(super) fn spare(&mut self) -> &mut Stepper {
+        &mut self.spare
+    }
+
+    /// The end of a step among obstacles: place and velocity. `leap` is the step as it would be without them.
+    pub(super) fn step(&mut self, leap: &Leap, scenery: &Scenery) -> (DVec3, DVec3) {
+        let whole = leap.span();
+        let mut leap = *leap;
+        for _ in 0..MOST {
+            self.look(&leap, whole, scenery);
+            if self.seen.is_empty() {
+                return (leap.places[1], leap.velocities[1]);
+            }
+            let snug = SNUG * self.ball.radius();
+            if self.seen.iter().any(|it| it.near.gap <= snug && it.rate < -it.slow) {
+                leap.velocities[0] = self.strike(leap.velocities[0], snug);
+                self.again(&mut leap);
+                continue;
+            }
+            let is_held = |it: &Contact| it.is_pressed && it.near.gap <= snug && it.rate <= it.slow;
+            self.seen.sort_by_key(|it| (!is_held(it), scenery.is_still(&it.target)));
+            let held = self.seen.iter().take_while(|it| is_held(it)).count();
+            let (held, others) = self.seen.split_at(held);
+            let (end, velocity) = match held {
+                [] => (leap.places[1], leap.velocities[1]),
+                _ => hold::hold(&self.ball, &leap, held, scenery),
+            };
+            let moved =
+                Leap { places: [leap.places[0], end], velocities: [leap.velocities[0], velocity], ..leap };
+            let way = moved.way();
+            let stays = end == leap.places[0] && velocity == DVec3::ZERO;
+            let may_hit = |it: &&Contact| !(stays && scenery.is_still(&it.target));
+            let hits = others.iter().filter(may_hit).filter_map(|it| self.touch(&way, it, &leap, scenery));
+            let Some(hit) = hits.min_by(f64::total_cmp) else { return (end, velocity) };
+            leap.times[0] += hit;
+            if leap.times[0] >= leap.times[1] {
+                return (way.place(hit), way.velocity(hit));
+            }
+            (leap.places[0], leap.velocities[0]) = (way.place(hit), way.velocity(hit));
+            self.again(&mut leap);
+        }
+        // It is struck again and again: for the rest of the step it goes with what it touches.
+        let last = self.seen.iter().min_by(|a, b| a.near.gap.total_cmp(&b.near.gap));
+        let velocity = last.map_or(DVec3::ZERO, |it| it.near.velocity);
+        (leap.places[0] + leap.span() * velocity, velocity)
+    }
+
+    /// Makes the rest of a step anew, from the place and the velocity at its beginning.
+    fn again(&mut self, leap: &mut Leap) {
+        (leap.places[1], leap.velocities[1]) =
+            self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);
+    }
+
+    /// Looks at all parts that the particle may touch in a step, at its beginning.
+    fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
+        let Bouncer { ball, surface, targets, seen, .. } = self;
+        seen.clear();
+        // Where it is held, it moves otherwise than it would fly, by no more than this.
+        let radius = ball.radius();
+        let margin = leap.span() * (leap.span() * leap.acceleration().length() + scenery.fastest());
+        scenery.near(leap.bounds(), (1.0 + SNUG) * radius + margin, leap.times, targets);
+        let ([place, _], [velocity, _]) = (leap.places, leap.velocities);
+        let acceleration = leap.acceleration();
+        for target in &*targets {
+            let near = scenery.seen(ball, target, place, leap.times[0]);
+            // What begins within an obstacle passes out of it.
+            if near.gap < -radius || !near.gap.is_finite() {
+                continue;
+            }
+            let rate = near.normal.dot(velocity - near.velocity);
+            let against = acceleration - scenery.acceleration(target, place, leap.times[0]);
+            let press = -near.normal.dot(against);
+            let slight =
+                SLIGHT * (velocity.length() + near.velocity.length() + whole * acceleration.length());
+            let slow = (0.5 * SHORT * whole * press).max(slight);
+            let law = surface.meet(scenery.surface(target));
+            let is_pressed = press > 0.0;
+            seen.push(Contact { target: *target, near, law, rate, slight, slow, is_pressed });
+        }
+    }
+
+    /// The velocity after the impacts at all places that are touched.
+    fn strike(&self, before: DVec3, snug: f64) -> DVec3 {
+        let struck = self.seen.iter().filter(|it| it.near.gap <= snug);
+        let mut struck: Vec<(&Contact, f64, DVec3)> = struck.map(|it| (it, 0.0, DVec3::ZERO)).collect();
+        let mut velocity = before;
+        for _ in 0..ROUNDS {
+            let last = velocity;
+            for (it, pushed, rubbed) in &mut struck {
+                let (normal, law) = (it.near.normal, it.law);
+                let rebound = -law.restitution * it.rate;
+                let rebound = if rebound > it.slow { rebound } else { 0.0 };
+                let relative = velocity - it.near.velocity;
+                let push = (*pushed + rebound - normal.dot(relative)).max(0.0);
+                let rub = *rubbed - relative.reject_from_normalized(normal);
+                let rub = rub.clamp_length_max(law.friction * push);
+                velocity += (push - *pushed) * normal + (rub - *rubbed);
+                (*pushed, *rubbed) = (push, rub);
+            }
+            if struck.len() == 1 || (velocity - last).length() <= SLIGHT * SLIGHT.sqrt() * before.length() {
+                break;
+            }
+        }
+        velocity
+    }
+
+    /// When the particle first touches a part and comes nearer, s after the beginning of its way.
+    fn touch(&self, way: &Way, contact: &Contact, leap: &Leap, scenery: &Scenery) -> Option<f64> {
+        let span = leap.span();
+        let touch = (TOUCH * self.ball.radius()).max(DIGITS * leap.places[0].abs().max_element());
+        let mut near = contact.near;
+        let mut time = 0.0;
+        for advance in 0.. {
+            let velocity = way.rate(time);
+            let bend = way.bend + near.bend;
+            let mut safe = if near.gap <= touch {
+                let rate = near.normal.dot(velocity - near.velocity);
+                if rate < -contact.slight {
+                    return Some(time);
+                }
+                // It touches and does not come nearer, until the ways bend together.
+                let safe = if bend > 0.0 { 2.0 * rate.max(0.0) / bend } else { f64::INFINITY };
+                safe.max(PART * span)
+            } else {
+                let shrink = near.coming - near.normal.dot(velocity);
+                let root = (shrink * shrink + 2.0 * bend * near.gap).sqrt();
+                // The smallest positive root of gap − shrink t − ½ bend t², without cancellation.
+                if shrink > 0.0 {
+                    2.0 * near.gap / (shrink + root)
+                } else if bend > 0.0 {
+                    (root - shrink) / bend
+                } else {
+                    f64::INFINITY
+                }
+            };
+            if advance > ADVANCES {
+                safe = safe.max(PART * span);
+            }
+            time += safe;
+            if time >= span || time.is_nan() {
+                return None;
+            }
+            near = scenery.seen(&self.ball, &contact.target, way.place(time), leap.times[0] + time);
+        }
+        None
+    }
+}

@@ -1,0 +1,185 @@
+//! A particle that stays in touch for a step: it slides or sticks.
+//!
+//! All is computed in the axes of the obstacle, where it is at rest: what it does there is added as an acceleration.
+
+use glam::{DQuat, DVec3};
+
+use super::bounce::Contact;
+use super::obstacles::{Scenery, Standing};
+use super::way::Leap;
+use crate::dynamics::contact::Ball;
+
+/// Velocities below this part of what acts in a step are those of rest.
+const REST: f64 = 1e-6;
+/// Normals are the same where they differ by less.
+const FLAT: f64 = 1e-12;
+/// Several contacts are solved by so many rounds, up to this part of what acts.
+const ROUNDS: usize = 60;
+const ACCURACY: f64 = 1e-13;
+/// Places are put right in so many rounds.
+const PLACINGS: usize = 6;
+/// A gap that is larger than this part of the radius is put right.
+const GAP: f64 = 1e-11;
+
+/// The motion of a particle in the axes of an obstacle.
+struct Frame {
+    /// The obstacle at the beginning and at the end.
+    standing: [Standing; 2],
+    span: f64,
+    place: DVec3,
+    velocity: DVec3,
+    acceleration: DVec3,
+}
+
+impl Frame {
+    fn new(leap: &Leap, contact: &Contact, scenery: &Scenery) -> Frame {
+        let standing = leap.times.map(|t| scenery.standing(&contact.target, t));
+        let back = standing.map(|it| it.pose.orientation.conjugate());
+        let place = standing[0].pose.local(leap.places[0]);
+        let carried = standing[1].pose.point(place);
+        let begin = standing[0].velocity(leap.places[0]);
+        let end = standing[1].velocity(carried);
+        let velocity = back[0] * (leap.velocities[0] - begin);
+        let against = leap.acceleration() - (end - begin) / leap.span();
+        let turning = back[0] * standing[0].spot.angular_velocity;
+        let acceleration = 0.5 * (back[0] * against + back[1] * against) - 2.0 * turning.cross(velocity);
+        Frame { standing, span: leap.span(), place, velocity, acceleration }
+    }
+
+    /// The end of the step in the world.
+    fn end(&self, place: DVec3, velocity: DVec3) -> (DVec3, DVec3) {
+        let Standing { pose, .. } = self.standing[1];
+        let place = pose.point(place);
+        (place, self.standing[1].velocity(place) + pose.orientation * velocity)
+    }
+
+    fn local(&self, direction: DVec3) -> DVec3 {
+        self.standing[0].pose.orientation.conjugate() * direction
+    }
+}
+
+/// Where a particle that stays in touch ends a step, and its velocity there.
+pub(super) fn hold(ball: &Ball, leap: &Leap, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
+    let frame = Frame::new(leap, &held[0], scenery);
+    if let [contact] = held {
+        hold_one(ball, &frame, contact, scenery)
+    } else {
+        hold_many(ball, leap, &frame, held, scenery)
+    }
+}
+
+fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) -> (DVec3, DVec3) {
+    let (span, friction) = (frame.span, contact.law.friction);
+    let normal = frame.local(contact.near.normal);
+    let begin = frame.velocity.reject_from_normalized(normal);
+    let push = -span * normal.dot(frame.acceleration);
+    if push <= 0.0 {
+        // What turns below it throws it off.
+        let velocity = frame.velocity + span * frame.acceleration;
+        return frame.end(frame.place + 0.5 * span * (frame.velocity + velocity), velocity);
+    }
+    let along = (span * frame.acceleration).reject_from_normalized(normal);
+    let (way, mut velocity) = slide(begin, along, friction * push, span);
+    let mut place = frame.place + way;
+    if way == DVec3::ZERO && contact.near.gap.abs() <= GAP * ball.radius() {
+        return frame.end(place, velocity);
+    }
+    let (mut gap, mut end) = scenery.seen_within(ball, &contact.target, place);
+    if gap.abs() < ball.radius() && (end - normal).length() > FLAT {
+        // A curved surface: the plane in the middle of the step is better, and the curve presses or throws off.
+        let middle = (normal + end).normalize_or(normal);
+        let turned = DQuat::from_rotation_arc(normal, middle) * begin;
+        let bent = middle.dot(DQuat::from_rotation_arc(normal, end) * begin - begin);
+        let push = bent - span * middle.dot(frame.acceleration);
+        if push > 0.0 {
+            let along = (span * frame.acceleration).reject_from_normalized(middle);
+            let (way, slid) = slide(turned, along, friction * push, span);
+            place = frame.place + way;
+            (gap, end) = scenery.seen_within(ball, &contact.target, place);
+            velocity = (DQuat::from_rotation_arc(middle, end) * slid).reject_from_normalized(end);
+        } else if gap > 0.0 {
+            return frame.end(place, velocity);
+        }
+    }
+    if gap.abs() < ball.radius() {
+        place -= gap * end;
+    }
+    frame.end(place, velocity)
+}
+
+/// Slides along a plane: the way, and the velocity at the end. `along` is by how much the velocity would change without friction, and
+/// `most` the largest change by friction.
+fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
+    let free = begin + along;
+    let speed = free.length();
+    if speed > most {
+        let end = free * (1.0 - most / speed);
+        return (0.5 * span * (begin + end), end);
+    }
+    let before = begin.length();
+    if before == 0.0 {
+        return (DVec3::ZERO, DVec3::ZERO);
+    }
+    // It stops within the step.
+    let slowing = most - along.dot(begin) / before;
+    let stop = if slowing > before { before / slowing } else { 1.0 };
+    (0.5 * stop * span * begin, DVec3::ZERO)
+}
+
+/// Between several contacts. Their impulses are found one after another, round by round.
+fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
+    let span = frame.span;
+    let acting = span * frame.acceleration.length();
+    let mut velocity = frame.velocity + span * frame.acceleration;
+    // For each contact: its normal, the velocity of what it belongs to, and what it has given so far.
+    let other = |it: &Contact| {
+        if Scenery::is_same(&it.target, &held[0].target) {
+            return DVec3::ZERO;
+        }
+        let carried = frame.standing[1].pose.point(frame.place);
+        let own = frame.standing[1].velocity(carried);
+        let theirs = scenery.standing(&it.target, leap.times[1]).velocity(carried);
+        frame.standing[1].pose.orientation.conjugate() * (theirs - own)
+    };
+    let mut given: Vec<(DVec3, DVec3, f64, DVec3)> =
+        held.iter().map(|it| (frame.local(it.near.normal), other(it), 0.0, DVec3::ZERO)).collect();
+    for _ in 0..ROUNDS {
+        let last = velocity;
+        for (it, (normal, theirs, pushed, rubbed)) in held.iter().zip(&mut given) {
+            let relative = velocity - *theirs;
+            let push = (*pushed - normal.dot(relative)).max(0.0);
+            let rub = *rubbed - relative.reject_from_normalized(*normal);
+            let rub = rub.clamp_length_max(it.law.friction * push);
+            velocity += (push - *pushed) * *normal + (rub - *rubbed);
+            (*pushed, *rubbed) = (push, rub);
+        }
+        if (velocity - last).length() <= ACCURACY * acting {
+            break;
+        }
+    }
+    let is_slow = |velocity: DVec3| velocity.length() <= REST * acting;
+    if is_slow(frame.velocity) && is_slow(velocity) {
+        return frame.end(frame.place, DVec3::ZERO);
+    }
+    if is_slow(velocity) {
+        velocity = DVec3::ZERO;
+    }
+    let place = frame.place + 0.5 * span * (frame.velocity + velocity);
+    let (mut place, velocity) = frame.end(place, velocity);
+    let least = GAP * ball.radius();
+    for _ in 0..PLACINGS {
+        let mut is_right = true;
+        for (it, (_, _, pushed, _)) in held.iter().zip(&given) {
+            let near = scenery.seen(ball, &it.target, place, leap.times[1]);
+            let is_off = near.gap < -least || *pushed > 0.0 && near.gap > least;
+            if is_off && near.gap.abs() < ball.radius() {
+                place -= near.gap * near.normal;
+                is_right = false;
+            }
+        }
+        if is_right {
+            break;
+        }
+    }
+    (place, velocity)
+}

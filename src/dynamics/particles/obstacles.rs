@@ -1,0 +1,310 @@
+//! What stops particles: bodies, on their way from one frame to the next.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use super::{Course, Spot};
+use crate::dynamics::contact::{Ball, Pose, Solid, Surface, Tree};
+use crate::dynamics::{BodyId, BodySnapshot, Motion, Shape};
+
+/// Up to so many parts are looked at one by one; more are in a tree.
+const FEW: usize = 24;
+
+/// Something that stops particles.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    /// The body; none for what stays at `location` and belongs to no body.
+    body: Option<BodyId>,
+    location: DVec3,
+    solid: Solid,
+    surface: Surface,
+}
+
+impl Obstacle {
+    /// A body of the world. `None` for a shape that has no surface of convex parts, as a torus.
+    #[must_use]
+    pub fn body(body: BodyId, shape: &Shape, surface: Surface) -> Option<Obstacle> {
+        let solid = Solid::of(shape)?;
+        Some(Obstacle { body: Some(body), location: DVec3::ZERO, solid, surface })
+    }
+
+    /// Level ground at a height, m.
+    #[must_use]
+    pub fn ground(height: f64, surface: Surface) -> Option<Obstacle> {
+        let solid = Solid::of(&Shape::Plane { normal: DVec3::Y })?;
+        Some(Obstacle { body: None, location: DVec3::Y * height, solid, surface })
+    }
+}
+
+/// All obstacles in one interval of time, as they move.
+#[derive(Debug)]
+pub struct Scenery {
+    obstacles: Arc<[Obstacle]>,
+    placed: Vec<Placed>,
+    /// Half-spaces, which are near everything.
+    endless: Vec<Target>,
+    /// All other parts, each with the box in which it stays. A mesh is one entry.
+    parts: Vec<(Target, [DVec3; 2])>,
+    tree: Option<Tree>,
+    /// No part that has an end moves faster, m/s.
+    fastest: f64,
+}
+
+/// An obstacle that is there.
+#[derive(Debug)]
+struct Placed {
+    obstacle: usize,
+    course: Course,
+    /// Its pose, if it does not move.
+    still: Option<Pose>,
+    /// Bounds of its acceleration, m/s², and of its angular speed, rad/s.
+    bend: f64,
+    turning: f64,
+}
+
+/// A convex part of an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Target {
+    placed: usize,
+    part: usize,
+}
+
+/// An obstacle at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Standing {
+    pub(super) pose: Pose,
+    pub(super) spot: Spot,
+}
+
+/// Where a particle and a part are nearest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    /// Their distance, m; negative where they overlap.
+    pub(super) gap: f64,
+    /// The unit normal of the part, towards the particle.
+    pub(super) normal: DVec3,
+    /// The velocity of the obstacle, where the particle's centre would be a part of it, m/s.
+    pub(super) velocity: DVec3,
+    /// The gap shrinks by the motion of the obstacle no faster than this, m/s.
+    pub(super) coming: f64,
+    /// A bound of how fast the rate of the gap changes by that motion, m/s².
+    pub(super) bend: f64,
+}
+
+impl Standing {
+    /// The velocity of a place that moves along with the obstacle.
+    pub(super) fn velocity(&self, place: DVec3) -> DVec3 {
+        self.spot.velocity + self.spot.angular_velocity.cross(place - self.spot.location)
+    }
+}
+
+impl Scenery {
+    /// The obstacles in an interval. `course` says how a body moves meanwhile; none while it is not there.
+    #[must_use]
+    pub fn new(obstacles: &Arc<[Obstacle]>, course: &dyn Fn(BodyId) -> Option<Course>) -> Scenery {
+        let (mut placed, mut endless, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, obstacle) in obstacles.iter().enumerate() {
+            let course = match obstacle.body {
+                Some(body) => course(body).map(Course::at_rest),
+                None => Some(Course::still(BodySnapshot {
+                    location: obstacle.location,
+                    orientation: DQuat::IDENTITY,
+                    ..BodySnapshot::default()
+                })),
+            };
+            let Some(course) = course else { continue };
+            let there = Placed::new(number, course);
+            let solid = &obstacle.solid;
+            if solid.has_tree() {
+                let target = Target { placed: placed.len(), part: 0 };
+                parts.push((target, there.around(solid.reach())));
+            } else {
+                for part in 0..solid.count() {
+                    let target = Target { placed: placed.len(), part };
+                    if solid.is_endless(part) {
+                        endless.push(target);
+                    } else {
+                        parts.push((target, there.box_of(solid, part)));
+                    }
+                }
+            }
+            placed.push(there);
+        }
+        let speed = |there: &Placed| {
+            let reach = obstacles[there.obstacle].solid.reach();
+            there.speed() + if reach.is_finite() { there.turning * reach } else { 0.0 }
+        };
+        let fastest = placed.iter().map(speed).fold(0.0, f64::max);
+        let tree = (parts.len() > FEW).then(|| Tree::new(parts.iter().map(|(_, bounds)| *bounds)));
+        Scenery { obstacles: obstacles.clone(), placed, endless, parts, tree, fastest }
+    }
+
+    /// No obstacle carries a particle faster, m/s.
+    pub(super) fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// Whether nothing is there.
+    pub(super) fn is_empty(&self) -> bool {
+        self.placed.is_empty()
+    }
+
+    /// Whether a ball anywhere in a box may touch something.
+    pub(super) fn may_stop(&self, ball: &Ball, [low, high]: [DVec3; 2], times: [f64; 2]) -> bool {
+        let mut targets = Vec::new();
+        self.near([low, high], ball.radius(), times, &mut targets);
+        let centre = 0.5 * (low + high);
+        let half = (0.5 * (high - low)).length();
+        targets.iter().any(|target| {
+            let is_flat = self.solid(target).is_endless(target.part) && self.is_still(target);
+            !is_flat || self.seen(ball, target, centre, times[0]).gap <= half
+        })
+    }
+
+    /// All parts that may come nearer than `within` to a box in a time from `begin` to `end`, s.
+    pub(super) fn near(
+        &self,
+        [low, high]: [DVec3; 2],
+        within: f64,
+        [begin, end]: [f64; 2],
+        found: &mut Vec<Target>,
+    ) {
+        found.clear();
+        found.extend(&self.endless);
+        let (low, high) = (low - within, high + within);
+        let mut take = |(target, bounds): &(Target, [DVec3; 2])| {
+            if !(bounds[0].cmple(high).all() && bounds[1].cmpge(low).all()) {
+                return;
+            }
+            let solid = self.solid(target);
+            if solid.has_tree() {
+                let half = (0.5 * (high - low)).length() + self.placed[target.placed].way(solid, begin, end);
+                let place = self.standing(target, begin).pose.local(0.5 * (low + high));
+                let parts = solid.parts_near(place, half);
+                found.extend(parts.into_iter().map(|part| Target { part, ..*target }));
+            } else {
+                found.push(*target);
+            }
+        };
+        match &self.tree {
+            None => self.parts.iter().for_each(take),
+            Some(tree) => {
+                tree.near([low, high], 0.0, self.parts.len()).into_iter().for_each(|i| take(&self.parts[i]));
+            }
+        }
+    }
+
+    /// Where an obstacle is at time `t`, s.
+    pub(super) fn standing(&self, target: &Target, t: f64) -> Standing {
+        let Placed { course, still, .. } = &self.placed[target.placed];
+        match *still {
+            Some(pose) => {
+                let Pose { location, orientation } = pose;
+                let (velocity, angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+                Standing { pose, spot: Spot { location, orientation, velocity, angular_velocity } }
+            }
+            None => {
+                let spot = course.spot(t);
+                Standing { pose: Pose { location: spot.location, orientation: spot.orientation }, spot }
+            }
+        }
+    }
+
+    /// The acceleration of a place that moves along with an obstacle at time `t`, m/s².
+    pub(super) fn acceleration(&self, target: &Target, place: DVec3, t: f64) -> DVec3 {
+        let Placed { course, still, .. } = &self.placed[target.placed];
+        if still.is_some() {
+            return DVec3::ZERO;
+        }
+        let (at, turning) = (course.at(t), course.angular_acceleration(t));
+        let arm = place - at.location;
+        at.acceleration + turning.cross(arm) + at.angular_velocity.cross(at.angular_velocity.cross(arm))
+    }
+
+    /// Where a ball at a place and a part are nearest at time `t`, s.
+    pub(super) fn seen(&self, ball: &Ball, target: &Target, place: DVec3, t: f64) -> Near {
+        let standing = self.standing(target, t);
+        let solid = self.solid(target);
+        let (gap, normal, _) = ball.nearest(place, solid, target.part, &standing.pose);
+        let placed = &self.placed[target.placed];
+        if placed.still.is_some() {
+            return Near { gap, normal, velocity: DVec3::ZERO, coming: 0.0, bend: 0.0 };
+        }
+        let reach = solid.reach_of(target.part);
+        // A half-space has no end: what comes near is about as far away as the particle.
+        let reach = if reach.is_finite() { reach } else { 2.0 * (place - standing.pose.location).length() };
+        let speed = placed.turning;
+        let coming = normal.dot(standing.spot.velocity) + speed * reach;
+        let bend = placed.bend + speed * speed * reach + 2.0 * speed * standing.spot.velocity.length();
+        Near { gap, normal, velocity: standing.velocity(place), coming, bend }
+    }
+
+    /// The same in the axes of the obstacle.
+    pub(super) fn seen_within(&self, ball: &Ball, target: &Target, place: DVec3) -> (f64, DVec3) {
+        let (gap, normal, _) = ball.nearest(place, self.solid(target), target.part, &Pose::IDENTITY);
+        (gap, normal)
+    }
+
+    /// Whether an obstacle does not move.
+    pub(super) fn is_still(&self, target: &Target) -> bool {
+        self.placed[target.placed].still.is_some()
+    }
+
+    /// Whether two parts belong to the same obstacle.
+    pub(super) fn is_same(one: &Target, other: &Target) -> bool {
+        one.placed == other.placed
+    }
+
+    pub(super) fn surface(&self, target: &Target) -> &Surface {
+        &self.obstacles[self.placed[target.placed].obstacle].surface
+    }
+
+    fn solid(&self, target: &Target) -> &Solid {
+        &self.obstacles[self.placed[target.placed].obstacle].solid
+    }
+}
+
+impl Placed {
+    fn new(obstacle: usize, course: Course) -> Placed {
+        let spot = course.spot(0.0);
+        let still =
+            course.is_still().then_some(Pose { location: spot.location, orientation: spot.orientation });
+        let (bend, turning) = (course.largest_acceleration(), course.largest_turning());
+        Placed { obstacle, course, still, bend, turning }
+    }
+
+    /// A bound of the speed of the centre of mass, m/s.
+    fn speed(&self) -> f64 {
+        if self.still.is_some() { 0.0 } else { self.course.largest_speed() }
+    }
+
+    /// No place of a solid moves farther within a time, m.
+    fn way(&self, solid: &Solid, begin: f64, end: f64) -> f64 {
+        if self.still.is_some() {
+            return 0.0;
+        }
+        let (span, speed) = (end - begin, self.course.spot(begin).velocity.length());
+        span * (speed + 0.5 * span * self.bend + self.turning * solid.reach())
+    }
+
+    /// A box in which all stays that is at most so far from the centre of mass, m.
+    fn around(&self, reach: f64) -> [DVec3; 2] {
+        let [low, high] = self.course.places();
+        [low - reach, high + reach]
+    }
+
+    /// A box in which a part stays.
+    fn box_of(&self, solid: &Solid, part: usize) -> [DVec3; 2] {
+        if let Some(pose) = &self.still {
+            return solid.box_of(part, pose);
+        }
+        if self.turning > 0.0 {
+            return self.around(solid.reach_of(part));
+        }
+        let orientation = self.course.spot(0.0).orientation;
+        let [low, high] = solid.box_of(part, &Pose { location: DVec3::ZERO, orientation });
+        let [from, to] = self.course.places();
+        [from + low, to + high]
+    }
+}

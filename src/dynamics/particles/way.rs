@@ -1,0 +1,93 @@
+//! How a particle moves within one step.
+
+use glam::DVec3;
+
+/// What is below this part of the coordinates has come from rounding.
+const ROUNDING: f64 = 2e-15;
+
+/// A particle at the two ends of a step, or of a part of one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leap {
+    /// The two times, s.
+    pub(super) times: [f64; 2],
+    /// The two places, m.
+    pub(super) places: [DVec3; 2],
+    /// The two velocities, m/s.
+    pub(super) velocities: [DVec3; 2],
+}
+
+/// The way between the two ends: polynomials in the time since the beginning.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    place: [DVec3; 4],
+    velocity: [DVec3; 3],
+    /// The second derivative of the place is no larger, m/s².
+    pub(super) bend: f64,
+}
+
+impl Leap {
+    pub(super) fn span(&self) -> f64 {
+        self.times[1] - self.times[0]
+    }
+
+    /// The mean acceleration, m/s².
+    pub(super) fn acceleration(&self) -> DVec3 {
+        (self.velocities[1] - self.velocities[0]) / self.span()
+    }
+
+    /// A box around the way: its lowest and its highest corner.
+    pub(super) fn bounds(&self) -> [DVec3; 2] {
+        let [from, to] = self.places;
+        let way = to - from;
+        let aside = |velocity: DVec3| (self.span() * velocity - way).abs();
+        // Hermite's polynomials for velocities are at most 4/27, and s (1 − s) is at most 1/4.
+        let margin = 0.25 * aside(self.velocities[0]) + 0.25 * aside(self.velocities[1]);
+        [from.min(to) - margin, from.max(to) + margin]
+    }
+
+    /// The way: a parabola where the step is that of a steady acceleration, by a method from order 2 up or by Euler–Cromer;
+    /// else a cubic polynomial through places and velocities.
+    ///
+    /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So its way is x + v t + a t², while its velocity is v + a t.
+    pub(super) fn way(&self) -> Way {
+        let (h, a) = (self.span(), self.acceleration());
+        let ([x, y], [v, w]) = (self.places, self.velocities);
+        let rounding = ROUNDING * x.abs().max(y.abs()).max_element();
+        let is_way = |way: DVec3| (y - x - way).abs().max_element() <= rounding;
+        let rest = y - x - 0.5 * h * (v + w);
+        if is_way(0.5 * h * (v + w)) {
+            Way { place: [x, v, 0.5 * a, DVec3::ZERO], velocity: [v, a, DVec3::ZERO], bend: a.length() }
+        } else if is_way(h * w) {
+            Way { place: [x, v, a, DVec3::ZERO], velocity: [v, a, DVec3::ZERO], bend: 2.0 * a.length() }
+        } else {
+            let rest = rest * (6.0 / (h * h));
+            let (first, last) = (a + rest, a - rest);
+            let third = (last - first) / h;
+            Way {
+                place: [x, v, 0.5 * first, third / 6.0],
+                velocity: [v, first, 0.5 * third],
+                bend: first.length().max(last.length()),
+            }
+        }
+    }
+}
+
+impl Way {
+    /// Where the particle is after a time, s.
+    pub(super) fn place(&self, t: f64) -> DVec3 {
+        let [a, b, c, d] = self.place;
+        a + t * (b + t * (c + t * d))
+    }
+
+    /// How fast its place changes after a time, m/s.
+    pub(super) fn rate(&self, t: f64) -> DVec3 {
+        let [_, b, c, d] = self.place;
+        b + t * (2.0 * c + t * (3.0 * d))
+    }
+
+    /// Its velocity after a time, m/s. By Euler–Cromer, that is not quite how fast its place changes.
+    pub(super) fn velocity(&self, t: f64) -> DVec3 {
+        let [a, b, c] = self.velocity;
+        a + t * (b + t * c)
+    }
+}
