@@ -26,6 +26,7 @@ fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
     let settings: &[&str] = match path.file_stem().and_then(std::ffi::OsStr::to_str) {
         Some("fountain") => &["variables.drops=40"],
         Some("sparks") => &["variables.sparks=60"],
+        Some("rain") => &["variables.beads=30"],
         Some("galton") => &["variables.balls=15", "simulation.duration=2"],
         _ => &[],
     };
