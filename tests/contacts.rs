@@ -140,6 +140,37 @@ fn events_need_contacts_and_a_table() {
     assert!(said.contains("`simulation.contacts = \"event-driven\"` finds them"), "{said}");
 }
 
+/// `--events FILE`, `--events -o FILE`, and the flag before the scene write the same table.
+#[test]
+fn the_file_of_events_can_be_named_in_three_ways() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    let export = |words: &[&str]| {
+        let output = jabuka().current_dir(folder.path()).arg("export").args(words).output().unwrap();
+        (output.status.code(), stderr(&output))
+    };
+    let ways: [(&str, &[&str]); 3] = [
+        ("a.csv", &["scene.toml", "--events", "a.csv"]),
+        ("b.csv", &["scene.toml", "--events", "-o", "b.csv"]),
+        ("c.csv", &["-o", "c.csv", "--events", "scene.toml"]),
+    ];
+    for (file, words) in ways {
+        assert_eq!(export(words), (Some(0), String::new()), "{words:?}");
+        let table = std::fs::read_to_string(folder.path().join(file)).unwrap();
+        assert!(table.starts_with("t [s],body,other,"), "{table}");
+    }
+    for (words, said) in [
+        (&["scene.toml", "--events", "a.csv", "-o", "b.csv"][..], "leave one out"),
+        (&["scene.toml", "--events"][..], "name the file to write: `--events FILE.csv`"),
+        (&["--events"][..], "name the scene file"),
+        (&["scene.toml"][..], "--output"),
+    ] {
+        let (code, text) = export(words);
+        assert_eq!(code, Some(2), "{text}");
+        assert!(text.contains(said), "{text}");
+    }
+}
+
 /// A scene whose bodies never touch is the same with contacts and without.
 #[test]
 fn the_ground_is_no_body_of_any_frame() {

@@ -19,23 +19,52 @@ use super::{Failure, say};
 /// Write where all bodies are at every frame: as a table (CSV), or as an animated model for Blender, three.js and others
 /// (binary glTF)
 #[derive(clap::Args)]
+#[command(
+    override_usage = "jabuka export [OPTIONS] --output <FILE> <SCENE>\n       jabuka export [OPTIONS] --events <FILE> <SCENE>"
+)]
 pub(super) struct Arguments {
     /// The scene file
-    scene: PathBuf,
+    #[arg(required_unless_present = "events")]
+    scene: Option<PathBuf>,
     /// The file to write: FILE.csv or FILE.glb
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "events")]
+    output: Option<PathBuf>,
     /// Write what the joints do, as a table: their forces and torques, and not where the bodies are
     #[arg(long)]
     joints: bool,
-    /// Write the impacts, as a table: when and where, between which bodies, impulse and energy lost
-    #[arg(long, conflicts_with_all = ["joints", "frames"])]
-    events: bool,
+    /// Write the impacts to FILE.csv, as a table: when and where, between which bodies, impulse and energy lost. `-o FILE.csv` may name the
+    /// file as well
+    #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
+    events: Option<Option<PathBuf>>,
     /// Take only these frames, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
     #[command(flatten)]
     of_scene: SceneArguments,
+}
+
+/// What is read and what is written.
+struct Files<'a> {
+    scene: &'a Path,
+    output: &'a Path,
+}
+
+impl Arguments {
+    /// The scene and the file to write. `--events` may have the file, or stand before the scene: then what follows it is the scene.
+    fn files(&self) -> Result<Files<'_>, Failure> {
+        let named = self.events.as_ref().and_then(Option::as_deref);
+        match (self.scene.as_deref(), self.output.as_deref(), named) {
+            (Some(scene), Some(output), None) | (None, Some(output), Some(scene)) => {
+                Ok(Files { scene, output })
+            }
+            (Some(scene), None, Some(output)) => Ok(Files { scene, output }),
+            (Some(_), Some(_), Some(_)) => {
+                Err(Failure::Usage("`--events` and `--output` name two files: leave one out".to_owned()))
+            }
+            (None, ..) => Err(Failure::Usage("name the scene file".to_owned())),
+            (_, None, None) => Err(Failure::Usage("name the file to write: `--events FILE.csv`".to_owned())),
+        }
+    }
 }
 
 /// What a run can be written as.
@@ -62,16 +91,18 @@ impl Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let format = Format::of(&arguments.output)?;
-    let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
-    say::spared(Kept::of_scene(&scene).check(&arguments.output))?;
+    let files = arguments.files()?;
+    let output = files.output;
+    let format = Format::of(output)?;
+    let scene = arguments.of_scene.read_with(files.scene, &[])?;
+    say::spared(Kept::of_scene(&scene).check(output))?;
     if arguments.joints && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
     }
-    if arguments.events && matches!(format, Format::Glb) {
+    if arguments.events.is_some() && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--events` makes a table, `.csv`".to_owned()));
     }
-    if arguments.events && scene.simulation.contacts.is_none() {
+    if arguments.events.is_some() && scene.simulation.contacts.is_none() {
         let message = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
         return Err(Failure::Usage(message.to_owned()));
     }
@@ -94,36 +125,40 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return run_arguments::broken_down(&run, &selection);
     }
     let done = match format {
-        Format::Csv => table(arguments, &run, &selection),
-        Format::Glb => model(arguments, &run, &selection),
+        Format::Csv => table(arguments, output, &run, &selection),
+        Format::Glb => model(output, &run, &selection),
     };
     let text = done.map_err(|error| {
-        say::report(&report(error, &arguments.output));
+        say::report(&report(error, output));
         Failure::Errors
     })?;
     let left_out = if scene.emitters.is_empty() { "" } else { "; particles are left out" };
-    say::result(&format!("{}: {text}{left_out}\n", visible_path(&arguments.output)));
+    say::result(&format!("{}: {text}{left_out}\n", visible_path(output)));
     run_arguments::broken_down(&run, &selection)
 }
 
-fn table(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
+fn table(
+    arguments: &Arguments,
+    output: &Path,
+    run: &Recorded<'_>,
+    selection: &Selection,
+) -> Result<String, ExportError> {
     let scene = run.scene();
     let times = selection.count_within(scene.simulation.frames());
     if arguments.joints {
-        let rows = whole(&arguments.output, |file| write_joints(run, selection, file))?;
+        let rows = whole(output, |file| write_joints(run, selection, file))?;
         return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));
     }
-    if arguments.events {
-        let rows = whole(&arguments.output, |file| write_events(run, file))?;
+    if arguments.events.is_some() {
+        let rows = whole(output, |file| write_events(run, file))?;
         return Ok(if rows == 1 { "1 impact".to_owned() } else { format!("{rows} impacts") });
     }
-    let rows = whole(&arguments.output, |file| write_csv(run, selection, file))?;
+    let rows = whole(output, |file| write_csv(run, selection, file))?;
     Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))
 }
 
-fn model(arguments: &Arguments, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
-    let Exported { frames, bytes, faster } =
-        whole(&arguments.output, |file| write_glb(run, selection, file))?;
+fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
+    let Exported { frames, bytes, faster } = whole(output, |file| write_glb(run, selection, file))?;
     let bodies = match run.scene().bodies.len() {
         1 => "1 body".to_owned(),
         bodies => format!("{bodies} bodies"),

@@ -42,6 +42,41 @@ fn symplectic_methods_have_bounded_drift() {
     }
 }
 
+/// For an oscillator, half a drift, a kick and half a drift of h together are the matrix
+/// [1 − z²/2, h (1 − z²/4); −h ω², 1 − z²/2] for (x, v). Yoshida's step is a product of three, [a, b; c, a] with a² − b c = 1, which keeps
+/// v² − (c/b) x² exactly. So from the turning point, where v = 0, the energy is off by the part ω² b/c + 1 of itself where x = 0.
+#[test]
+fn yoshidas_method_has_bounded_drift() {
+    let leap = |h: f64| {
+        let z2 = 4.0 * h * h;
+        [[1.0 - z2 / 2.0, h * (1.0 - z2 / 4.0)], [-4.0 * h, 1.0 - z2 / 2.0]]
+    };
+    let product = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
+        [0, 1].map(|i| [0, 1].map(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
+    };
+    let outer = 0.01 / (2.0 - libm::cbrt(2.0));
+    let step = product(leap(outer), product(leap(0.01 - 2.0 * outer), leap(outer)));
+    let bound = (4.0 * step[0][1] / step[1][0] + 1.0).abs();
+    assert!(bound > 1e-9 && bound < 1e-7, "{bound:e}");
+    let drift = largest_drift(method("yoshida4"));
+    assert!(drift < 1.02 * bound && drift > 0.98 * bound, "{drift:e} {bound:e}");
+}
+
+/// The mean of the velocities before and after a kick times its force is the change of the kinetic energy. So what drag takes is booked
+/// exactly; what remains is rounding.
+#[test]
+fn yoshidas_method_books_the_work_of_drag_exactly() {
+    let mut world = World::new();
+    world.set_integrator(method("yoshida4"));
+    let id = world.add(ball().with_velocity(DVec3::new(3.0, 4.0, 0.0)));
+    world.add_force(Drag { quadratic: 0.3, ..air(id, 1.0) });
+    world.set_step(0.05);
+    world.advance_to(2.0);
+    let balance = world.balance();
+    assert!(balance.accounts.work < -10.0, "{}", balance.accounts.work);
+    assert!(balance.drift.abs() < 1e-14, "{:e}", balance.drift);
+}
+
 /// A step of explicit Euler multiplies the energy of an oscillator by exactly 1 + ω² h²: 54.5-fold after 10,000
 /// steps. Rounding is 10,000 times 1e-16.
 #[test]

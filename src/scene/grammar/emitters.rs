@@ -96,8 +96,8 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         )
         .default_flag(false)
         .also(&["collision", "collisions", "collide", "contact", "contacts"]),
-        RESTITUTION,
-        FRICTION,
+        RESTITUTION.default("that of the body; with neither's, 0"),
+        FRICTION.default("that of the body; with neither's, 0.5"),
     ],
 };
 

@@ -72,7 +72,7 @@ sticks, slides or rolls as the forces on it ask.
   the energy is wrong. Take `velocity-verlet` or `rk4`.
 - **Energy**: what impacts and friction take are the accounts `impacts` and `friction` of the balance; neither is part of the drift.
 - **To see it**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it from where they act. `impacts`
-  counts in labels, and `jabuka export SCENE --events -o FILE.csv` writes a row for each impact.
+  counts in labels, and `jabuka export SCENE --events FILE.csv` writes a row for each impact.
 
 ### Many bodies: time stepping
 
