@@ -23,4 +23,4 @@ for entry in $moments; do
     pictures+=("$folder/$scene.png")
 done
 montage "${pictures[@]}" -tile 6x -geometry 256x144+2+2 "$folder/gallery.png"
-convert "$folder/gallery.png" -strip -depth 8 -define png:compression-level=9 docs/gallery.png
+convert "$folder/gallery.png" -strip -dither FloydSteinberg -colors 256 -define png:compression-level=9 PNG8:docs/gallery.png
