@@ -1,8 +1,7 @@
 //! Velocity Verlet: half a kick, a drift, half a kick.
 
-use glam::DVec3;
-
 use super::super::{Loads, State, System};
+use super::velocities::Velocities;
 use super::{Integrator, Method, splitting};
 
 /// Source: W. C. Swope et al., J. Chem. Phys. 76 (1982) 637.
@@ -28,33 +27,6 @@ struct VelocityVerlet {
     /// Velocities at the beginning and in the middle of a step, where constraints change them on the way.
     begin: Velocities,
     middle: Velocities,
-}
-
-/// How all bodies move.
-#[derive(Clone, Default)]
-struct Velocities {
-    velocity: Vec<DVec3>,
-    angular_momentum: Vec<DVec3>,
-}
-
-impl Velocities {
-    fn read(&mut self, state: &State) {
-        self.velocity.clone_from(&state.velocity);
-        self.angular_momentum.clone_from(&state.angular_momentum);
-    }
-
-    fn write(&self, state: &mut State) {
-        state.velocity.clone_from(&self.velocity);
-        state.angular_momentum.clone_from(&self.angular_momentum);
-    }
-
-    /// Adds to the velocities of a state by how much it is faster than these.
-    fn extrapolate(&self, state: &mut State) {
-        let pairs = state.velocity.iter_mut().zip(&self.velocity);
-        pairs.for_each(|(now, before)| *now += *now - *before);
-        let pairs = state.angular_momentum.iter_mut().zip(&self.angular_momentum);
-        pairs.for_each(|(now, before)| *now += *now - *before);
-    }
 }
 
 impl VelocityVerlet {

@@ -1,8 +1,7 @@
 //! Yoshida's method of fourth order: three steps of second order, of which the one in the middle goes back in time.
 
-use glam::DVec3;
-
 use super::super::{Loads, State, System};
+use super::velocities::Velocities;
 use super::{Integrator, Method, splitting};
 
 /// Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150 (1990) 262.
@@ -24,59 +23,11 @@ const OUTER: f64 = 1.351_207_191_959_657_8;
 /// The mean velocity is looked for at most so many times.
 const TRIALS: usize = 60;
 
-/// It is found where it changes by less than this part.
-const SAME: f64 = 4e-16;
-
 #[derive(Clone, Default)]
 struct Yoshida4 {
     loads: Loads,
     before: Velocities,
     after: Velocities,
-}
-
-/// How all bodies move.
-#[derive(Clone, Default)]
-struct Velocities {
-    velocity: Vec<DVec3>,
-    angular_momentum: Vec<DVec3>,
-}
-
-impl Velocities {
-    fn read(&mut self, state: &State) {
-        self.velocity.clone_from(&state.velocity);
-        self.angular_momentum.clone_from(&state.angular_momentum);
-    }
-
-    fn write(&self, state: &mut State) {
-        state.velocity.clone_from(&self.velocity);
-        state.angular_momentum.clone_from(&self.angular_momentum);
-    }
-
-    /// Writes the mean of these and others to a state.
-    fn write_mean(&self, others: &Velocities, state: &mut State) {
-        let mean = |(a, b): (&DVec3, &DVec3)| 0.5 * (*a + *b);
-        state.velocity.clear();
-        state.velocity.extend(self.velocity.iter().zip(&others.velocity).map(mean));
-        state.angular_momentum.clear();
-        state.angular_momentum.extend(self.angular_momentum.iter().zip(&others.angular_momentum).map(mean));
-    }
-
-    /// Lets the bodies of a state that move as fast as this, but for rounding, move exactly so. Returns whether all do.
-    ///
-    /// Each body is judged by itself, so that particles that are advanced side by side do not depend on each other.
-    fn settle(&self, state: &mut State) -> bool {
-        let take = |known: &[DVec3], new: &mut [DVec3]| {
-            let mut are_all = true;
-            for (known, new) in known.iter().zip(new) {
-                let is_same = (*known - *new).abs().max_element() <= SAME * known.abs().max_element();
-                are_all &= is_same;
-                *new = if is_same { *known } else { *new };
-            }
-            are_all
-        };
-        let velocities = take(&self.velocity, &mut state.velocity);
-        take(&self.angular_momentum, &mut state.angular_momentum) && velocities
-    }
 }
 
 impl Yoshida4 {

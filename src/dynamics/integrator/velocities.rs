@@ -1,0 +1,61 @@
+//! How all bodies move, for methods that try several velocities in a step.
+
+use glam::DVec3;
+
+use super::super::State;
+
+/// Velocities are the same where they differ by less than this part.
+const SAME: f64 = 4e-16;
+
+/// How all bodies move.
+#[derive(Clone, Default)]
+pub(super) struct Velocities {
+    velocity: Vec<DVec3>,
+    angular_momentum: Vec<DVec3>,
+}
+
+impl Velocities {
+    pub(super) fn read(&mut self, state: &State) {
+        self.velocity.clone_from(&state.velocity);
+        self.angular_momentum.clone_from(&state.angular_momentum);
+    }
+
+    pub(super) fn write(&self, state: &mut State) {
+        state.velocity.clone_from(&self.velocity);
+        state.angular_momentum.clone_from(&self.angular_momentum);
+    }
+
+    /// Adds to the velocities of a state by how much it is faster than these.
+    pub(super) fn extrapolate(&self, state: &mut State) {
+        let pairs = state.velocity.iter_mut().zip(&self.velocity);
+        pairs.for_each(|(now, before)| *now += *now - *before);
+        let pairs = state.angular_momentum.iter_mut().zip(&self.angular_momentum);
+        pairs.for_each(|(now, before)| *now += *now - *before);
+    }
+
+    /// Writes the mean of these and others to a state.
+    pub(super) fn write_mean(&self, others: &Velocities, state: &mut State) {
+        let mean = |(a, b): (&DVec3, &DVec3)| 0.5 * (*a + *b);
+        state.velocity.clear();
+        state.velocity.extend(self.velocity.iter().zip(&others.velocity).map(mean));
+        state.angular_momentum.clear();
+        state.angular_momentum.extend(self.angular_momentum.iter().zip(&others.angular_momentum).map(mean));
+    }
+
+    /// Lets the bodies of a state that move as fast as this, but for rounding, move exactly so. Returns whether all do.
+    ///
+    /// Each body is judged by itself, so that particles that are advanced side by side do not depend on each other.
+    pub(super) fn settle(&self, state: &mut State) -> bool {
+        let take = |known: &[DVec3], new: &mut [DVec3]| {
+            let mut are_all = true;
+            for (known, new) in known.iter().zip(new) {
+                let is_same = (*known - *new).abs().max_element() <= SAME * known.abs().max_element();
+                are_all &= is_same;
+                *new = if is_same { *known } else { *new };
+            }
+            are_all
+        };
+        let velocities = take(&self.velocity, &mut state.velocity);
+        take(&self.angular_momentum, &mut state.angular_momentum) && velocities
+    }
+}
