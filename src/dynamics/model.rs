@@ -111,7 +111,7 @@ impl Model {
             && self.forces.iter().all(|force| force.is_local())
     }
 
-    /// Whether some force depends on how the bodies move, or does work that is counted as it is done.
+    /// Whether some force depends on velocities, or does work without a potential. Its value at one place is then not enough for a step.
     pub(super) fn depends_on_motion(&self) -> bool {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
     }

@@ -1,4 +1,4 @@
-//! Anderson acceleration. Sweeps alone approach their limit slowly; from the last few of them it follows where they lead.
+//! Anderson acceleration. Sweeps alone approach their limit slowly. The changes that the last few sweeps made show where this limit is.
 //!
 //! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
 

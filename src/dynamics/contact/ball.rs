@@ -48,7 +48,7 @@ impl Solid {
         self.parts()[part].is_ground()
     }
 
-    /// Whether the parts are found by a tree: there may be many, as in a mesh.
+    /// Whether it has a tree of boxes to search its parts, as a mesh has.
     pub(in crate::dynamics) fn has_tree(&self) -> bool {
         self.tree().is_some()
     }

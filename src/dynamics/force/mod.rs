@@ -51,7 +51,7 @@ pub trait Force: Send + Sync {
         false
     }
 
-    /// Whether it depends on how the bodies move, or does work that has no potential.
+    /// Whether it depends on the velocities of the bodies, or does work without a potential.
     fn depends_on_motion(&self) -> bool {
         true
     }

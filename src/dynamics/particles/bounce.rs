@@ -35,7 +35,7 @@ const ROUNDS: usize = 50;
 pub(super) struct Bouncer {
     pub(super) ball: Ball,
     surface: Surface,
-    /// It makes the rest of a step anew.
+    /// Computes the rest of a step again, after an impact.
     spare: Stepper,
     targets: Vec<Target>,
     seen: Vec<Contact>,
@@ -109,13 +109,13 @@ impl Bouncer {
         (leap.places[0] + leap.span() * velocity, velocity)
     }
 
-    /// Makes the rest of a step anew, from the place and the velocity at its beginning.
+    /// Computes the rest of a step again, after the place or the velocity at its beginning has changed.
     fn again(&mut self, leap: &mut Leap) {
         (leap.places[1], leap.velocities[1]) =
             self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);
     }
 
-    /// Looks at all parts that the particle may touch in a step, at its beginning.
+    /// Finds all parts that the particle may touch within a step, and how near they are at its beginning.
     fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
         let Bouncer { ball, surface, targets, seen, .. } = self;
         seen.clear();

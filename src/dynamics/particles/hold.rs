@@ -9,16 +9,17 @@ use super::obstacles::{Scenery, Standing};
 use super::way::Leap;
 use crate::dynamics::contact::Ball;
 
-/// Velocities below this part of what acts in a step are those of rest.
+/// A particle rests if it is slower than this part of the velocity that forces give it in a step.
 const REST: f64 = 1e-6;
-/// Normals are the same where they differ by less.
+/// Two unit normals are the same if they differ by less.
 const FLAT: f64 = 1e-12;
-/// Several contacts are solved by so many rounds, up to this part of what acts.
+/// The impulses of several contacts are found by iteration, in at most so many rounds. It ends when a round changes the velocity by less than
+/// this part of what forces give it in a step.
 const ROUNDS: usize = 60;
 const ACCURACY: f64 = 1e-13;
-/// Places are put right in so many rounds.
+/// At the end of a step, the particle is put back on the surface, in at most so many rounds.
 const PLACINGS: usize = 6;
-/// A gap that is larger than this part of the radius is put right.
+/// It is on the surface if the gap is smaller than this part of the radius.
 const GAP: f64 = 1e-11;
 
 /// The motion of a particle in the axes of an obstacle.

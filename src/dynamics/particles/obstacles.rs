@@ -44,7 +44,7 @@ pub struct Scenery {
     placed: Vec<Placed>,
     /// Half-spaces, which are near everything.
     endless: Vec<Target>,
-    /// All other parts, each with the box in which it stays. A mesh is one entry.
+    /// All other parts. Each has a box that it does not leave within the interval. A mesh is one entry, with one box.
     parts: Vec<(Target, [DVec3; 2])>,
     tree: Option<Tree>,
     /// No part that has an end moves faster, m/s.
@@ -162,7 +162,7 @@ impl Scenery {
         })
     }
 
-    /// All parts that may come nearer than `within` to a box in a time from `begin` to `end`, s.
+    /// Finds all parts that may come nearer to a box than `within` (m) between the times `begin` and `end` (s).
     pub(super) fn near(
         &self,
         [low, high]: [DVec3; 2],
