@@ -84,6 +84,7 @@ mod model;
 mod motion;
 mod particles;
 mod presence;
+mod sets;
 mod shape;
 mod snapshot;
 mod state;

@@ -38,7 +38,7 @@ fn what_spins_on_the_spot_goes_on_spinning() {
 /// Balls are poured into a box, one after another.
 const POURED: &str = r#"
     [simulation]
-    duration = 2.4
+    duration = 3.2
     frame_rate = 25
     integrator = "velocity-verlet"
     gravity = [0, -9.81, 0]

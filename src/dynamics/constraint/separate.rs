@@ -34,7 +34,11 @@ impl Solver {
         }
         self.unknown.fill(0.0);
         let deepest = goals.iter().fold(0.0_f64, |most, goal| most.max(*goal));
-        self.sweep_until(APART * deepest, |solver| solver.sweep_rows(&goals, Purpose::Impact));
+        if self.joints() == 0 {
+            self.sweep_islands(&goals, false, APART * deepest);
+        } else {
+            self.sweep_until(APART * deepest, |solver| solver.sweep_rows(&goals, Purpose::Impact));
+        }
         let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
         for (&body, member) in bodies.zip(&self.members).filter(|(_, member)| member.inverse_mass != 0.0) {
             state.location[body] += member.velocity;

@@ -74,6 +74,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) held: Vec<bool>,
     /// What is solved for.
     pub(super) unknown: Vec<f64>,
+    /// The least impulses of stops, where they are not 0.
+    pub(super) least: Vec<f64>,
     /// What impulses along the rows do, where they are found by sweeps.
     pub(super) columns: Columns,
     /// The forces that sweeps have found last.

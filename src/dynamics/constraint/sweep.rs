@@ -12,7 +12,7 @@ use super::solver::Solver;
 use super::{Direction, Law};
 
 /// So many sweeps are made at most.
-const SWEEPS: usize = 100;
+pub(super) const SWEEPS: usize = 100;
 
 /// Sweeps end when they change rates by less than this part of the largest one.
 const SETTLED: f64 = 1e-7;
@@ -146,7 +146,15 @@ impl Solver {
             self.forced = fastest;
         }
         // Rates far below those that forces change in a part of a step need not be exact.
-        self.sweep_until(SETTLED * fastest.max(self.forced), |solver| {
+        let tolerance = SETTLED * fastest.max(self.forced);
+        if self.joints() == 0 {
+            self.sweep_islands(goals, true, tolerance);
+            if let Purpose::Forces(time) = purpose {
+                self.remember_forces(time);
+            }
+            return;
+        }
+        self.sweep_until(tolerance, |solver| {
             let change = solver.sweep_rows(goals, purpose);
             (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
         });
@@ -195,7 +203,7 @@ impl Solver {
     }
 
     /// The number of constraints before the contacts.
-    fn joints(&self) -> usize {
+    pub(super) fn joints(&self) -> usize {
         self.first_row.len() - self.contacts.len()
     }
 
@@ -212,7 +220,7 @@ impl Solver {
             let goal = if law == Law::Stop { goal } else { 0.0 };
             let wanted = before - (self.rate_of(row) - goal) / weight;
             let next = match (law, purpose) {
-                (Law::Stop, _) => wanted.max(0.0),
+                (Law::Stop, _) => wanted.max(self.least(row)),
                 (Law::Drive { limit }, Purpose::Forces(time)) => wanted.clamp(-limit * time, limit * time),
                 _ => 0.0,
             };

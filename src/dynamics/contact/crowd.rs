@@ -5,6 +5,7 @@
 
 mod course;
 mod heap;
+mod hits;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 use self::course::Course;
 use self::heap::is_heap;
 use super::super::constraint::Solver;
-use super::super::{BodyId, ContactSnapshot, Loads, Model, State};
+use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
@@ -29,6 +30,8 @@ pub(in crate::dynamics) struct Crowd {
     course: Option<Course>,
     /// The places at which its bodies touched at the end of the last step.
     places: Vec<Arc<Closed>>,
+    /// What has rebounded in the part of a step that was made last.
+    impacts: Vec<Impact>,
     /// The pairs that pushed each other at last.
     pushing: BTreeSet<[usize; 2]>,
     /// The bodies that are in the crowd again in the steps that come.
@@ -196,9 +199,9 @@ impl Collider {
         has_grown
     }
 
-    /// The beginning of a step: notes for how much longer the bodies that are advanced stay in the crowd, and gathers what touches them now.
-    /// Returns whether the crowd has grown.
-    pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State) -> bool {
+    /// The beginning of a step of `dt`, s: notes for how much longer the bodies that are advanced stay in the crowd, and gathers what touches
+    /// them now or may hit them. Returns whether the crowd has grown.
+    pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
             |body: &usize| focus.as_ref().is_none_or(|focus| focus.bodies.binary_search(body).is_ok());
@@ -219,6 +222,7 @@ impl Collider {
         };
         let left = longest(&self.crowd).unwrap_or(0);
         self.gather(model, state, &seeds);
+        self.expect_hits(model, state, dt);
         for &body in &self.crowd.bodies {
             self.crowd.again.entry(body).or_insert(Again { left, span: left, is_over: false });
         }

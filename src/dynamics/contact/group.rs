@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::approach::{Approach, TOUCH};
 use super::closed::Closed;
@@ -47,9 +48,6 @@ pub(super) struct Focus {
     others: BTreeSet<usize>,
 }
 
-/// Disjoint sets of bodies, as a union–find forest: each body points to another one of its set, and the first one to itself.
-struct Sets(Vec<usize>);
-
 impl Sets {
     /// Unites the sets of two bodies, if both can move.
     fn unite_moving(&mut self, [a, b]: [usize; 2], model: &Model) {
@@ -61,20 +59,6 @@ impl Sets {
     /// Whether uniting the sets of two bodies would change nothing.
     fn are_one(&mut self, [a, b]: [usize; 2], model: &Model) -> bool {
         !(model.can_move(a) && model.can_move(b)) || self.first(a) == self.first(b)
-    }
-
-    fn first(&mut self, body: usize) -> usize {
-        let mut first = body;
-        while self.0[first] != first {
-            self.0[first] = self.0[self.0[first]];
-            first = self.0[first];
-        }
-        first
-    }
-
-    fn unite(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.0[a.max(b)] = a.min(b);
     }
 }
 
@@ -93,7 +77,7 @@ impl Collider {
         self.follow(model, (before, after), duration);
         let Collider { solids, pairs, paths, fastest, crowd, .. } = self;
         let free: Vec<f64> = (0..model.len()).map(|i| way(solids[i].as_ref(), &paths[i])).collect();
-        let mut sets = Sets((0..model.len()).collect());
+        let mut sets = Sets::new(model.len());
         let mut is_busy = vec![false; model.len()];
         for island in held {
             island.iter().zip(island.iter().skip(1)).for_each(|(&a, &b)| sets.unite(a, b));

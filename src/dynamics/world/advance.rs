@@ -54,7 +54,7 @@ impl World {
             if collider.is_crowded() {
                 while self.let_touched_go() {}
             }
-            if self.collider.as_mut().is_some_and(|collider| collider.stay(&self.model, &self.state)) {
+            if self.collider.as_mut().is_some_and(|collider| collider.stay(&self.model, &self.state, dt)) {
                 self.meet(t, false);
             }
         }
@@ -69,6 +69,7 @@ impl World {
             self.solver.accept();
             if let Some(collider) = &mut self.collider {
                 collider.note_ways(&self.model, &self.before, &self.state, duration);
+                collider.note_rebounds(now + duration);
             }
             self.solver.blame_friction(&self.model, now + duration);
             let Some(event) = event else {

@@ -101,3 +101,56 @@ impl World {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface};
+    use super::*;
+
+    /// A ball of the crowd comes near a wall at 1 m/s and touches it within a part of the step. It leaves the wall at that moment, with the
+    /// speed that Newton's law gives it, and the impact is noted: without forces, all is as in closed form, to rounding.
+    #[test]
+    fn what_is_advanced_by_time_stepping_rebounds() {
+        for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {
+            let mut world = World::new();
+            let ball = Shape::Sphere { radius: 0.1 };
+            let wall = Shape::Box { size: DVec3::ONE };
+            world.add(
+                RigidBody::new(&ball, 2.0).with_location(DVec3::Y * (0.6 + gap)).with_velocity(-DVec3::Y),
+            );
+            world.add(RigidBody { fixed: true, ..RigidBody::new(&wall, 1.0) });
+            world.add_shapes([ball, wall]);
+            let surface =
+                Surface { restitution: Some(restitution), friction: Some(0.5), rolling_friction: None };
+            world.collide(Contacts { surfaces: vec![Some(surface); 2], ..Contacts::default() });
+            let _ = world.snapshot();
+            let dt = 1.0 / 240.0;
+            world.end = dt;
+            world.crowd(0.0, &[0]);
+            world.before.clone_from(&world.state);
+            world.make_step(0.0, dt);
+            world.collider.as_mut().unwrap().note_rebounds(dt);
+            let impacts = world.impacts();
+            if restitution == 0.0 {
+                assert!(impacts.is_empty());
+                assert!((world.state.location[0].y - 0.6).abs() < 1e-12, "{}", world.state.location[0].y);
+                continue;
+            }
+            let height = 0.6 + restitution * (dt - gap);
+            assert!(
+                (world.state.location[0].y - height).abs() < 1e-12,
+                "{} {height}",
+                world.state.location[0].y
+            );
+            assert!((world.state.velocity[0].y - restitution).abs() < 1e-12, "{}", world.state.velocity[0]);
+            let lost = 1.0 - restitution * restitution;
+            assert!((impacts[0].place - DVec3::Y * 0.5).length() < 1e-12, "{}", impacts[0].place);
+            assert!((impacts[0].time - gap).abs() < 1e-12 && (impacts[0].energy - lost).abs() < 1e-12);
+            assert!(
+                (impacts[0].impulse.length() - 2.0 * (1.0 + restitution)).abs() < 1e-12 && impacts.len() == 1
+            );
+        }
+    }
+}

@@ -194,7 +194,7 @@ impl World {
         self.steps += 1;
     }
 
-    fn make_step(&mut self, t: f64, dt: f64) {
+    pub(super) fn make_step(&mut self, t: f64, dt: f64) {
         self.fly(t, dt);
         let rest = self.end - (t + dt);
         let Self { model, state, before, collider: Some(collider), loads, .. } = self else { return };

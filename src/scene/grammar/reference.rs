@@ -62,10 +62,10 @@ sticks, slides or rolls as the forces on it ask.
 - **Impacts at the same time** happen one after another, in the order of their approach speeds, the fastest first. Of equal ones, that of
   the bodies that stand first in the scene comes first. In a Newton's cradle, so as many balls leave as arrive.
 - **Too many events**: some bodies hit, grip and release each other again and again within one step, as in a chain that falls on the floor.
-  Time-stepping (Moreau's scheme) then advances these bodies, without rebounds, to the end of the step or for some steps more. The energy
-  stays balanced.
-- **Heaps**: where more than six pairs of bodies touch and some begin to slide or part, time-stepping advances them until they rest. What
-  falls on a heap rebounds from it; within the heap nothing rebounds.
+  Time-stepping (Moreau's scheme) then advances these bodies to the end of the step or for some steps more. All impacts of a part of a step
+  happen at once there, by Poisson's law, and what would rebound only for a moment does not rebound. The energy stays balanced.
+- **Heaps**: where more than six pairs of bodies touch and some begin to slide or part, time-stepping advances them until they rest, and with
+  them what may hit them within a step.
 - **At rest**: bodies that have rested on each other for eight steps are held, until something touches them or a force on them changes. So
   a heap at rest costs nothing.
 - **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much

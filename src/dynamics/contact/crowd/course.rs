@@ -1,6 +1,6 @@
 //! The motion of the crowd through a step.
 //!
-//! It is made in a few equal parts: an impulse stops what comes nearer, the forces act, contacts push and grip at the end of the part.
+//! It is made in a few equal parts: an impulse stops what comes nearer, or lets it rebound, the forces act, contacts push and grip at the end of the part.
 //! Energy that this takes is booked; the order is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom
 //! dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
@@ -12,7 +12,7 @@ use glam::DVec3;
 use super::super::super::constraint::{Purpose, Solver};
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
-use super::super::super::{BodyId, Breakdown, Loads, Model, State};
+use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closed::{Closed, heading};
 use super::super::collider::{Collider, scale};
@@ -27,7 +27,7 @@ use super::Crowd;
 const PARTS: [f64; 2] = [2.0, 64.0];
 
 /// Nothing moves farther in a part than this part of the smaller body, as long as parts are not too many.
-const FAR: f64 = 0.03;
+const FAR: f64 = 0.12;
 
 /// Places count as touching at the end where their gap is below this part of the smaller body.
 const GRASP: f64 = 1e-5;
@@ -62,6 +62,8 @@ pub(super) struct Course {
     /// The pairs that can meet on the way.
     pairs: Vec<Pair>,
     failure: Option<Breakdown>,
+    /// What rebounds on the way, in the order of time.
+    impacts: Vec<Impact>,
     /// The moments within an interval that were asked for last, s after its beginning.
     between: [(f64, State); 2],
 }
@@ -124,9 +126,18 @@ impl Collider {
         for k in 0..parts as usize {
             let next = self.advance_from(&course, k, course.part, model, loads);
             course.states.push(next);
+            course.impacts.append(&mut self.crowd.impacts);
         }
         course.failure = self.crowd.solver.take_failure();
         course
+    }
+
+    /// The crowd has been advanced to a time, s: its rebounds until then count.
+    pub(in crate::dynamics) fn note_rebounds(&mut self, time: f64) {
+        let Collider { crowd, impacts, .. } = self;
+        let Some(course) = &mut crowd.course else { return };
+        let passed = course.impacts.partition_point(|impact| impact.time <= time);
+        impacts.extend(course.impacts.drain(..passed));
     }
 
     /// The crowd at a time, s.
@@ -145,6 +156,7 @@ impl Collider {
         let pushing = self.crowd.pushing.clone();
         let found = self.advance_from(course, k, left, model, loads);
         self.crowd.pushing = pushing;
+        self.crowd.impacts.clear();
         self.crowd.solver.take_failure();
         course.between.swap(0, 1);
         course.between[0] = (key, found.clone());
@@ -361,8 +373,9 @@ impl Crowd {
         // What comes nearer stops where it would touch at the end of the part.
         solver.prepare_sweeps(model, t, now);
         let mut goals: Vec<f64> = solver.gaps().iter().map(|gap| -gap / part).collect();
-        solver.push_all(model, &goals, Purpose::Impact, now);
-        solver.rates_of(model, now);
+        model.sum(t, now, loads);
+        let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
+        self.impacts.extend(struck.impacts);
         solver.halve_slips(&mut goals);
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
@@ -380,6 +393,7 @@ impl Crowd {
         self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
         self.fly(model, 0.5 * part, now);
         model.place(t + part, now);
+        shift(struck.early, model, t + part, now);
         separate(&mut self.solver, model, t + part, now);
     }
 
@@ -394,6 +408,15 @@ impl Crowd {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
             now.angular_momentum[i] += time * loads.torque[i];
         }
+    }
+}
+
+/// Takes back what bodies have moved too far, m. The energy that this takes counts as work of impacts.
+fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
+    if !ways.is_empty() {
+        let before = mechanical(model, t, state);
+        ways.into_iter().for_each(|(body, way)| state.location[body] -= way);
+        state.accounts.impacts += mechanical(model, t, state) - before;
     }
 }
 

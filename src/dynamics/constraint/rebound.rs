@@ -1,0 +1,164 @@
+//! Impacts of bodies that time-stepping advances, all those of a part of a step at once.
+//!
+//! By Poisson's law, bodies first stop each other. Then each contact gives the impulse of that once more, times its restitution. For two bodies, this is
+//! Newton's law; for many it never gains energy, as Newton's can. Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid
+//! multibody systems*, Nonlinear Dynamics 7 (1995) 471.
+//!
+//! What would touch within the part gets its impulse at the beginning of it, so it parts too early. Its way is put right
+//! afterwards: it moves as before until it touches, and only then as the impulse has it.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::super::{Impact, Loads, Model, State};
+use super::solver::Solver;
+use super::structure::Place;
+use super::sweep::Purpose;
+
+/// What impacts have done.
+#[derive(Default)]
+pub(in crate::dynamics) struct Struck {
+    /// What has rebounded, in the order of time.
+    pub(in crate::dynamics) impacts: Vec<Impact>,
+    /// How far the impulses move bodies before they touch, m.
+    pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
+}
+
+/// A contact at which two bodies rebound.
+struct Rebound {
+    contact: usize,
+    /// Its first row, that of the normal, and how many rows it has.
+    row: usize,
+    rows: usize,
+    /// How long it takes until they touch, s.
+    time: f64,
+}
+
+impl Solver {
+    /// Lets what touches within a part of a step, which lasts from `time` on for `part` seconds, hit each other, after
+    /// [`prepare_sweeps`](Self::prepare_sweeps). Rates of stops may fall to `goals`; what rebounds may come no nearer for the rest of the part, and its goal
+    /// says so.
+    pub(in crate::dynamics) fn strike_all(
+        &mut self,
+        model: &Model,
+        (time, part): (f64, f64),
+        goals: &mut [f64],
+        (state, loads): (&mut State, &Loads),
+    ) -> Struck {
+        let before = self.rates_of(model, state);
+        let rebounds = self.rebounds((model, loads), (&before, goals), part);
+        for rebound in &rebounds {
+            goals[rebound.row] = 0.0;
+        }
+        let velocities: BTreeMap<usize, DVec3> =
+            self.rebounding(&rebounds, model).map(|body| (body, state.velocity[body])).collect();
+        self.push_all(model, goals, Purpose::Impact, state);
+        if rebounds.is_empty() {
+            return Struck::default();
+        }
+        let mut impulses = self.unknown.clone();
+        self.least = vec![0.0; impulses.len()];
+        for rebound in &rebounds {
+            let restitution = self.contacts[rebound.contact].law.restitution;
+            self.least[rebound.row] = restitution * impulses[rebound.row];
+        }
+        self.push_all(model, goals, Purpose::Impact, state);
+        self.least.clear();
+        impulses.iter_mut().zip(&self.unknown).for_each(|(sum, more)| *sum += more);
+        let early = self.early(&rebounds, &impulses, (&velocities, state));
+        let after = self.rates_of(model, state);
+        let impact = |rebound| self.impact(rebound, time, (&impulses, &velocities), (&before, &after));
+        let mut impacts: Vec<Impact> = rebounds.iter().filter_map(impact).collect();
+        impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
+        Struck { impacts, early }
+    }
+
+    /// The least impulse of a stop.
+    pub(super) fn least(&self, row: usize) -> f64 {
+        self.least.get(row).copied().unwrap_or(0.0)
+    }
+
+    /// The contacts that touch within a part of a step (s) so fast that bodies rebound: what the loads would bring back within about the same
+    /// time does not, unless nothing is lost.
+    fn rebounds(
+        &self,
+        (model, loads): (&Model, &Loads),
+        (rates, goals): (&[f64], &[f64]),
+        part: f64,
+    ) -> Vec<Rebound> {
+        let change = |body: &usize| part * model.inverse_mass()[*body] * loads.force[*body].length();
+        let rebound = |place: &Place| {
+            let contact = place.constraint.checked_sub(self.joints())?;
+            let (restitution, bodies) =
+                (self.contacts[contact].law.restitution, self.contacts[contact].bodies);
+            let (rate, goal) = (rates[place.row], goals[place.row]);
+            let slow = if restitution < 1.0 { bodies.iter().map(change).sum() } else { 0.0 };
+            let is_fast = rate < goal && -restitution * rate > slow;
+            is_fast.then(|| Rebound { contact, row: place.row, rows: place.rows, time: goal / rate * part })
+        };
+        self.structure.iter().flat_map(|structure| &structure.places).filter_map(rebound).collect()
+    }
+
+    /// The bodies that rebound and can move.
+    fn rebounding(&self, rebounds: &[Rebound], model: &Model) -> impl Iterator<Item = usize> {
+        let bodies = rebounds.iter().flat_map(|rebound| self.contacts[rebound.contact].bodies);
+        bodies.filter(|&body| model.inverse_mass()[body] != 0.0)
+    }
+
+    /// How far (m) the impulses move the bodies that rebound before they touch.
+    fn early(
+        &self,
+        rebounds: &[Rebound],
+        impulses: &[f64],
+        (before, after): (&BTreeMap<usize, DVec3>, &State),
+    ) -> Vec<(usize, DVec3)> {
+        // A body that rebounds from several others does so at the mean of the times, by the impulses.
+        let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for rebound in rebounds {
+            for body in self.contacts[rebound.contact].bodies {
+                let [weighted, all] = sums.entry(body).or_default();
+                *weighted += impulses[rebound.row] * rebound.time;
+                *all += impulses[rebound.row];
+            }
+        }
+        let early = |(&body, velocity): (&usize, &DVec3)| {
+            let [weighted, all] = sums[&body];
+            let time = if all > 0.0 { weighted / all } else { 0.0 };
+            (body, time * (after.velocity[body] - *velocity))
+        };
+        before.iter().map(early).collect()
+    }
+
+    /// An impact of a part of a step that begins at a time, s, with the velocities of the bodies before it, and the rates of all rows before and
+    /// after it.
+    fn impact(
+        &self,
+        rebound: &Rebound,
+        time: f64,
+        (impulses, velocities): (&[f64], &BTreeMap<usize, DVec3>),
+        (before, after): (&[f64], &[f64]),
+    ) -> Option<Impact> {
+        let structure = self.structure.as_ref()?;
+        let Rebound { contact, row, rows, .. } = *rebound;
+        let contact = &self.contacts[contact];
+        let of = |row: usize| &self.jacobian[structure.directions_of(row)];
+        let members = [of(row).first()?, of(row).last()?].map(|direction| &self.members[direction.member]);
+        let add = |i: usize, force: &mut DVec3| {
+            let linear = of(row + i).last().map_or(DVec3::ZERO, |direction| direction.linear);
+            *force += impulses[row + i] * linear;
+        };
+        let seen = contact.seen(members, add);
+        let way =
+            |body: &usize| velocities.get(body).map_or(DVec3::ZERO, |velocity| rebound.time * *velocity);
+        let work = |row: usize| 0.5 * impulses[row] * (before[row] + after[row]);
+        Some(Impact {
+            time: time + rebound.time,
+            bodies: contact.bodies,
+            place: seen.place + 0.5 * contact.bodies.iter().map(way).sum::<DVec3>(),
+            normal: seen.normal,
+            impulse: seen.force + seen.friction,
+            energy: (-(row..row + rows).map(work).sum::<f64>()).max(0.0),
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! What hits the crowd within a step: it is part of it from the beginning.
+
+use super::super::super::{Model, State};
+use super::super::collider::Collider;
+use super::super::nearest::nearest;
+use super::super::pairs::{Pair, near};
+use super::super::path::pose;
+
+/// A crowd with fewer bodies is struck by what hits it, at the exact time: that makes its motion anew, which costs little.
+const FEW: usize = 6;
+
+/// Bodies can become faster within a step: they join where they could hit the crowd if they moved this many times as far as they do alone,
+/// and this part of their size.
+const FARTHER: f64 = 2.0;
+const NEARER: f64 = 0.02;
+
+impl Collider {
+    /// What may hit the crowd within a step of `dt` (s) joins it, and what may hit this, and so on. So the motion of a large crowd is found once
+    /// in a step, and not anew after each hit.
+    pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
+        if self.crowd.bodies.len() <= FEW {
+            return;
+        }
+        let way = |i: usize| {
+            let Some(solid) = self.solids[i].as_ref().filter(|solid| solid.reach().is_finite()) else {
+                return 0.0;
+            };
+            let speed =
+                state.velocity[i].length() + model.angular_velocity(i, state).length() * solid.reach();
+            FARTHER * speed * dt + NEARER * solid.size()
+        };
+        let ways: Vec<f64> = (0..self.solids.len()).map(way).collect();
+        let mut pairs = match self.pairs.within(&ways) {
+            Some(known) => known.to_vec(),
+            None => near(&self.contacts, &self.solids, &ways, (model, state)),
+        };
+        pairs.retain(|pair| pair.bodies.iter().all(|&body| model.inverse_mass()[body] != 0.0));
+        loop {
+            let is_in = |body: &usize| self.crowd.bodies.contains(body);
+            // Of these pairs, one body is in the crowd; of the others, none is.
+            let (halves, others): (Vec<Pair>, Vec<Pair>) = pairs
+                .into_iter()
+                .filter(|pair| !pair.bodies.iter().all(is_in))
+                .partition(|pair| pair.bodies.iter().any(is_in));
+            let new: Vec<usize> = halves
+                .iter()
+                .filter(|pair| self.can_meet(pair, model, state, &ways))
+                .flat_map(|pair| pair.bodies)
+                .collect();
+            if new.is_empty() {
+                return;
+            }
+            self.crowd.bodies.extend(new);
+            pairs = others;
+        }
+    }
+
+    /// Whether two bodies are as near as they can move together, m.
+    fn can_meet(&self, pair: &Pair, model: &Model, state: &State, ways: &[f64]) -> bool {
+        let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { return false };
+        let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+        let within = ways[pair.bodies[0]] + ways[pair.bodies[1]];
+        nearest(x, &p, y, &q, f64::INFINITY).is_some_and(|near| near.gap <= within)
+    }
+}
