@@ -1,70 +1,31 @@
-//! Gravitation of 10,000 stars, all pairs, against a plain double loop in C (`cc -O3`), and the same result.
+//! Gravitation of many stars, as ratios.
 //!
-//! Both are done in turn, since a machine's speed drifts; the ratio of the medians counts, and is to stay below 1.5.
+//! - `cargo bench --bench gravitation`: 10,000 stars, all pairs, against a plain double loop in C (`cc -O3`), and the same result. Both are
+//!   done in turn, since a machine's speed drifts; the ratio of the medians counts, and is to stay below 0.75.
+//! - `cargo bench --bench gravitation -- tree [PYTHON]`: 100,000 stars by the tree, and by REBOUND's where that Python has it. A step is to take
+//!   at most 0.7 of REBOUND's processor time at the same angle, with smaller errors.
 
 #![allow(
     clippy::unwrap_used,
+    clippy::panic,
     clippy::print_stdout,
     clippy::cast_precision_loss,
     reason = "a benchmark stops at the first surprise, and prints"
 )]
 
-use std::path::Path;
-use std::process::Command;
-use std::time::Instant;
-
-use glam::DVec3;
-use jabuka::dynamics::{Gravitation, RigidBody, Shape, World};
-
-const STARS: usize = 10_000;
-const ROUNDS: usize = 7;
+#[path = "gravitation/pairs.rs"]
+mod pairs;
+#[path = "gravitation/tree.rs"]
+mod tree;
 
 fn main() {
-    let folder = tempfile::tempdir().unwrap();
-    let program = folder.path().join("gravitation");
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/gravitation.c");
-    let compiled = Command::new("cc").arg("-O3").arg(source).arg("-lm").arg("-o").arg(&program).status();
-    assert!(compiled.unwrap().success());
-
-    let mut world = World::new();
-    let bodies = (0..STARS).map(|i| world.add(star(i))).collect();
-    world.add_force(Gravitation { bodies, against: None, constant: 1.0, softening: 0.01 });
-    let (mut forces, mut potentials, mut plain) = (Vec::new(), Vec::new(), Vec::new());
-    for round in 0..=ROUNDS {
-        let start = Instant::now();
-        let ours = world.forces()[STARS / 2].x;
-        let force = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let potential = world.model().potential(0.0, world.state());
-        let energy = start.elapsed().as_secs_f64();
-        assert!(potential < 0.0);
-        let said = Command::new(&program).arg(STARS.to_string()).output().unwrap();
-        let said = String::from_utf8(said.stdout).unwrap();
-        let (seconds, theirs) = said.trim().split_once(' ').unwrap();
-        // Sums of 10,000 terms in another order.
-        assert!((ours / theirs.parse::<f64>().unwrap() - 1.0).abs() < 1e-9, "{ours} {theirs}");
-        // The first round warms up.
-        if round > 0 {
-            forces.push(force);
-            potentials.push(energy);
-            plain.push(seconds.parse().unwrap());
-        }
+    // Cargo adds `--bench`.
+    let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+    match words.next().as_deref() {
+        None => pairs::measure(),
+        Some("tree") => tree::measure(words.next().as_deref()),
+        Some(word) => panic!("`{word}`: there is `tree`"),
     }
-    let (force, potential, plain) = (median(forces), median(potentials), median(plain));
-    println!("{STARS} stars, median of {ROUNDS} rounds");
-    println!("plain C    {plain:7.4} s");
-    println!("forces     {force:7.4} s   {:.2} × plain C", force / plain);
-    println!("potential  {potential:7.4} s   {:.2} × plain C", potential / plain);
-}
-
-/// A star at a place that needs all digits.
-fn star(i: usize) -> RigidBody {
-    let part = |k: f64| (i as f64 * k).fract();
-    RigidBody::new(&Shape::Sphere { radius: 0.001 }, 1.0 + part(0.236_067_977)).with_location(DVec3::new(
-        part(0.618_033_988),
-        part(0.414_213_562),
-        part(0.732_050_807),
-    ))
 }
 
 fn median(mut times: Vec<f64>) -> f64 {

@@ -95,15 +95,16 @@ mod tests {
 
     #[test]
     fn what_is_planned_is_what_is_counted_and_it_is_counted_within_an_evaluation() {
-        for method in METHODS {
+        let by_tree = ("opening_angle = 0.5", 300 * 300);
+        for (method, (key, pairs)) in METHODS.iter().flat_map(|it| [(it, ("", 300 * 299 / 2)), (it, by_tree)])
+        {
             let text = format!(
                 "simulation = {{ duration = 0.2, step = 0.02, integrator = '{}' }}\n[body.star]\nrepeat = 300\n\
-                 shape.sphere.radius = 0.1\nlocation = ['i', 'i % 7', 'i % 11']\n[force.f.gravitation]\n",
+                 shape.sphere.radius = 0.1\nlocation = ['i', 'i % 7', 'i % 11']\n[force.f.gravitation]\n{key}\n",
                 method.name
             );
             let scene = Scene::parse(&text).unwrap();
             let (labour, effort) = (Labour::of(&scene), Effort::default());
-            let pairs = 300 * 299 / 2;
             let mut before = 0;
             for (index, frame) in Frames::watched(&scene, &effort).enumerate() {
                 frame.unwrap();

@@ -264,7 +264,9 @@ fn field(scene: &Scene, force: &Force) -> Option<Field> {
         ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
             let (constant, softening) = (*constant, *softening);
             Field::from_bodies(sources(bodies), move |bodies, against| {
-                Arc::new(Gravitation { bodies, against: Some(against), constant, softening })
+                // By a tree, what a particle feels would depend on which others are there.
+                let (against, opening_angle) = (Some(against), None);
+                Arc::new(Gravitation { bodies, against, constant, softening, opening_angle })
             })
         }
         ForceKind::Coulomb(Coulomb { bodies, constant, softening, .. }) => {

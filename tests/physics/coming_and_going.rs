@@ -64,7 +64,13 @@ fn of_two_bodies_that_attract_each_other_one_leaves_and_the_other_goes_straight_
             let mut world = world(method, 0.01);
             let pair = [0.0, 3.0].map(|x| world.add(ball().with_location(DVec3::X * x)));
             let bodies = pair.to_vec();
-            world.add_force(Gravitation { bodies, against: None, constant: 1.0, softening: 0.0 });
+            world.add_force(Gravitation {
+                bodies,
+                against: None,
+                constant: 1.0,
+                softening: 0.0,
+                opening_angle: None,
+            });
             (world, pair)
         };
         let (mut both, _) = build();
@@ -139,6 +145,7 @@ fn nothing_acts_on_what_is_not_there_and_nothing_comes_from_it() {
                 against: None,
                 constant: 2.0,
                 softening: 0.0,
+                opening_angle: None,
             });
             let (one, others) = (vec![ids[0]], ids[1..].to_vec());
             world.add_force(Coulomb { bodies: one, against: Some(others), constant: 1.0, softening: 0.0 });
@@ -227,7 +234,13 @@ fn looking_at_moments_changes_nothing() {
                 world.limit(id, &during(0.1 * f64::from(k), 0.15 + 0.1 * f64::from(k)));
                 ids.push(id);
             }
-            world.add_force(Gravitation { bodies: ids, against: None, constant: 1.0, softening: 0.1 });
+            world.add_force(Gravitation {
+                bodies: ids,
+                against: None,
+                constant: 1.0,
+                softening: 0.1,
+                opening_angle: None,
+            });
             // What guides bodies does work, whose sum depends on the steps.
             world.add_force(UniformGravity { acceleration: DVec3::X });
             world

@@ -2,6 +2,7 @@
 
 use super::super::BodyId;
 use super::pairs::{self, Pairs};
+use super::tree::ByTree;
 use super::{Force, Loads, Moment};
 
 /// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2); the potential is −G m₁ m₂ / √(r² + ε²).
@@ -18,6 +19,11 @@ pub struct Gravitation {
     pub constant: f64,
     /// The softening length ε, m.
     pub softening: f64,
+    /// The largest size over distance at which bodies act together, by a tree: above 0, up to 1. Without it, the sum is over all pairs.
+    ///
+    /// The tree's forces are not exactly opposite, and not exactly the gradient of its potential: momentum and energy drift by
+    /// about as much as the forces are wrong, 4e-4 at an angle of 0.5.
+    pub opening_angle: Option<f64>,
 }
 
 impl Gravitation {
@@ -34,11 +40,26 @@ impl Gravitation {
             softening: self.softening,
         }
     }
+
+    /// The same sums by trees.
+    fn by_tree<'a>(&'a self, angle: f64, moment: &Moment<'a>) -> ByTree<'a> {
+        ByTree { pairs: self.of(moment), angle, each: self.interactions(angle) }
+    }
+
+    /// About how many interactions each body takes with a tree.
+    fn interactions(&self, angle: f64) -> u64 {
+        let most = self.bodies.len().max(self.against.as_ref().map_or(0, Vec::len)) as u64;
+        // Measured: 1,500 for 100,000 bodies at 0.5.
+        most.min((400.0 / (angle * angle)) as u64)
+    }
 }
 
 impl Force for Gravitation {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        self.of(moment).apply(moment, loads);
+        match self.opening_angle {
+            Some(angle) => self.by_tree(angle, moment).apply(moment, loads),
+            None => self.of(moment).apply(moment, loads),
+        }
     }
 
     fn depends_on_motion(&self) -> bool {
@@ -46,11 +67,18 @@ impl Force for Gravitation {
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        self.of(moment).potential(moment)
+        match self.opening_angle {
+            Some(angle) => self.by_tree(angle, moment).potential(moment),
+            None => self.of(moment).potential(moment),
+        }
     }
 
     fn pairs(&self) -> u64 {
-        pairs::count(&self.bodies, self.against.as_deref())
+        let Some(angle) = self.opening_angle else {
+            return pairs::count(&self.bodies, self.against.as_deref());
+        };
+        let bodies = self.bodies.len() + self.against.as_ref().map_or(0, Vec::len);
+        self.interactions(angle).saturating_mul(bodies as u64)
     }
 }
 
@@ -62,7 +90,13 @@ mod tests {
     use super::*;
 
     fn all(count: usize, softening: f64) -> Gravitation {
-        Gravitation { bodies: (0..count).map(BodyId::new).collect(), against: None, constant: 2.0, softening }
+        Gravitation {
+            bodies: (0..count).map(BodyId::new).collect(),
+            against: None,
+            constant: 2.0,
+            softening,
+            opening_angle: None,
+        }
     }
 
     #[test]
@@ -132,8 +166,13 @@ mod tests {
             .collect();
         let (model, state) = bodies(&located);
         let ids = |range: std::ops::Range<usize>| range.map(BodyId::new).collect::<Vec<_>>();
-        let force =
-            Gravitation { bodies: ids(0..150), against: Some(ids(150..290)), constant: 2.0, softening: 0.1 };
+        let force = Gravitation {
+            bodies: ids(0..150),
+            against: Some(ids(150..290)),
+            constant: 2.0,
+            softening: 0.1,
+            opening_angle: None,
+        };
         let loads = loads(&force, &model, &state);
         let mut potential = 0.0;
         for (i, (here, _)) in located.iter().enumerate() {

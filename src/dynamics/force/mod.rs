@@ -8,6 +8,7 @@ mod gravity;
 mod lorentz;
 mod pairs;
 mod spring;
+mod tree;
 
 pub use constant::ConstantForce;
 pub use coulomb::Coulomb;

@@ -42,7 +42,13 @@ fn drag() -> Field {
 fn three_suns() -> Field {
     let suns = (0..3).map(|i| (BodyId::new(i), RigidBody::new(&Shape::Sphere { radius: 1.0 }, 10.0)));
     Field::from_bodies(suns.collect(), |bodies, against| {
-        Arc::new(Gravitation { bodies, against: Some(against), constant: 1.0, softening: 0.1 })
+        Arc::new(Gravitation {
+            bodies,
+            against: Some(against),
+            constant: 1.0,
+            softening: 0.1,
+            opening_angle: None,
+        })
     })
 }
 

@@ -96,7 +96,9 @@ impl Reader<'_, '_> {
         let softening = view.number("softening").unwrap_or_default();
         let (bodies, against) = self.pairs(view, softening, |_| true);
         let constant = view.number("constant").unwrap_or_default();
-        ForceKind::Gravitation(Gravitation { bodies, against, constant, softening })
+        // At an angle of 0, no bodies act together: that is the sum over all pairs.
+        let opening_angle = view.number("opening_angle").filter(|&angle| angle > 0.0);
+        ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
     }
 
     fn coulomb(&mut self, view: &View<'_>) -> ForceKind {

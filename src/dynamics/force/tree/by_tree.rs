@@ -1,0 +1,75 @@
+//! Forces and potential of pairs, by trees.
+
+use super::super::super::BodyId;
+use super::super::pairs::Pairs;
+use super::super::{Loads, Moment};
+use super::{Potential, Pull, Tree};
+
+/// The sums of [`Pairs`] by trees. All strengths must have one sign, since nodes are expanded about their centres of mass.
+pub(in super::super) struct ByTree<'a> {
+    /// The bodies and their law.
+    pub(in super::super) pairs: Pairs<'a>,
+    /// The largest size over distance of a node that acts as a whole.
+    pub(in super::super) angle: f64,
+    /// How many interactions are counted for each body.
+    pub(in super::super) each: u64,
+}
+
+impl ByTree<'_> {
+    /// Adds the forces on all bodies.
+    pub(in super::super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let effort = moment.model.effort();
+        let done = |bodies: usize| effort.add(bodies * self.each as usize);
+        let mut pull = |bodies: &[BodyId], tree: &Tree, sources: Option<&Tree>| {
+            let pulls = tree.sums::<Pull>(sources, self.pairs.softening, &done);
+            for (body, pull) in bodies.iter().zip(pulls) {
+                let i = body.index();
+                loads.force[i] += self.pairs.constant * self.pairs.strength[i] * pull;
+            }
+        };
+        let bodies = moment.model.present(self.pairs.bodies);
+        let tree = self.tree(&bodies, moment);
+        let Some(against) = self.pairs.against else { return pull(&bodies, &tree, None) };
+        let against = moment.model.present(against);
+        let others = self.tree(&against, moment);
+        pull(&bodies, &tree, Some(&others));
+        pull(&against, &others, Some(&tree));
+    }
+
+    /// The potential of all pairs of which at least one body can move.
+    pub(in super::super) fn potential(&self, moment: &Moment) -> f64 {
+        let effort = moment.model.effort();
+        let done = |bodies: usize| effort.add(bodies * self.each as usize);
+        let movable = |bodies: &[BodyId]| -> (Vec<BodyId>, Vec<BodyId>) {
+            let present = moment.model.present(bodies);
+            present.iter().partition(|body| moment.model.movable()[body.index()])
+        };
+        // Σ sᵢ φᵢ over some bodies, with the potential φ of others, or of these bodies themselves.
+        let sum = |bodies: &[BodyId], others: Option<&[BodyId]>, done: &(dyn Fn(usize) + Sync)| -> f64 {
+            let others = others.map(|others| self.tree(others, moment));
+            let sums =
+                self.tree(bodies, moment).sums::<Potential>(others.as_ref(), self.pairs.softening, &done);
+            bodies.iter().zip(sums).map(|(body, sum)| self.pairs.strength[body.index()] * sum).sum()
+        };
+        let (free, held) = movable(self.pairs.bodies);
+        let total = match self.pairs.against {
+            None => 0.5 * sum(&free, None, &done) + sum(&held, Some(&free), &done),
+            Some(against) => {
+                let (their_free, their_held) = movable(against);
+                let theirs = [their_free.as_slice(), their_held.as_slice()].concat();
+                // The bodies of the other group are counted here: no sum runs over them.
+                effort.add(theirs.len() * self.each as usize);
+                sum(&free, Some(&theirs), &done) + sum(&held, Some(&their_free), &done)
+            }
+        };
+        self.pairs.constant * total
+    }
+
+    fn tree(&self, bodies: &[BodyId], moment: &Moment) -> Tree {
+        let body = |body: &BodyId| {
+            let i = body.index();
+            (moment.state.location[i], self.pairs.strength[i])
+        };
+        Tree::new(bodies.iter().map(body), self.angle)
+    }
+}

@@ -1,0 +1,125 @@
+//! The formulas for the action of a body, and of a node.
+
+use glam::DVec3;
+
+use super::Moments;
+
+/// The number of places side by side, for the compiler to vectorise.
+pub(super) const LANES: usize = 4;
+
+/// A number for each of some places.
+pub(super) type Lanes = [f64; LANES];
+
+/// A node in the form that the formulas need.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Source {
+    pub(super) centre: [f64; 3],
+    mass: f64,
+    /// 3 Q
+    second: [f64; 6],
+    /// 3/2 tr Q
+    trace: f64,
+}
+
+impl From<&Moments> for Source {
+    fn from(moments: &Moments) -> Source {
+        let second = moments.second.map(|q| 3.0 * q);
+        let trace = 0.5 * (second[0] + second[1] + second[2]);
+        Source { centre: moments.centre.into(), mass: moments.mass, second, trace }
+    }
+}
+
+impl Source {
+    /// 3 Q d
+    #[inline(always)]
+    fn turn(&self, d: [f64; 3]) -> [f64; 3] {
+        let [xx, yy, zz, xy, xz, yz] = self.second;
+        let [x, y, z] = d;
+        [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
+    }
+}
+
+/// A quantity that is summed up at places. `d` leads from the source to each place, and `square` is d² + ε².
+///
+/// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε²: Taylor's expansion of
+/// Σ m / √(|d − s|² + ε²) up to second order in s. The first order is zero about the centre of mass.
+pub(super) trait Kernel {
+    /// A sum at one place.
+    type Sum: Copy + Default + Send;
+
+    /// Adds the action of a mass: zero where the square is infinite.
+    fn near(mass: f64, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
+
+    /// Adds the action of a node.
+    fn far(node: &Source, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
+
+    /// The sum in one lane.
+    fn sum(sums: &[Lanes; 3], lane: usize) -> Self::Sum;
+}
+
+/// Σ m d / (d² + ε²)^(3/2), which is −∇ψ.
+pub(super) struct Pull;
+
+impl Kernel for Pull {
+    type Sum = DVec3;
+
+    #[inline(always)]
+    fn near(mass: f64, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]) {
+        for k in 0..LANES {
+            let weight = mass / (square[k] * square[k].sqrt());
+            sums[0][k] += weight * d[0][k];
+            sums[1][k] += weight * d[1][k];
+            sums[2][k] += weight * d[2][k];
+        }
+    }
+
+    #[inline(always)]
+    fn far(node: &Source, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]) {
+        for k in 0..LANES {
+            let d = [d[0][k], d[1][k], d[2][k]];
+            let inverse = 1.0 / square[k];
+            let third = inverse * inverse.sqrt();
+            let fifth = third * inverse;
+            let turned = node.turn(d);
+            let along = d[0] * turned[0] + d[1] * turned[1] + d[2] * turned[2];
+            let weight = node.mass * third + fifth * (2.5 * along * inverse - node.trace);
+            sums[0][k] += weight * d[0] - fifth * turned[0];
+            sums[1][k] += weight * d[1] - fifth * turned[1];
+            sums[2][k] += weight * d[2] - fifth * turned[2];
+        }
+    }
+
+    fn sum(sums: &[Lanes; 3], lane: usize) -> DVec3 {
+        DVec3::new(sums[0][lane], sums[1][lane], sums[2][lane])
+    }
+}
+
+/// Σ m / √(d² + ε²), which is ψ.
+pub(super) struct Potential;
+
+impl Kernel for Potential {
+    type Sum = f64;
+
+    #[inline(always)]
+    fn near(mass: f64, _: [Lanes; 3], square: Lanes, [sums, ..]: &mut [Lanes; 3]) {
+        for k in 0..LANES {
+            sums[k] += mass / square[k].sqrt();
+        }
+    }
+
+    #[inline(always)]
+    fn far(node: &Source, d: [Lanes; 3], square: Lanes, [sums, ..]: &mut [Lanes; 3]) {
+        for k in 0..LANES {
+            let d = [d[0][k], d[1][k], d[2][k]];
+            let inverse = 1.0 / square[k];
+            let first = inverse.sqrt();
+            let turned = node.turn(d);
+            let along = d[0] * turned[0] + d[1] * turned[1] + d[2] * turned[2];
+            sums[k] += first * (node.mass + inverse * (0.5 * along * inverse - node.trace * (1.0 / 3.0)));
+        }
+    }
+
+    fn sum(sums: &[Lanes; 3], lane: usize) -> f64 {
+        sums[0][lane]
+    }
+}
