@@ -28,6 +28,7 @@ fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
         Some("sparks") => &["variables.sparks=60"],
         Some("rain") => &["variables.beads=30"],
         Some("galton") => &["variables.balls=15", "simulation.duration=2"],
+        Some("two_galaxies") => &["variables.stars=25"],
         _ => &[],
     };
     settings.iter().map(|setting| jabuka::scene::Override::new(*setting)).collect()

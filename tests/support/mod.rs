@@ -32,6 +32,7 @@ pub(crate) fn shorter(scene: &Path) -> &'static [&'static str] {
     match scene.file_stem().and_then(std::ffi::OsStr::to_str) {
         Some("domino_spiral") => &["--set", "simulation.duration=2"],
         Some("galton") => &["--set", "simulation.duration=2", "--set", "variables.balls=15"],
+        Some("two_galaxies") => &["--set", "simulation.duration=2", "--set", "variables.stars=40"],
         _ => &[],
     }
 }
