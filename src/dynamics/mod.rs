@@ -106,7 +106,7 @@ pub use model::Model;
 pub use motion::{Kinematics, Motion};
 pub use particles::*;
 pub use presence::Presence;
-pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, cone_base};
+pub use shape::{Compound, Flaw, Immersed, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
 pub use state::{Accounts, State};

@@ -9,7 +9,8 @@ use glam::{DQuat, DVec3};
 
 use self::away::Away;
 use super::{
-    Accounts, Constraint, Effort, Force, Kinematics, Loads, Moment, Motion, RigidBody, Shape, State,
+    Accounts, Breakdown, Constraint, Effort, Force, Kinematics, Loads, Moment, Motion, RigidBody, Shape,
+    State,
 };
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
@@ -161,6 +162,16 @@ impl Model {
     #[must_use]
     pub fn forces(&self) -> &[Arc<dyn Force>] {
         &self.forces
+    }
+
+    /// Why a run cannot go on, where a force without a finite value is behind it.
+    pub(super) fn cause(&self, breakdown: Breakdown) -> Breakdown {
+        let Breakdown::Diverged { .. } = breakdown else { return breakdown };
+        let undefined = |(force, it): (usize, &Arc<dyn Force>)| it.undefined().map(|at| (force, at));
+        match self.forces.iter().enumerate().find_map(undefined) {
+            Some((force, at)) => Breakdown::Undefined { force, at },
+            None => breakdown,
+        }
     }
 
     /// What holds bodies together.

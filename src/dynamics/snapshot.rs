@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Balance, BodyId, ContactSnapshot, Reaction};
+use super::{Balance, BodyId, ContactSnapshot, Reaction, Undefined};
 
 /// All bodies at one moment of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +47,13 @@ pub enum Breakdown {
         body: BodyId,
         /// The time, s.
         time: f64,
+    },
+    /// A force has no finite value on a body, and so neither has its motion.
+    Undefined {
+        /// The number of the force, in the order in which forces were added.
+        force: usize,
+        /// On which body, when and where.
+        at: Undefined,
     },
     /// A constraint cannot be kept.
     Broken {
@@ -129,6 +136,9 @@ impl std::fmt::Display for Breakdown {
         match self {
             Breakdown::Diverged { body, time } => {
                 write!(f, "at t = {time} s body {} is at no finite place", body.index())
+            }
+            Breakdown::Undefined { force, at: Undefined { body, time, .. } } => {
+                write!(f, "at t = {time} s force {force} has no finite value on body {}", body.index())
             }
             Breakdown::Broken { constraint, time, missing } => {
                 write!(f, "at t = {time} s constraint {constraint} is off by {missing:.3e}")

@@ -386,6 +386,7 @@ impl Dynamics for World {
             Ok(_) => {}
             Err(error) => broken = broken.or(Some(error)),
         });
+        let broken = broken.map(|error| self.model.cause(error));
         broken.or(self.solver.take_failure()).map_or(Ok(()), Err)
     }
 
@@ -396,6 +397,7 @@ impl Dynamics for World {
         let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);
         let snapshot = picture(&mut system, *time, state, (balance, rest, crowd), loads).checked();
+        let snapshot = snapshot.map_err(|error| model.cause(error));
         solver.take_failure().map_or(snapshot, Err)
     }
 

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
-use crate::simulate::{Broken, Diverged, SimulateError, Stuck};
+use crate::simulate::{Broken, Diverged, SimulateError, Stuck, Undefined};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub enum OutputError {
     Io(PathBuf, io::Error),
     /// The run left the numbers.
     Diverged(Diverged),
+    /// A force has no finite value.
+    Undefined(Box<Undefined>),
     /// A joint cannot be kept.
     Broken(Broken),
     /// A contact cannot be computed.
@@ -53,6 +55,7 @@ impl OutputError {
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
             OutputError::Diverged(_) => Code::Diverged,
+            OutputError::Undefined(undefined) => undefined.why.0,
             OutputError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
             OutputError::Broken(_) => Code::BrokenJoint,
             OutputError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
@@ -75,6 +78,12 @@ impl OutputError {
         };
         if let OutputError::Broken(Broken { place: (Some(span), sources), .. }) = self {
             return Report { sources: sources.clone(), diagnostics: vec![diagnostic.at(*span, "")] };
+        }
+        if let OutputError::Undefined(undefined) = self
+            && let (Some(span), sources) = &undefined.place
+        {
+            let diagnostic = diagnostic.at(*span, undefined.why.2.clone());
+            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
         }
         if let OutputError::Stuck(stuck) = self {
             let (spans, sources) = &stuck.place;
@@ -148,6 +157,7 @@ impl fmt::Display for OutputError {
             }
             OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
             OutputError::Diverged(error) => error.fmt(f),
+            OutputError::Undefined(error) => error.fmt(f),
             OutputError::Broken(error) => error.fmt(f),
             OutputError::Stuck(error) => error.fmt(f),
             OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
@@ -162,6 +172,7 @@ impl From<SimulateError> for OutputError {
     fn from(error: SimulateError) -> OutputError {
         match error {
             SimulateError::Diverged(error) => OutputError::Diverged(error),
+            SimulateError::Undefined(error) => OutputError::Undefined(error),
             SimulateError::Broken(error) => OutputError::Broken(error),
             SimulateError::Stuck(error) => OutputError::Stuck(error),
             SimulateError::Recording(message) => OutputError::Recording(message),

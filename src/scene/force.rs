@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use super::SpringLook;
-use crate::dynamics::{self, ConstantForce, Coulomb, Drag, Gravitation, Lorentz, Spring};
+use super::law::FormulaLaw;
+use crate::dynamics::{
+    self, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, FormulaForce, Gravitation, J2,
+    LennardJones, Lorentz, Spring,
+};
 
 /// A force that is not a single body's own.
 #[derive(Clone, Debug)]
@@ -29,6 +33,21 @@ pub enum ForceKind {
     Coulomb(Coulomb),
     /// Uniform electric and magnetic fields.
     Lorentz(Lorentz),
+    /// A force by formulas.
+    Formula {
+        /// The bodies it acts on.
+        bodies: Vec<BodyId>,
+        /// The formulas.
+        law: Arc<FormulaLaw>,
+    },
+    /// The force between neutral atoms, for all pairs that are near.
+    LennardJones(LennardJones),
+    /// What a liquid carries.
+    Buoyancy(Buoyancy),
+    /// Magnetic dipoles.
+    Dipoles(Dipoles),
+    /// The gravity of a planet's bulge.
+    J2(J2),
     /// A spring with a damper, or a chain of such springs.
     Spring {
         /// The springs, one behind the other.
@@ -47,6 +66,13 @@ impl ForceKind {
             ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
             ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
             ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
+            ForceKind::Formula { bodies, law } => {
+                vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))]
+            }
+            ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
+            ForceKind::Buoyancy(buoyancy) => vec![Arc::new(buoyancy.clone())],
+            ForceKind::Dipoles(dipoles) => vec![Arc::new(dipoles.clone())],
+            ForceKind::J2(j2) => vec![Arc::new(j2.clone())],
             ForceKind::Spring { links, .. } => links.iter().map(|link| Arc::new(*link) as Arc<_>).collect(),
         }
     }

@@ -17,6 +17,7 @@ mod force;
 pub mod grammar;
 mod joint;
 mod label;
+pub mod law;
 mod library;
 mod look;
 mod mesh;
@@ -39,6 +40,7 @@ pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use contact::{Collider, ContactLaw};
 pub use emitter::Emitter;
+pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};
 pub use joint::{Course, Joint, JointKind, JointLook};
 pub use label::{

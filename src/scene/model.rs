@@ -64,6 +64,8 @@ pub struct Body {
     pub shape: Shape,
     /// What it is at the start.
     pub start: RigidBody,
+    /// Its magnetic moment in its own axes, A m².
+    pub magnetic_moment: DVec3,
     /// When it is there. What it is at the start, it is when it first comes.
     pub presence: Presence,
     /// The motion that it follows, whatever acts on it.

@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
 use crate::scene::grammar::{Bound, Kind};
+use crate::scene::law::OfBody;
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
@@ -135,6 +136,32 @@ pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec
     };
     let vector = TimedVector::Each([read(&items[0]), read(&items[1]), read(&items[2])]);
     if errors.is_empty() { Ok(vector) } else { Err(errors) }
+}
+
+/// A number, or a formula of quantities of a body, whose values are looked at where it is used.
+pub(super) fn of_body(node: &Node, names: &'static [&'static str]) -> Result<OfBody, Diagnostic> {
+    match &node.value {
+        Value::OfBody(formula) => Ok(OfBody::Formula(formula.clone())),
+        Value::Integer(_) | Value::Float(_) => number(node, Bound::Any).map(OfBody::Constant),
+        _ => Err(wrong_type(node, &Kind::OfBody(names))),
+    }
+}
+
+/// Three numbers, or formulas of quantities of a body; every wrong one is an error of its own.
+pub(super) fn list_of_body(
+    node: &Node,
+    names: &'static [&'static str],
+) -> Result<[OfBody; 3], Vec<Diagnostic>> {
+    let items = items(node, &Kind::ListOfBody(3, names), 3, 3).map_err(|error| vec![error])?;
+    let mut errors = Vec::new();
+    let mut read = |item: &Node| {
+        of_body(item, names).unwrap_or_else(|error| {
+            errors.push(error);
+            OfBody::Constant(0.0)
+        })
+    };
+    let list = [read(&items[0]), read(&items[1]), read(&items[2])];
+    if errors.is_empty() { Ok(list) } else { Err(errors) }
 }
 
 /// So many formulas, or numbers in their place; every wrong one is an error of its own.

@@ -9,6 +9,7 @@ use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
 use crate::scene::grammar::{DefaultValue, Key, Kind, TableSpec};
+use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
@@ -143,6 +144,21 @@ impl<'a> View<'a> {
         };
         let default = |default: DefaultValue| default.number().map(Drawn::Constant);
         self.read(name, |node| read::drawn(node, *bound).ok(), default)
+    }
+
+    /// A number, or a formula of quantities of a body.
+    pub(super) fn of_body(&self, name: &str) -> Option<OfBody> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::OfBody(_)))?;
+        let Kind::OfBody(names) = kind else { return None };
+        read::of_body(self.node(name)?, names).ok()
+    }
+
+    /// Three numbers, or formulas of quantities of a body.
+    pub(super) fn list_of_body(&self, name: &str) -> Option<[OfBody; 3]> {
+        let kind = self.kind_of(name, |kind| matches!(kind, Kind::ListOfBody(3, _)))?;
+        let Kind::ListOfBody(_, names) = kind else { return None };
+        let node = self.node(name).filter(|node| matches!(node.value, Value::Array(_)))?;
+        read::list_of_body(node, names).ok()
     }
 
     /// A color or several, without a default.

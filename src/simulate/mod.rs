@@ -39,8 +39,9 @@ mod tests;
 mod vectors;
 
 use crate::diagnostic::{self, Sources};
-use crate::dynamics::{BodyId, Breakdown};
-use crate::scene::Scene;
+use crate::dynamics::{self, BodyId, Breakdown};
+use crate::scene::law::quantities_at;
+use crate::scene::{ForceKind, Scene, in_string};
 
 pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSlider, AskedSpring, AskedTrail};
 pub use build::world;
@@ -78,6 +79,8 @@ pub struct Diverged {
 pub enum SimulateError {
     /// It left the numbers.
     Diverged(Diverged),
+    /// A force has no finite value.
+    Undefined(Box<Undefined>),
     /// A joint cannot be kept.
     Broken(Broken),
     /// A contact cannot be computed.
@@ -85,6 +88,70 @@ pub enum SimulateError {
     /// Its recording cannot be written or read.
     Recording(String),
 }
+
+/// That the formulas of a force have no finite value on a body.
+#[derive(Clone, Debug)]
+pub struct Undefined {
+    /// The name of the force.
+    pub force: String,
+    /// The name of the body.
+    pub body: String,
+    /// The time, s.
+    pub time: f64,
+    /// What is wrong: its code, the message, and what is said at the place.
+    pub why: (diagnostic::Code, String, String),
+    /// Where the scene says it, and the texts of the scene.
+    pub place: (Option<diagnostic::Span>, Sources),
+}
+
+impl PartialEq for Undefined {
+    /// The texts do not count.
+    fn eq(&self, other: &Undefined) -> bool {
+        (&self.force, &self.body, self.time, &self.why) == (&other.force, &other.body, other.time, &other.why)
+    }
+}
+
+impl Undefined {
+    /// That a force of a world, by its number there, has no value.
+    fn of(scene: &Scene, force: usize, at: &dynamics::Undefined) -> Option<Undefined> {
+        let gravity = usize::from(scene.simulation.gravity != glam::DVec3::ZERO);
+        let mut number = force.checked_sub(gravity)?;
+        let force = scene.forces.iter().find(|force| {
+            let count = force.kind.acting().len();
+            let is_it = number < count;
+            number = number.saturating_sub(count);
+            is_it
+        })?;
+        let ForceKind::Formula { law, .. } = &force.kind else { return None };
+        let body = scene.bodies.get(at.body.index())?;
+        let sources = scene.warnings.sources.clone();
+        let (why, span) = match law.explain(&quantities_at(at, body.start.mass, body.start.charge)) {
+            Some((formula, error)) => {
+                let span = formula.span();
+                let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+                let place = in_string(raw, formula.text(), &error.range, span);
+                ((error.code, error.message, error.label), Some(place))
+            }
+            None => ((diagnostic::Code::NotFinite, "it has no finite value".to_owned(), String::new()), None),
+        };
+        Some(Undefined {
+            force: force.name.clone(),
+            body: body.name.to_string(),
+            time: at.time,
+            why,
+            place: (span, sources),
+        })
+    }
+}
+
+impl std::fmt::Display for Undefined {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Undefined { force, body, time, why: (_, message, _), .. } = self;
+        write!(f, "at t = {time} s the force `{force}` has no value on `{body}`: {message}")
+    }
+}
+
+impl std::error::Error for Undefined {}
 
 /// That a joint cannot be kept.
 #[derive(Clone, Debug)]
@@ -142,6 +209,10 @@ impl SimulateError {
             Breakdown::Diverged { body, time } => {
                 SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
             }
+            Breakdown::Undefined { force, at } => match Undefined::of(scene, force, &at) {
+                Some(undefined) => SimulateError::Undefined(Box::new(undefined)),
+                None => SimulateError::of(scene, Breakdown::Diverged { body: at.body, time: at.time }),
+            },
             Breakdown::Overlapping { bodies, time, depth } => {
                 SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Some(depth))))
             }
@@ -199,6 +270,7 @@ impl std::fmt::Display for SimulateError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SimulateError::Diverged(error) => error.fmt(f),
+            SimulateError::Undefined(error) => error.fmt(f),
             SimulateError::Broken(error) => error.fmt(f),
             SimulateError::Stuck(error) => error.fmt(f),
             SimulateError::Recording(message) => f.write_str(message),

@@ -10,8 +10,9 @@ use glam::DVec3;
 
 use super::{Bounds, Frame};
 use crate::dynamics::{
-    BodyId, BodySnapshot, Cloud, ConstantForce, Coulomb, Course, Drag, Field, Gravitation, Lorentz, Method,
-    Obstacle, Particle, RigidBody, Scenery, UniformGravity, World, find,
+    BodyId, BodySnapshot, Buoyancy, Cloud, ConstantForce, Coulomb, Course, Drag, Field, FormulaForce,
+    Gravitation, J2, LennardJones, Lorentz, Method, Obstacle, Particle, RigidBody, Scenery, Shape,
+    UniformGravity, World, find,
 };
 use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 
@@ -238,12 +239,12 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
         fields.push(Field::new(move |_| Arc::new(UniformGravity { acceleration })));
     }
     let acting = scene.forces.iter().filter(|force| force.emitters.contains(&emitter));
-    fields.extend(acting.filter_map(|force| field(scene, force)));
+    fields.extend(acting.filter_map(|force| field(scene, force, scene.emitters[emitter].radius)));
     fields
 }
 
-/// What a force is for particles; none if it does not act on them.
-fn field(scene: &Scene, force: &Force) -> Option<Field> {
+/// What a force is for particles of a radius (m); none if it does not act on them.
+fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
     let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };
@@ -275,6 +276,30 @@ fn field(scene: &Scene, force: &Force) -> Option<Field> {
                 Arc::new(Coulomb { bodies, against: Some(against), constant, softening })
             })
         }
-        ForceKind::Spring { .. } => return None,
+        ForceKind::Formula { law, .. } => {
+            let law = law.clone();
+            Field::new(move |bodies| Arc::new(FormulaForce::new(bodies, law.clone())))
+        }
+        ForceKind::LennardJones(LennardJones { bodies, epsilon, sigma, cutoff, smooth, .. }) => {
+            let (epsilon, sigma, cutoff, smooth) = (*epsilon, *sigma, *cutoff, *smooth);
+            Field::from_bodies(sources(bodies), move |bodies, against| {
+                Arc::new(LennardJones { bodies, against: Some(against), epsilon, sigma, cutoff, smooth })
+            })
+        }
+        ForceKind::Buoyancy(Buoyancy { density, level, gravity, .. }) => {
+            let (density, level, gravity) = (*density, *level, *gravity);
+            Field::new(move |bodies| {
+                let balls = bodies.into_iter().map(|body| (body, Shape::Sphere { radius })).collect();
+                Arc::new(Buoyancy { bodies: balls, density, level, gravity })
+            })
+        }
+        ForceKind::J2(j2) => {
+            let J2 { planet, .. } = *j2;
+            let j2 = J2 { bodies: Vec::new(), ..j2.clone() };
+            Field::from_bodies(sources(&[planet]), move |bodies, planet| {
+                Arc::new(J2 { planet: planet.first().copied().unwrap_or(j2.planet), bodies, ..j2.clone() })
+            })
+        }
+        ForceKind::Dipoles(_) | ForceKind::Spring { .. } => return None,
     })
 }

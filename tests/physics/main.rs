@@ -3,6 +3,7 @@
 //! Tests that loop over `METHODS` take in a new method by its being in the table: its order p is all they ask for.
 //! Unless said otherwise, a tolerance is that of [`common::tolerance`].
 
+mod atoms;
 mod charges;
 mod closed_forms;
 mod coming_and_going;
@@ -14,6 +15,8 @@ mod curved;
 mod dense;
 mod energy;
 mod events;
+mod fields;
+mod formulas;
 mod friction;
 mod gravitation;
 mod groups;

@@ -1,20 +1,31 @@
 //! What makes bodies move: the interface of a force, and one file for each kind. All that is public here, `dynamics` shows.
 
+mod buoyancy;
+mod cells;
 mod constant;
 mod coulomb;
+mod dipoles;
 mod drag;
+mod formula;
 mod gravitation;
 mod gravity;
+mod j2;
+mod lennard_jones;
 mod lorentz;
 mod pairs;
 mod spring;
 mod tree;
 
+pub use buoyancy::Buoyancy;
 pub use constant::ConstantForce;
 pub use coulomb::Coulomb;
+pub use dipoles::Dipoles;
 pub use drag::Drag;
+pub use formula::{FORCE_BLOCK, ForceLaw, FormulaForce, Undefined};
 pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
+pub use j2::J2;
+pub use lennard_jones::LennardJones;
 pub use lorentz::Lorentz;
 pub use spring::Spring;
 
@@ -60,6 +71,11 @@ pub trait Force: Send + Sync {
     /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
     fn pairs(&self) -> u64 {
         0
+    }
+
+    /// Where it had no finite value when it was evaluated last; none for one that has a value wherever bodies are.
+    fn undefined(&self) -> Option<Undefined> {
+        None
     }
 }
 

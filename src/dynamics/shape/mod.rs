@@ -3,6 +3,7 @@
 mod compound;
 mod convex;
 mod exit;
+mod immersed;
 mod mesh;
 mod principal;
 mod solids;
@@ -15,6 +16,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 pub use compound::{Compound, Part};
 pub use convex::Placed;
+pub use immersed::Immersed;
 pub use mesh::{Flaw, Mesh};
 
 /// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds and meshes, the

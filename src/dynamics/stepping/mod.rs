@@ -168,15 +168,15 @@ impl Dynamics for TimeStepping {
 
     fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown> {
         if t > self.time && t.is_finite() {
-            self.advance_by_events(t, moments, see)?;
+            self.advance_by_events(t, moments, see).map_err(|error| self.model.cause(error))?;
         }
         Ok(())
     }
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
-        self.failure.map_or(Ok(()), Err)?;
+        self.failure.map_or(Ok(()), |error| Err(self.model.cause(error)))?;
         let balance = self.ledger.measure(&self.model, self.time, &self.state);
-        self.picture(self.time, balance, None).checked()
+        self.picture(self.time, balance, None).checked().map_err(|error| self.model.cause(error))
     }
 
     fn impacts(&mut self) -> Vec<Impact> {

@@ -77,7 +77,19 @@ pub(super) fn read(
                 showing: showing.clone(),
             });
             let motion = motion.map(Arc::new);
-            Body { name: name.clone(), shape, start, presence, motion, collider, material, look, showing }
+            let magnetic_moment = view.vector("magnetic_moment").unwrap_or_default();
+            Body {
+                name: name.clone(),
+                shape,
+                start,
+                magnetic_moment,
+                presence,
+                motion,
+                collider,
+                material,
+                look,
+                showing,
+            }
         });
         context.once(before, name, span);
         bodies.push(body);

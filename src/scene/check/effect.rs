@@ -1,14 +1,17 @@
 //! Keys of a body that need a force to have an effect.
 
+use glam::DVec3;
+
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Coulomb, Gravitation, Lorentz};
+use crate::dynamics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
 use crate::scene::{Body, Force, ForceKind};
 
 /// Warns of masses that neither make a body slow to move nor attract another, and of charges that no force acts on.
 pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context: &mut Context<'_>) {
     let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
+    let mut magnetic = vec![false; bodies.len()];
     for force in forces {
         match &force.kind {
             ForceKind::Gravitation(Gravitation { bodies, against, .. }) => {
@@ -19,6 +22,15 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             }
             ForceKind::Lorentz(Lorentz { bodies, .. }) => {
                 bodies.iter().for_each(|body| electric[body.index()] = true);
+            }
+            ForceKind::Formula { bodies, law } => {
+                bodies.iter().for_each(|body| electric[body.index()] |= law.depends_on_charge());
+            }
+            ForceKind::Dipoles(Dipoles { bodies, against, .. }) => {
+                bodies.iter().chain(against.iter().flatten()).for_each(|body| magnetic[body.index()] = true);
+            }
+            ForceKind::J2(J2 { planet, bodies, .. }) => {
+                bodies.iter().chain([planet]).for_each(|body| attracts[body.index()] = true);
             }
             _ => {}
         }
@@ -36,6 +48,9 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
         }
         if body.start.charge != 0.0 && !electric[i] {
             warn("charge", "no force acts on this charge");
+        }
+        if body.magnetic_moment != DVec3::ZERO && !magnetic[i] {
+            warn("magnetic_moment", "no force acts on this moment");
         }
         context.once(before, name, table.span());
     }

@@ -297,7 +297,7 @@ fn build(
     let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);
     let before = context.diagnostics.len();
     let emitters = emitter::read(&root, &simulation, &bodies, context);
-    let forces = force::read(&root, &bodies, &emitters, context);
+    let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
     // A force that is wrong may be the one that needs them.

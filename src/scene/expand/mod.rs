@@ -12,6 +12,7 @@ mod include;
 mod index;
 mod links;
 mod merge;
+mod of_body;
 pub(super) mod place;
 mod repeat;
 #[cfg(test)]
@@ -25,7 +26,7 @@ use std::sync::Arc;
 pub(super) use self::geometry::{Geometer, Geometry};
 pub(super) use self::groups::Groups;
 pub(super) use self::include::include;
-pub(super) use self::place::in_string;
+pub(crate) use self::place::in_string;
 use self::repeat::INDICES;
 use super::drawn::DrawnFormula;
 use super::expression::{Draw, ExpressionError, Formula, Resolved, Scope};
@@ -178,6 +179,10 @@ impl Expander<'_> {
             (Kind::Number(_), Value::String(_)) => self.number(node),
             (Kind::Timed(_), Value::String(_)) => self.timed(node),
             (Kind::Drawn(_), Value::String(_)) => self.drawn_later(node),
+            (Kind::OfBody(names), Value::String(_)) => self.of_body(node, names),
+            (Kind::ListOfBody(_, names), Value::Array(_)) => {
+                self.items(node, |this, item| this.of_body(item, names));
+            }
             (Kind::TimedNumbers(..), Value::Array(_)) => self.items(node, Expander::timed),
             (Kind::Integer(..), Value::String(_)) => self.integer(node),
             (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
@@ -468,10 +473,17 @@ fn is_list(node: &Node) -> bool {
 fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {
-        (Kind::Number(_) | Kind::Timed(_) | Kind::Drawn(_) | Kind::Integer(..), Value::String(_)) => false,
+        (
+            Kind::Number(_) | Kind::Timed(_) | Kind::Drawn(_) | Kind::OfBody(_) | Kind::Integer(..),
+            Value::String(_),
+        ) => false,
         (Kind::Reference(_), Value::String(text)) => !index::is_formula(text),
         (
-            Kind::TimedNumbers(..) | Kind::Numbers(..) | Kind::Direction(_) | Kind::Color,
+            Kind::TimedNumbers(..)
+            | Kind::ListOfBody(..)
+            | Kind::Numbers(..)
+            | Kind::Direction(_)
+            | Kind::Color,
             Value::Array(items),
         ) => items.iter().all(is_number),
         (Kind::Colors, Value::Array(items)) => !items.iter().any(|item| is_list(item) || is_number(item)),

@@ -7,7 +7,7 @@ use crate::diagnostic::Span;
 /// The place of a part of a string. `raw` is what is written there, with its quotes, and `text` the string.
 ///
 /// Where something is escaped, a byte of the string is not a byte of the text, and the place is the whole string.
-pub(in crate::scene) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
+pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
     match offset(raw, text) {
         Some(offset) if !range.is_empty() => {
             let start = whole.start + offset;

@@ -57,6 +57,11 @@ impl Resolved {
         lifted
     }
 
+    /// Which parts the value is made of.
+    pub(super) fn parts_in_use(&self) -> Vec<bool> {
+        self.uses().0
+    }
+
     /// Which parts the value is made of, and which of them are whole exponents.
     fn uses(&self) -> (Vec<bool>, Vec<bool>) {
         let mut is_used = vec![false; self.nodes.len()];

@@ -37,6 +37,7 @@ mod resolve;
 mod scope;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 pub use error::ExpressionError;
 pub(in crate::scene) use error::too_intricate;
@@ -47,3 +48,4 @@ pub(in crate::scene) use program::Code;
 pub use program::Program;
 pub use resolve::{Draw, Resolved};
 pub use scope::Scope;
+pub(in crate::scene) use wide::{LANES, Wide};

@@ -88,6 +88,16 @@ impl Resolved {
         self.slots + self.draws.len()
     }
 
+    /// A number as a formula with so many slots, of which it needs none.
+    pub(in crate::scene) fn of_number(value: f64, slots: usize) -> Resolved {
+        Resolved {
+            nodes: vec![Node { value: Value::Constant(value), range: 0..0 }],
+            root: 0,
+            slots,
+            draws: Vec::new(),
+        }
+    }
+
     /// The value, if it needs nothing to be given.
     pub fn as_constant(&self) -> Option<f64> {
         match self.nodes.get(self.root)?.value {

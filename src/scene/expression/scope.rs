@@ -20,6 +20,8 @@ pub(super) enum Binding {
 pub struct Scope {
     names: HashMap<String, Binding>,
     slots: usize,
+    /// Names that come before all others, with the slots behind those of `names`.
+    fields: &'static [&'static str],
     is_random: bool,
     /// How many more names may be compared with unknown ones.
     comparisons: Cell<usize>,
@@ -28,7 +30,13 @@ pub struct Scope {
 impl Default for Scope {
     /// No names, and no `uniform` and `normal`.
     fn default() -> Scope {
-        Scope { names: HashMap::new(), slots: 0, is_random: false, comparisons: Cell::new(200_000) }
+        Scope {
+            names: HashMap::new(),
+            slots: 0,
+            fields: &[],
+            is_random: false,
+            comparisons: Cell::new(200_000),
+        }
     }
 }
 
@@ -52,6 +60,12 @@ impl Scope {
         self.slots - 1
     }
 
+    /// Makes these names stand for numbers that are given at every evaluation, in this order behind those of all other slots.
+    /// They take the place of those that were set before.
+    pub(in crate::scene) fn set_fields(&mut self, fields: &'static [&'static str]) {
+        self.fields = fields;
+    }
+
     /// Forgets a name that was the last to get a slot.
     pub(in crate::scene) fn remove_slot(&mut self, name: &str) {
         if self.names.remove(name).is_some_and(|it| it == Binding::Slot(self.slots - 1)) {
@@ -61,7 +75,7 @@ impl Scope {
 
     /// How many numbers an evaluation needs for the names, before those for random draws.
     pub fn slots(&self) -> usize {
-        self.slots
+        self.slots + self.fields.len()
     }
 
     /// Whether a name can be given to something: letters, digits and `_`, no digit first, and no word of all formulas.
@@ -94,6 +108,9 @@ impl Scope {
     }
 
     pub(super) fn get(&self, name: &str) -> Option<Binding> {
+        if let Some(field) = self.fields.iter().position(|field| *field == name) {
+            return Some(Binding::Slot(self.slots + field));
+        }
         self.names.get(name).copied().or_else(|| super::function::constant(name).map(Binding::Constant))
     }
 
@@ -103,12 +120,13 @@ impl Scope {
 
     /// What to say of an unknown name: what was meant by it, or what there is.
     pub(super) fn suggest(&self, name: &str) -> String {
-        if self.names.is_empty() {
+        if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
         }
         let Some(left) = self.comparisons.get().checked_sub(self.names.len()) else { return String::new() };
         self.comparisons.set(left);
-        let mut names: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        let fields = self.fields.iter().copied();
+        let mut names: Vec<&str> = self.names.keys().map(String::as_str).chain(fields).collect();
         // Always in the same order.
         names.sort_unstable();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));

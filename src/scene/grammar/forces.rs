@@ -1,9 +1,10 @@
 //! The keys of `[force.NAME]`.
 
-use crate::dynamics::{Coulomb, Gravitation};
+use crate::dynamics::{Coulomb, Dipoles, Gravitation};
+use crate::scene::law::{OF_PLACE, QUANTITIES};
 
-use super::Kind::{Either, List, Number, Reference, Table};
-use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
+use super::Kind::{Boolean, Either, List, ListOfBody, Number, OfBody, Reference, Table};
+use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
@@ -42,7 +43,7 @@ const fn softening() -> Key {
 pub(super) static FORCE: TableSpec =
     TableSpec {
         noun: "a force",
-        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz"]),
+        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz", "lennard_jones", "buoyancy", "dipoles", "j2", "formula"]),
         keys: &[
             Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
                 .also(&["uniform"]),
@@ -63,6 +64,28 @@ pub(super) static FORCE: TableSpec =
                 "Uniform electric and magnetic fields, which act on charged bodies",
             )
             .also(&["field", "electromagnetic", "magnetic", "electric"]),
+            Key::new(
+                "lennard_jones",
+                Table(&LENNARD_JONES),
+                "The force between neutral atoms, which attract each other, and repel each other where they are close",
+            )
+            .also(&["lennard-jones", "lj", "LJ", "van_der_waals"]),
+            Key::new("buoyancy", Table(&BUOYANCY), "A liquid at rest, which carries what is below its surface")
+                .also(&["archimedes", "float", "water", "liquid"]),
+            Key::new(
+                "dipoles",
+                Table(&DIPOLES),
+                "Magnets on bodies, in the fields of each other and in a uniform one",
+            )
+            .also(&["magnetic_dipoles", "magnetic-dipoles", "magnets", "dipole"]),
+            Key::new("j2", Table(&J2_KEYS), "What the flattening of a planet adds to its gravity")
+                .also(&["J2", "oblateness", "flattening"]),
+            Key::new(
+                "formula",
+                Table(&FORMULA),
+                "A force by formulas of where each body is, how it moves, and what it is",
+            )
+            .also(&["custom", "expression"]),
             LINKS,
         ],
     };
@@ -190,6 +213,139 @@ static COULOMB: TableSpec = TableSpec {
         between(
             "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
         ),
+    ],
+};
+
+static LENNARD_JONES: TableSpec = TableSpec {
+    noun: "a Lennard-Jones force",
+    rule: Rule::AtMostOne(&[&["on", "between"]]),
+    keys: &[
+        Key::new("epsilon", POSITIVE, "How deep the potential 4 epsilon ((sigma/r)¹² − (sigma/r)⁶) is")
+            .unit("J")
+            .required()
+            .also(&["eps", "depth", "e", "well_depth"]),
+        Key::new("sigma", POSITIVE, "The distance at which the potential is 0; it is lowest at 1.12 of it")
+            .unit("m")
+            .required()
+            .also(&["diameter", "s", "distance", "size"]),
+        Key::new(
+            "cutoff",
+            POSITIVE,
+            "Beyond it there is no force; the potential is shifted so that it begins at 0 there",
+        )
+        .unit("m")
+        .default("2.5 sigma")
+        .also(&["r_cut", "rc", "range", "cut_off"]),
+        Key::new(
+            "smooth",
+            Boolean,
+            "Shift the force as well, so that it begins at 0 at the cutoff: energy is kept better, and atoms attract each other less",
+        )
+        .default_flag(false)
+        .also(&["shifted_force", "force_shift"]),
+        on("The bodies that act on each other; the fixed ones among them act, too", "all but planes"),
+        between(
+            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+        ),
+    ],
+};
+
+static BUOYANCY: TableSpec = TableSpec {
+    noun: "buoyancy",
+    rule: Rule::Any,
+    keys: &[
+        Key::new("density", POSITIVE, "The density of the liquid; that of water is 1000")
+            .unit("kg/m³")
+            .required()
+            .also(&["rho", "fluid_density"]),
+        Key::new(
+            "level",
+            ANY,
+            "The height of its surface, measured against `simulation.gravity` from the origin",
+        )
+        .unit("m")
+        .default_number(0.0)
+        .also(&["height", "surface", "y"]),
+        on("The bodies that it carries", "all that can move"),
+    ],
+};
+
+static DIPOLES: TableSpec = TableSpec {
+    noun: "magnetic dipoles",
+    rule: Rule::AtMostOne(&[&["on", "between"]]),
+    keys: &[
+        Key::new("constant", POSITIVE, "The magnetic constant over 4π, μ₀/4π")
+            .unit("N/A²")
+            .default_number(Dipoles::CONSTANT)
+            .also(&["k", "strength"]),
+        Key::new(
+            "field",
+            VECTOR,
+            "A magnetic field that is the same everywhere, and turns them into its direction",
+        )
+        .unit("T")
+        .default_numbers(&[0.0, 0.0, 0.0])
+        .also(&["b", "B", "magnetic"]),
+        on(
+            "The bodies that act on each other; the fixed ones among them act, too",
+            "all with a `magnetic_moment`",
+        ),
+        between(
+            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+        ),
+    ],
+};
+
+static J2_KEYS: TableSpec = TableSpec {
+    noun: "the gravity of a bulge",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "of",
+            Reference(Collection::Body),
+            "The planet; its attraction as if it were round is `gravitation`",
+        )
+        .required()
+        .also(&["planet", "body", "center"]),
+        Key::new("j2", ANY, "The coefficient J₂ of its gravity: 1.0826e-3 for the earth")
+            .required()
+            .also(&["J2", "coefficient"]),
+        Key::new("radius", POSITIVE, "The radius of its equator, to which J₂ belongs")
+            .unit("m")
+            .required()
+            .also(&["r", "R", "equatorial_radius"]),
+        Key::new("axis", AXIS, "Its axis, in its own axes").default_numbers(&[0.0, 1.0, 0.0]).also(&["pole"]),
+        Key::new("constant", POSITIVE, "Newton's constant G")
+            .unit("m³/(kg·s²)")
+            .default_number(Gravitation::CONSTANT)
+            .also(&["g", "G"]),
+        on("The bodies that it acts on, and which act on the planet", "all others but planes"),
+    ],
+};
+
+static FORMULA: TableSpec = TableSpec {
+    noun: "a force by formulas",
+    rule: Rule::Any,
+    keys: &[
+        Key::new(
+            "force",
+            ListOfBody(3, QUANTITIES),
+            "The force at the centre of each body, in world axes: `x`, `y`, `z` are its place, `r` its distance from the origin, \
+             `vx`, `vy`, `vz` its velocity, `speed` its magnitude, `t` the time",
+        )
+        .unit("N")
+        .required()
+        .also(&["f", "F", "formula", "value"]),
+        Key::new(
+            "potential",
+            OfBody(OF_PLACE),
+            "The potential energy of each body, of which the force at rest must be −∂U/∂x, −∂U/∂y, −∂U/∂z: it then counts as \
+             energy, and only the work of what velocities add is booked",
+        )
+        .unit("J")
+        .default("none: all of its work is booked")
+        .also(&["u", "U", "energy", "potential_energy"]),
+        on("The bodies that it acts on", "all that can move"),
     ],
 };
 

@@ -209,6 +209,10 @@ static BODY: TableSpec = TableSpec {
             .unit("C")
             .default_number(0.0)
             .also(&["q", "electric_charge"]),
+        Key::new("magnetic_moment", VECTOR, "Its magnetic moment in its own axes, for the force `dipoles`")
+            .unit("A·m²")
+            .default_numbers(&[0.0, 0.0, 0.0])
+            .also(&["dipole_moment", "magnetization", "dipole"]),
         Key::new(
             "inertia",
             Numbers(3, Bound::Positive),

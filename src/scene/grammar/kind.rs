@@ -21,6 +21,10 @@ pub enum Kind {
     Drawn(Bound),
     /// A list of so many numbers within a bound, or formulas of the time.
     TimedNumbers(usize, Bound),
+    /// A number, or a formula of these quantities of a body.
+    OfBody(&'static [&'static str]),
+    /// A list of so many numbers, or formulas of these quantities of a body.
+    ListOfBody(usize, &'static [&'static str]),
     /// A list of so many numbers, each within a bound.
     Numbers(usize, Bound),
     /// A list of so many formulas of a parameter, each a string or a number.
@@ -173,8 +177,12 @@ impl Kind {
             Kind::Drawn(_) => {
                 matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::Drawn(_))
             }
+            Kind::OfBody(_) => {
+                matches!(value, Value::Integer(_) | Value::Float(_) | Value::String(_) | Value::OfBody(_))
+            }
             Kind::Integer(..) => matches!(value, Value::Integer(_) | Value::String(_)),
             Kind::Numbers(..)
+            | Kind::ListOfBody(..)
             | Kind::TimedNumbers(..)
             | Kind::Formulas(_)
             | Kind::Direction(_)
@@ -202,6 +210,10 @@ impl Kind {
             },
             Kind::Timed(bound) => format!("a number{} or a formula of `t`", bound.in_words()),
             Kind::Drawn(bound) => format!("a number{} or a formula", bound.in_words()),
+            Kind::OfBody(names) => format!("a number or a formula of {}", quoted(names)),
+            Kind::ListOfBody(count, names) => {
+                format!("a list of {count} numbers or formulas of {}", quoted(names))
+            }
             Kind::TimedNumbers(count, _) => format!("a list of {count} numbers or formulas of `t`"),
             Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),

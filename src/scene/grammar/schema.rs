@@ -131,7 +131,8 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
         Kind::Numbers(count, bound) | Kind::TimedNumbers(count, bound) => {
             list(number(*bound), *count, *count)
         }
-        Kind::Formulas(count) => list(number(Bound::Any), *count, *count),
+        Kind::OfBody(_) => number(Bound::Any),
+        Kind::Formulas(count) | Kind::ListOfBody(count, _) => list(number(Bound::Any), *count, *count),
         Kind::Direction(count) => {
             let mut numbers = list(number(Bound::Any), *count, *count);
             numbers.insert("contains".to_owned(), json!({ "not": { "enum": [0] } }));

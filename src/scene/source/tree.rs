@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::{CopiedTable, Shared};
 use crate::diagnostic::Span;
 use crate::scene::drawn::DrawnFormula;
+use crate::scene::law::BodyFormula;
 use crate::scene::timed::TimeFormula;
 
 /// A value and where it stands.
@@ -30,6 +31,8 @@ pub enum Value {
     Formula(Arc<TimeFormula>),
     /// A formula with random numbers that are drawn later, in place of a string.
     Drawn(Arc<DrawnFormula>),
+    /// A formula of quantities of a body, in place of a string.
+    OfBody(Arc<BodyFormula>),
     /// `true` or `false`.
     Boolean(bool),
     /// A date or a time, for which a scene has no use.
@@ -126,7 +129,7 @@ impl Node {
         match &self.value {
             Value::String(_) => "a string",
             Value::Integer(_) | Value::Float(_) => "a number",
-            Value::Formula(_) | Value::Drawn(_) => "a formula",
+            Value::Formula(_) | Value::Drawn(_) | Value::OfBody(_) => "a formula",
             Value::Boolean(_) => "a boolean",
             Value::Datetime => "a date or time",
             Value::Array(_) => "a list",

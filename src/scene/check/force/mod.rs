@@ -1,5 +1,7 @@
 //! `[force.NAME]`.
 
+mod fields;
+mod formula;
 mod on;
 mod pairs;
 mod spring;
@@ -9,9 +11,9 @@ use std::collections::HashSet;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, Lorentz};
+use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
 use crate::scene::source::Node;
-use crate::scene::{Body, Emitter, Force, ForceKind};
+use crate::scene::{Body, Emitter, Force, ForceKind, Simulation};
 
 /// What every kind of force is read with.
 struct Reader<'a, 'c> {
@@ -20,24 +22,43 @@ struct Reader<'a, 'c> {
     span: Span,
     bodies: &'a [Body],
     emitters: &'a [Emitter],
+    simulation: &'a Simulation,
     /// Whether it acts on particles.
     has_particles: bool,
+    /// What a body lacks that a force between pairs does not act on.
+    lack: &'static str,
+    /// Whether the force can have a softening.
+    softens: bool,
     /// What has been said of which name: that of a body with a `repeat` means all of its copies, of which one is enough.
     told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
+/// What a body lacks that an electric force does not act on.
+const NO_CHARGE: &str = "it has no charge";
+
 pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
     emitters: &[Emitter],
+    simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Vec<Force> {
     let tables = root.named("force");
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let before = context.diagnostics.len();
-        let mut reader =
-            Reader { name, span, bodies, emitters, has_particles: false, told: HashSet::new(), context };
+        let mut reader = Reader {
+            name,
+            span,
+            bodies,
+            emitters,
+            simulation,
+            has_particles: false,
+            lack: NO_CHARGE,
+            softens: true,
+            told: HashSet::new(),
+            context,
+        };
         let emitters = reader.emitters_of(&view);
         reader.has_particles = !emitters.is_empty();
         let kind = reader.kind(&view);
@@ -70,6 +91,21 @@ impl Reader<'_, '_> {
         }
         if let Some(view) = view.variant("lorentz") {
             return Some(self.lorentz(&view));
+        }
+        if let Some(view) = view.variant("lennard_jones") {
+            return self.lennard_jones(&view);
+        }
+        if let Some(view) = view.variant("buoyancy") {
+            return self.buoyancy(&view);
+        }
+        if let Some(view) = view.variant("dipoles") {
+            return Some(self.dipoles(&view));
+        }
+        if let Some(view) = view.variant("j2") {
+            return self.j2(&view);
+        }
+        if let Some(view) = view.variant("formula") {
+            return self.formula(&view);
         }
         self.spring(&view.variant("spring")?)
     }
@@ -107,6 +143,15 @@ impl Reader<'_, '_> {
         let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
         let constant = view.number("constant").unwrap_or_default();
         ForceKind::Coulomb(Coulomb { bodies, against, constant, softening })
+    }
+
+    fn lennard_jones(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        self.softens = false;
+        let (bodies, against) = self.pairs(view, 0.0, |_| true);
+        let (epsilon, sigma) = (view.number("epsilon")?, view.number("sigma")?);
+        let cutoff = view.number("cutoff").unwrap_or(LennardJones::CUTOFF * sigma);
+        let smooth = view.boolean("smooth").unwrap_or_default();
+        Some(ForceKind::LennardJones(LennardJones { bodies, against, epsilon, sigma, cutoff, smooth }))
     }
 
     fn lorentz(&mut self, view: &View<'_>) -> ForceKind {

@@ -12,13 +12,28 @@ impl Reader<'_, '_> {
     /// The emitters on whose particles the force acts: those of `on`, or all. Springs act on none, and electric forces on none
     /// without a charge.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
-        const KINDS: [&str; 5] = ["constant", "drag", "gravitation", "coulomb", "lorentz"];
+        const KINDS: [&str; 10] = [
+            "constant",
+            "drag",
+            "gravitation",
+            "coulomb",
+            "lorentz",
+            "formula",
+            "lennard_jones",
+            "buoyancy",
+            "j2",
+            "dipoles",
+        ];
         let Some((kind, view)) = KINDS.iter().find_map(|kind| Some((*kind, force.variant(kind)?))) else {
             return Vec::new();
         };
         let emitters = self.emitters;
-        let able = |i: &usize| !matches!(kind, "coulomb" | "lorentz") || emitters[*i].source.charge != 0.0;
-        if matches!(kind, "gravitation" | "coulomb") && view.has("between") {
+        let able = |i: &usize| match kind {
+            "coulomb" | "lorentz" => emitters[*i].source.charge != 0.0,
+            "dipoles" => false,
+            _ => true,
+        };
+        if matches!(kind, "gravitation" | "coulomb" | "lennard_jones" | "dipoles") && view.has("between") {
             return Vec::new();
         }
         let Some(items) = view.list("on") else { return (0..emitters.len()).filter(able).collect() };
@@ -28,7 +43,8 @@ impl Reader<'_, '_> {
             let Some(number) = emitters.iter().position(named) else { continue };
             if !able(&number) {
                 let message = || format!("the force has no effect on `{}`", emitters[number].name);
-                self.no_effect(message, item.span, "its particles have no charge");
+                let lack = if kind == "dipoles" { "magnetic moment" } else { "charge" };
+                self.no_effect(message, item.span, format!("its particles have no {lack}"));
             } else if !on.contains(&number) {
                 on.push(number);
             }

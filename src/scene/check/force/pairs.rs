@@ -9,7 +9,7 @@ use crate::dynamics::BodyId;
 use crate::scene::source::Value;
 
 /// The number of a body, and where it is named, if it is.
-type Member = (usize, Option<Span>);
+pub(super) type Member = (usize, Option<Span>);
 
 impl Reader<'_, '_> {
     /// The bodies that act on each other: those of `on`, or all but planes; or those of two groups. Only those that are
@@ -21,6 +21,17 @@ impl Reader<'_, '_> {
         view: &View<'_>,
         softening: f64,
         able: impl Fn(usize) -> bool,
+    ) -> (Vec<BodyId>, Option<Vec<BodyId>>) {
+        self.pairs_or_one(view, softening, able, false)
+    }
+
+    /// The same; `alone`: also one body without another feels the force.
+    pub(super) fn pairs_or_one(
+        &mut self,
+        view: &View<'_>,
+        softening: f64,
+        able: impl Fn(usize) -> bool,
+        alone: bool,
     ) -> (Vec<BodyId>, Option<Vec<BodyId>>) {
         let bodies = self.bodies;
         let able = &|i: usize| !bodies[i].shape.is_unbounded() && able(i);
@@ -47,9 +58,10 @@ impl Reader<'_, '_> {
             Some(named) => self.usable(named, able),
         };
         let moving = on.iter().any(|&(i, _)| !bodies[i].start.fixed);
-        if on.len() < 2 && !view.has("on") || on.len() == 1 {
+        let least = if alone { 1 } else { 2 };
+        if on.len() < least && !view.has("on") || on.len() == 1 && !alone {
             self.acts_on_nothing("it takes two bodies");
-        } else if !moving && on.len() > 1 {
+        } else if !moving && on.len() >= least {
             self.acts_on_nothing("all of them are fixed");
         }
         if softening == 0.0 {
@@ -111,12 +123,12 @@ impl Reader<'_, '_> {
             let error = || Diagnostic::error(Code::PlaneActs, message()).at(span, "it has no centre");
             self.say(Code::PlaneActs, span, error);
         } else if !able {
-            self.no_effect(|| format!("the force has no effect on `{name}`"), span, "it has no charge");
+            self.no_effect(|| format!("the force has no effect on `{name}`"), span, self.lack);
         }
     }
 
     /// Two bodies at the same place are an error, unless both stay there. Of several groups, those of different ones.
-    fn apart(&mut self, groups: &[&[Member]]) {
+    pub(super) fn apart(&mut self, groups: &[&[Member]]) {
         if self.context.bodies_are_wrong {
             return;
         }
@@ -142,7 +154,10 @@ impl Reader<'_, '_> {
             let message =
                 || format!("`{one}` and `{two}` are at the same place, where their force is infinite");
             let span = span.unwrap_or(self.span);
-            let help = "move one of them, or give the force a `softening`";
+            let help = match self.softens {
+                true => "move one of them, or give the force a `softening`",
+                false => "move one of them",
+            };
             self.say(Code::SamePlace, span, || {
                 Diagnostic::error(Code::SamePlace, message()).at(span, "").help(help)
             });

@@ -104,27 +104,10 @@ static NOT_BUILT: &[NotBuilt] = &[
     },
     NotBuilt {
         of: "a force",
-        words: &["formula", "custom", "expression", "central", "potential", "field_formula"],
-        help: "forces by formulas are not built yet; there are `constant`, `drag`, `spring`, `gravitation`, \
-               `coulomb` and `lorentz`",
-        comes_with: "formula",
-        can_go: false,
-    },
-    NotBuilt {
-        of: "a force",
-        words: &[
-            "lennard_jones",
-            "lennard-jones",
-            "lj",
-            "van_der_waals",
-            "morse",
-            "yukawa",
-            "buoyancy",
-            "magnus",
-        ],
-        help: "this force is not built yet; there are `constant`, `drag`, `spring`, `gravitation`, `coulomb` \
-               and `lorentz`",
-        comes_with: "lennard_jones",
+        words: &["morse", "yukawa", "magnus"],
+        help: "this force is not built yet; there are `constant`, `drag`, `spring`, `gravitation`, `coulomb`, \
+               `lorentz`, `lennard_jones`, `buoyancy`, `dipoles`, `j2` and `formula`",
+        comes_with: "",
         can_go: false,
     },
     NotBuilt {

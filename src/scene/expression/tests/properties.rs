@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use super::super::function::{FUNCTIONS, Function, Work};
 use super::super::operation::{Binary, Unary};
 use super::super::parser::{Formula, Part};
-use super::super::{Constants, Program, Scope};
+use super::super::wide::Wide;
+use super::super::{Constants, LANES, Program, Scope};
 use super::scope;
 
 /// A formula as a tree of its own, with a value and a printed form that nothing else has a part in.
@@ -230,6 +231,27 @@ proptest! {
         prop_assert_eq!(bits(lifted.eval(&all)), bits(program.eval(&inputs)), "{} {:?}", tree.print(), lifted);
         prop_assert_eq!(bits(lifted.resolved().code().unwrap().eval(all[0], &all[1..])), bits(program.eval(&inputs)));
         prop_assert_eq!(lifted.explain_non_finite(&all), program.explain_non_finite(&inputs));
+    }
+
+    #[test]
+    fn every_lane_of_a_wide_program_gives_the_bits_of_a_program(
+        trees in prop::array::uniform2(trees()),
+        inputs in prop::collection::vec(prop::array::uniform3(-10.0..10.0f64), 1..=LANES)
+    ) {
+        let formulas = trees.map(|tree| Formula::parse(&tree.print()).unwrap().resolve(&scope()).unwrap());
+        let wide = Wide::new(&formulas.each_ref());
+        let programs = formulas.map(|formula| formula.compile().unwrap());
+        let fill = |input: usize, column: &mut [f64]| {
+            column.iter_mut().zip(&inputs).for_each(|(to, inputs)| *to = inputs[input]);
+        };
+        let mut found: Vec<[u64; 2]> = Vec::new();
+        wide.run(inputs.len(), fill, |values: [_; 2]| {
+            found = (0..inputs.len()).map(|lane| values.map(|value| bits(value.at(lane)))).collect();
+        });
+        for (inputs, found) in inputs.iter().zip(found) {
+            let expected = programs.each_ref().map(|program| bits(program.eval(inputs)));
+            prop_assert_eq!(found, expected, "{:?} {:?}", inputs, programs);
+        }
     }
 
     #[test]

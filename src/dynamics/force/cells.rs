@@ -1,0 +1,167 @@
+//! Which of many points are near each other, by cells.
+
+use glam::DVec3;
+
+/// The most cells along an axis: three of these numbers fit into a key.
+const MOST: f64 = 1_048_576.0;
+/// The bits of a key for each axis: one more, so that there are cells around all.
+const BITS: u32 = 21;
+
+/// Points in the order of their cells, cubes whose edge is at least the reach. What is within reach of a point is then in its own cell or in
+/// one of the 26 around it. Along x, the cells of a row stand behind each other, so that three of them are one range.
+///
+/// Only cells with points take memory, so that one point far away costs nothing. Time is linear in the number of points: keys are sorted
+/// digit by digit.
+#[derive(Debug, Default)]
+pub(super) struct Cells {
+    /// The points in their new order, coordinate by coordinate.
+    pub(super) at: [Vec<f64>; 3],
+    /// The number that each has among those that were given.
+    pub(super) number: Vec<u32>,
+    keys: Vec<u64>,
+    spare: (Vec<u64>, Vec<u32>),
+}
+
+/// The rows of cells that stand ahead of a cell's own: with its own, each pair of cells is seen once. By (y, z).
+const AHEAD: [(i64, i64); 4] = [(1, 0), (-1, 1), (0, 1), (1, 1)];
+
+impl Cells {
+    /// Sorts points into cells of a reach.
+    #[allow(clippy::cast_possible_truncation, reason = "there are far fewer than 2^32 bodies")]
+    pub(super) fn sort(&mut self, points: &[DVec3], reach: f64) {
+        let finite = || points.iter().filter(|point| point.is_finite());
+        let low = finite().fold(DVec3::INFINITY, |low, point| low.min(*point));
+        let high = finite().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
+        let edge = ((high - low) / (MOST - 2.0)).max(DVec3::splat(reach));
+        self.keys.clear();
+        self.keys.extend(points.iter().map(|point| key((*point - low) / edge)));
+        self.number.clear();
+        self.number.extend(0..points.len() as u32);
+        self.sort_keys();
+        for (axis, at) in self.at.iter_mut().enumerate() {
+            at.clear();
+            at.extend(self.number.iter().map(|&number| points[number as usize][axis]));
+        }
+    }
+
+    /// Sorts the keys with their numbers, eleven bits at a time, from the last to the first. Points of one cell stay in their order.
+    #[allow(clippy::cast_possible_truncation, reason = "a digit is small, and so is the number of points")]
+    fn sort_keys(&mut self) {
+        const DIGIT: u32 = 11;
+        let used = self.keys.iter().fold(0, |used, key| used | key);
+        let (keys, numbers) = &mut self.spare;
+        keys.resize(self.keys.len(), 0);
+        numbers.resize(self.keys.len(), 0);
+        let mut shift = 0;
+        while shift < u64::BITS && used >> shift != 0 {
+            let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT) - 1);
+            let mut begin = [0_u32; 1 << DIGIT];
+            self.keys.iter().for_each(|key| begin[digit(*key)] += 1);
+            let mut sum = 0;
+            for count in &mut begin {
+                (*count, sum) = (sum, sum + *count);
+            }
+            for (key, number) in self.keys.iter().zip(&self.number) {
+                let place = &mut begin[digit(*key)];
+                (keys[*place as usize], numbers[*place as usize]) = (*key, *number);
+                *place += 1;
+            }
+            std::mem::swap(&mut self.keys, keys);
+            std::mem::swap(&mut self.number, numbers);
+            shift += DIGIT;
+        }
+    }
+
+    /// Shows each point with the ranges of those behind it, in its own row of cells and in the four ahead, among which is each that is within
+    /// reach. So each two points that are near are shown together once.
+    pub(super) fn each(&self, mut see: impl FnMut(usize, std::ops::Range<usize>)) {
+        let count = self.keys.len();
+        // How far each of the rows has been gone through: cells come in rising order, and so do those ahead of them.
+        let mut from = [0; AHEAD.len()];
+        let mut first = 0;
+        while first < count {
+            let key = self.keys[first];
+            let same = self.keys[first..].iter().take_while(|other| **other == key).count();
+            let next = self.keys[first + same..].iter().take_while(|other| **other == key + 1).count();
+            let end = first + same;
+            for point in first..end {
+                see(point, point + 1..end + next);
+            }
+            for (from, (y, z)) in from.iter_mut().zip(AHEAD) {
+                let row = key.wrapping_add_signed((y << BITS) + (z << (2 * BITS)));
+                while *from < count && self.keys[*from] < row - 1 {
+                    *from += 1;
+                }
+                let near = self.keys[*from..].iter().take_while(|other| **other <= row + 1).count();
+                if near > 0 {
+                    (first..end).for_each(|point| see(point, *from..*from + near));
+                }
+            }
+            first = end;
+        }
+    }
+}
+
+/// The key of a cell: x counts least. Each coordinate begins at 1, so that its neighbours are no others.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the conversion saturates, and what is nowhere may be in any cell"
+)]
+fn key(place: DVec3) -> u64 {
+    let [x, y, z] = place.to_array().map(|place| place.clamp(0.0, MOST - 1.0) as u64 + 1);
+    x | y << BITS | z << (2 * BITS)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// All pairs within reach, by cells.
+    fn near(points: &[DVec3], reach: f64) -> Vec<[u32; 2]> {
+        let mut cells = Cells::default();
+        cells.sort(points, reach);
+        let mut pairs = Vec::new();
+        cells.each(|one, others| {
+            for other in others {
+                let place = |k: usize| DVec3::new(cells.at[0][k], cells.at[1][k], cells.at[2][k]);
+                if place(one).distance(place(other)) < reach {
+                    let (a, b) = (cells.number[one], cells.number[other]);
+                    pairs.push([a.min(b), a.max(b)]);
+                }
+            }
+        });
+        pairs
+    }
+
+    /// A dense lump, one point far away, several at one place, and one that is nowhere.
+    #[test]
+    fn each_pair_within_reach_is_seen_once_and_no_other() {
+        let part = |i: usize, k: f64| (i as f64 * k).fract();
+        let mut points: Vec<DVec3> = (0..400)
+            .map(|i| {
+                DVec3::new(6.0 * part(i, 0.618_033), 5.0 * part(i, 0.414_213) - 9.0, 4.0 * part(i, 0.732_05))
+            })
+            .collect();
+        points.extend([DVec3::splat(1e9), DVec3::splat(3.0), DVec3::splat(3.0), DVec3::NAN]);
+        for spread in [1.0, 1e-3, 1e6] {
+            let points: Vec<DVec3> = points.iter().map(|point| *point * spread).collect();
+            for reach in [0.9 * spread, 2.5 * spread, 100.0 * spread] {
+                let found = near(&points, reach);
+                let mut expected = BTreeSet::new();
+                for (i, one) in points.iter().enumerate() {
+                    for (j, other) in points.iter().enumerate().skip(i + 1) {
+                        if one.distance(*other) < reach {
+                            expected.insert([i as u32, j as u32]);
+                        }
+                    }
+                }
+                assert_eq!(found.len(), expected.len(), "{reach}");
+                assert_eq!(found.into_iter().collect::<BTreeSet<_>>(), expected);
+            }
+        }
+        assert!(near(&[], 1.0).is_empty());
+    }
+}

@@ -1,0 +1,243 @@
+//! A force by formulas.
+
+use std::fmt::Debug;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Force, Loads, Moment};
+
+/// As many bodies as a [`ForceLaw`] is asked about at once, at most.
+pub const FORCE_BLOCK: usize = 64;
+
+/// What a body feels by its place, its motion, its mass, its charge and the time, and by nothing else.
+pub trait ForceLaw: Debug + Send + Sync {
+    /// Writes the force on each of at most [`FORCE_BLOCK`] bodies, N; `at_rest`: as if their velocities were zero.
+    fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]);
+
+    /// Writes the potential energy of each of at most [`FORCE_BLOCK`] bodies, J; 0 where there is no potential.
+    fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]);
+
+    /// Whether the force on a body at rest is −∂U/∂x of a potential.
+    fn has_potential(&self) -> bool;
+
+    /// Whether the force depends on velocities.
+    fn depends_on_velocity(&self) -> bool;
+}
+
+/// A force on each of some bodies by a [`ForceLaw`], F(x, v, t).
+///
+/// A law with a potential U has F(x, 0, t) = −∂U/∂x. The work of what the velocity adds to that, F(x, v, t) − F(x, 0, t), is
+/// counted; without a potential, the work of the whole force.
+#[derive(Debug)]
+pub struct FormulaForce {
+    bodies: Vec<BodyId>,
+    law: Arc<dyn ForceLaw>,
+    failure: Failure,
+}
+
+/// Where a law has no finite value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Undefined {
+    /// The body that has no force.
+    pub body: BodyId,
+    /// The time, s.
+    pub time: f64,
+    /// Where the body is, m.
+    pub location: DVec3,
+    /// Its velocity, m/s.
+    pub velocity: DVec3,
+}
+
+/// The last place without a value. A run that comes to a value there after all, in a shorter step, goes on.
+#[derive(Debug, Default)]
+struct Failure {
+    is_there: AtomicBool,
+    last: Mutex<Option<Undefined>>,
+}
+
+impl FormulaForce {
+    /// The force of a law on some bodies.
+    #[must_use]
+    pub fn new(bodies: Vec<BodyId>, law: Arc<dyn ForceLaw>) -> FormulaForce {
+        FormulaForce { bodies, law, failure: Failure::default() }
+    }
+
+    /// Shows the forces on all bodies that are there, block by block; the second are those at rest, where they count.
+    fn each_block(&self, moment: &Moment, mut see: impl FnMut(&[BodyId], &[DVec3], Option<&[DVec3]>)) {
+        let (mut force, mut rest) = ([DVec3::ZERO; FORCE_BLOCK], [DVec3::ZERO; FORCE_BLOCK]);
+        let has_rest = self.law.has_potential() && self.law.depends_on_velocity();
+        for bodies in moment.model.present(&self.bodies).chunks(FORCE_BLOCK) {
+            let (force, rest) = (&mut force[..bodies.len()], &mut rest[..bodies.len()]);
+            self.law.force(bodies, moment, false, force);
+            if has_rest {
+                self.law.force(bodies, moment, true, rest);
+            }
+            see(bodies, force, has_rest.then_some(rest));
+            self.failure.look(bodies, force, moment);
+        }
+    }
+}
+
+impl Force for FormulaForce {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let books = self.depends_on_motion();
+        let mut power = 0.0;
+        self.each_block(moment, |bodies, force, rest| {
+            for (lane, (body, force)) in bodies.iter().zip(force).enumerate() {
+                let i = body.index();
+                loads.force[i] += *force;
+                if books {
+                    let free = rest.map_or(*force, |rest| *force - rest[lane]);
+                    power += free.dot(moment.state.velocity[i]);
+                }
+            }
+        });
+        loads.power.work += power;
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        if !self.law.has_potential() {
+            return 0.0;
+        }
+        let (mut out, mut sum) = ([0.0; FORCE_BLOCK], 0.0);
+        for bodies in moment.model.present(&self.bodies).chunks(FORCE_BLOCK) {
+            let out = &mut out[..bodies.len()];
+            self.law.potential(bodies, moment, out);
+            let each = bodies.iter().zip(out).filter(|(body, _)| moment.model.movable()[body.index()]);
+            sum += each.map(|(_, potential)| *potential).sum::<f64>();
+        }
+        sum
+    }
+
+    fn is_local(&self) -> bool {
+        self.law.has_potential() && !self.law.depends_on_velocity()
+    }
+
+    fn depends_on_motion(&self) -> bool {
+        !self.is_local()
+    }
+
+    fn undefined(&self) -> Option<Undefined> {
+        *self.failure.last.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Failure {
+    /// Notes the first of some bodies that has no force where it has a place and a velocity.
+    fn look(&self, bodies: &[BodyId], force: &[DVec3], moment: &Moment) {
+        // 0 · ∞ is not a number, and neither is a sum with one.
+        let is_finite = force.iter().map(|force| 0.0 * (force.x + force.y + force.z)).sum::<f64>() == 0.0;
+        if is_finite && !self.is_there.load(Ordering::Relaxed) {
+            return;
+        }
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_mended = |last: &Undefined| {
+            let place = bodies.iter().position(|body| *body == last.body);
+            place.is_some_and(|lane| force[lane].is_finite())
+        };
+        if last.as_ref().is_some_and(is_mended) {
+            *last = None;
+        }
+        let state = moment.state;
+        let undefined = |(body, force): (&BodyId, &DVec3)| {
+            let (location, velocity) = (state.location[body.index()], state.velocity[body.index()]);
+            let is_new = !force.is_finite() && location.is_finite() && velocity.is_finite();
+            is_new.then_some(Undefined { body: *body, time: moment.time, location, velocity })
+        };
+        if last.is_none() {
+            *last = bodies.iter().zip(force).find_map(undefined);
+        }
+        self.is_there.store(last.is_some(), Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_minus_gradient, bodies, loads};
+    use super::*;
+
+    /// F = (−4 x³ − c v_y, c v_x − d v_z, 0) with U = x⁴, or without a potential.
+    #[derive(Clone, Copy, Debug)]
+    struct Quartic {
+        turning: f64,
+        damping: f64,
+        has_potential: bool,
+    }
+
+    impl ForceLaw for Quartic {
+        fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
+            for (body, out) in bodies.iter().zip(out) {
+                let (x, v) = (moment.state.location[body.index()], moment.state.velocity[body.index()]);
+                let v = if at_rest { DVec3::ZERO } else { v };
+                let (c, d) = (self.turning, self.damping);
+                *out = DVec3::new(-4.0 * x.x * x.x * x.x - c * v.y, c * v.x, -d * v.z);
+            }
+        }
+
+        fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]) {
+            for (body, out) in bodies.iter().zip(out) {
+                let square = moment.state.location[body.index()].x * moment.state.location[body.index()].x;
+                *out = square * square;
+            }
+        }
+
+        fn has_potential(&self) -> bool {
+            self.has_potential
+        }
+
+        fn depends_on_velocity(&self) -> bool {
+            self.turning != 0.0 || self.damping != 0.0
+        }
+    }
+
+    fn force(law: Quartic, count: usize) -> FormulaForce {
+        FormulaForce::new((0..count).map(BodyId::new).collect(), Arc::new(law))
+    }
+
+    #[test]
+    fn what_velocity_adds_is_booked_beside_a_potential_and_all_without() {
+        let (model, state) = bodies(&[(DVec3::new(0.5, 1.0, 2.0), DVec3::new(3.0, 4.0, 5.0))]);
+        for (has_potential, work) in [(true, -0.5 * 25.0), (false, -0.5 * 25.0 - 0.5 * 3.0)] {
+            let force = force(Quartic { turning: 2.0, damping: 0.5, has_potential }, 1);
+            let loads = loads(&force, &model, &state);
+            assert_eq!(loads.force, [DVec3::new(-0.5 - 8.0, 6.0, -2.5)]);
+            assert_eq!(loads.power.work, work);
+            assert!(force.depends_on_motion() && !force.is_local());
+        }
+    }
+
+    /// More bodies than a block has; one that cannot move has no share of the potential.
+    #[test]
+    fn many_bodies_and_a_potential() {
+        let located: Vec<_> = (0..150).map(|i| (DVec3::X * (f64::from(i) * 0.01 - 0.7), DVec3::Y)).collect();
+        let (model, state) = bodies(&located);
+        let force = force(Quartic { turning: 0.0, damping: 0.0, has_potential: true }, 150);
+        assert_minus_gradient(&force, &model, &state);
+        assert!(force.is_local() && !force.depends_on_motion());
+        let expected: f64 = located.iter().map(|(place, _)| (place.x * place.x) * (place.x * place.x)).sum();
+        let potential = force.potential(&Moment { time: 0.0, state: &state, model: &model });
+        assert!((potential - expected).abs() < 1e-12 * expected, "{potential} {expected}");
+    }
+
+    #[test]
+    fn the_first_place_without_a_force_is_noted_until_there_is_one() {
+        let (model, mut state) = bodies(&[(DVec3::X, DVec3::ZERO), (DVec3::X, DVec3::ZERO)]);
+        let force = force(Quartic { turning: 0.0, damping: 0.0, has_potential: true }, 2);
+        loads(&force, &model, &state);
+        assert_eq!(force.undefined(), None);
+        state.location[1].x = 1e200;
+        loads(&force, &model, &state);
+        let found = force.undefined().unwrap();
+        assert_eq!((found.body, found.location), (BodyId::new(1), 1e200 * DVec3::X));
+        // What follows from it is not the cause.
+        state.location[1].x = f64::NAN;
+        loads(&force, &model, &state);
+        assert_eq!(force.undefined(), Some(found));
+        state.location[1].x = 2.0;
+        loads(&force, &model, &state);
+        assert_eq!(force.undefined(), None);
+    }
+}

@@ -1,0 +1,126 @@
+//! The gravity of a planet's bulge.
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::{Force, Loads, Moment};
+
+/// What the flattening of a planet adds to its gravity on each of some bodies: the potential
+///
+/// U = G M m J₂ R² (3 (d·a)²/r² − 1) / (2 r³), with d from the planet to the body, r its length, and a the planet's axis.
+///
+/// It does not hold the attraction −G M m/r of a round planet, which is [`Gravitation`](super::Gravitation). The planet gets the opposite
+/// force, and a torque that keeps the angular momentum of both. Source: D. Brouwer & G. M. Clemence, *Methods of Celestial Mechanics*, ch.
+/// III.
+#[derive(Debug, Clone, PartialEq)]
+pub struct J2 {
+    /// The planet.
+    pub planet: BodyId,
+    /// The bodies it acts on, and which act on it; none of them is the planet.
+    pub bodies: Vec<BodyId>,
+    /// The coefficient J₂, without unit; positive for a planet that is flat at its poles.
+    pub j2: f64,
+    /// The radius R of the equator to which J₂ belongs, m.
+    pub radius: f64,
+    /// The axis of the planet in its own axes, a unit vector.
+    pub axis: DVec3,
+    /// The constant G, m³/(kg s²).
+    pub constant: f64,
+}
+
+impl J2 {
+    /// Shows each body that is there, if the planet is: the body, what leads to it from the planet, the planet's axis, and 3/2 G M m J₂ R².
+    fn each(&self, moment: &Moment, mut see: impl FnMut(usize, DVec3, DVec3, f64)) {
+        let (model, state, planet) = (moment.model, moment.state, self.planet.index());
+        if !model.is_present(planet) {
+            return;
+        }
+        let axis = model.world_from_body(planet, state) * self.axis;
+        let bulge = 1.5 * self.constant * model.mass()[planet] * self.j2 * self.radius * self.radius;
+        for body in model.present(&self.bodies).iter() {
+            let i = body.index();
+            if model.movable()[i] || model.movable()[planet] {
+                see(i, state.location[i] - state.location[planet], axis, bulge * model.mass()[i]);
+            }
+        }
+    }
+}
+
+impl Force for J2 {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let planet = self.planet.index();
+        self.each(moment, |i, d, axis, strength| {
+            let (square, height) = (d.length_squared(), d.dot(axis));
+            let fifth = strength / (square * square * square.sqrt());
+            let force = -fifth * (2.0 * height * axis + (1.0 - 5.0 * height * height / square) * d);
+            loads.force[i] += force;
+            loads.force[planet] -= force;
+            loads.torque[planet] -= d.cross(force);
+        });
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        let mut sum = 0.0;
+        self.each(moment, |_, d, axis, strength| {
+            let (square, height) = (d.length_squared(), d.dot(axis));
+            sum += strength * (height * height / square - 1.0 / 3.0) / (square * square.sqrt());
+        });
+        sum
+    }
+
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::super::testing::{assert_minus_gradient, bodies, loads};
+    use super::*;
+
+    fn planet() -> J2 {
+        let bodies = vec![BodyId::new(1), BodyId::new(2)];
+        J2 { planet: BodyId::new(0), bodies, j2: 0.3, radius: 0.8, axis: DVec3::Y, constant: 2.0 }
+    }
+
+    /// Above the equator, the pull is larger by 3/2 J₂ (R/r)² of G M m/r²; above a pole, smaller by twice that.
+    #[test]
+    fn at_the_equator_and_at_a_pole() {
+        let (model, state) = bodies(&[
+            (DVec3::ZERO, DVec3::ZERO),
+            (2.0 * DVec3::X, DVec3::ZERO),
+            (-2.0 * DVec3::Y, DVec3::ZERO),
+        ]);
+        let force = loads(&planet(), &model, &state).force;
+        let part = 1.5 * 0.3 * 0.16;
+        // G M m/r² is 2 · 1 · 2/4 and 2 · 1 · 3/4.
+        assert!(force[1].abs_diff_eq(-part * DVec3::X, 1e-15), "{force:?}");
+        assert!(force[2].abs_diff_eq(-2.0 * part * 1.5 * DVec3::Y, 1e-15), "{force:?}");
+    }
+
+    #[test]
+    fn force_and_torque_are_minus_the_gradient_and_momentum_is_kept() {
+        const H: f64 = 1e-5;
+        let located =
+            [(0.1, 0.2), (1.5, 0.8), (-0.7, 1.4)].map(|(x, y)| (DVec3::new(x, y, x - y), DVec3::ZERO));
+        let (model, mut state) = bodies(&located);
+        state.orientation[0] = DQuat::from_rotation_x(0.4) * DQuat::from_rotation_z(0.7);
+        let force = planet();
+        assert_minus_gradient(&force, &model, &state);
+        let loads = loads(&force, &model, &state);
+        let push: DVec3 = loads.force.iter().sum();
+        let turn: DVec3 = loads.force.iter().zip(&state.location).map(|(force, at)| at.cross(*force)).sum();
+        assert!(push.length() < 1e-15 && (turn + loads.torque[0]).length() < 1e-15);
+        for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+            let potential = |angle: f64| {
+                let mut state = state.clone();
+                state.orientation[0] = DQuat::from_axis_angle(axis, angle) * state.orientation[0];
+                force.potential(&Moment { time: 0.0, state: &state, model: &model })
+            };
+            let expected = (potential(-H) - potential(H)) / (2.0 * H);
+            assert!((loads.torque[0].dot(axis) - expected).abs() < 2e-8, "{axis}: {expected}");
+        }
+    }
+}

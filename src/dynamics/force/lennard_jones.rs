@@ -1,0 +1,278 @@
+//! The force between neutral atoms.
+
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+use glam::DVec3;
+
+use super::super::BodyId;
+use super::cells::Cells;
+use super::{Force, Loads, Moment};
+
+/// Each two of some bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
+/// u = 4ε ((σ/r)¹² − (σ/r)⁶): they repel each other below 2^(1/6) σ, and attract each other beyond.
+///
+/// It is cut off, so that time is linear in the number of bodies, and shifted, so that it has no step there: a step would not be in the
+/// force, and the energy would not balance. The force still has one, of 0.039 ε/σ at the usual 2.5 σ. `smooth` shifts the force as well,
+/// U(r) = u(r) − u(r_c) − (r − r_c) u′(r_c): then methods keep their order across the cutoff. Source: M. P. Allen & D. J. Tildesley,
+/// *Computer Simulation of Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
+///
+/// The sums run in an order that depends on the places alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LennardJones {
+    /// The bodies that act on each other.
+    pub bodies: Vec<BodyId>,
+    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    pub against: Option<Vec<BodyId>>,
+    /// The depth ε of the potential, J.
+    pub epsilon: f64,
+    /// The distance σ at which the potential is 0, m.
+    pub sigma: f64,
+    /// The distance beyond which there is no force, m.
+    pub cutoff: f64,
+    /// Whether the force, too, falls to 0 at the cutoff.
+    pub smooth: bool,
+}
+
+/// What an evaluation needs room for. It is kept, so that nothing is allocated in a run.
+#[derive(Debug, Default)]
+struct Room {
+    sorted: Sorted,
+    /// The forces on the sorted bodies, coordinate by coordinate.
+    force: [Vec<f64>; 3],
+}
+
+/// The bodies that are there, those of the second group behind those of the first, and what is known of them in the order of cells.
+#[derive(Debug, Default)]
+struct Sorted {
+    bodies: Vec<BodyId>,
+    places: Vec<DVec3>,
+    cells: Cells,
+    is_second: Vec<bool>,
+    movable: Vec<bool>,
+    /// Whether there are two groups.
+    has_groups: bool,
+    /// Whether not each pair counts: there are two groups, or some cannot move.
+    is_mixed: bool,
+}
+
+/// Evaluations of several forces, or of clones of one, do not wait for each other: whoever finds no room makes some.
+static ROOMS: Mutex<Vec<Room>> = Mutex::new(Vec::new());
+
+impl LennardJones {
+    /// The cutoff in units of σ that is usual.
+    pub const CUTOFF: f64 = 2.5;
+
+    /// u = 4ε ((σ/r)¹² − (σ/r)⁶) and −u′/r at a distance whose square is given.
+    #[inline(always)]
+    fn pure(&self, square: f64) -> (f64, f64) {
+        let inverse = 1.0 / square;
+        let two = self.sigma * self.sigma * inverse;
+        let six = two * two * two;
+        let potential = 4.0 * self.epsilon * six * (six - 1.0);
+        (potential, 24.0 * self.epsilon * inverse * six * (2.0 * six - 1.0))
+    }
+
+    /// The potential that is taken off everywhere, and the force −u′(r_c) that is taken off if it is smooth.
+    fn shifts(&self) -> (f64, f64) {
+        let (potential, push) = self.pure(self.cutoff * self.cutoff);
+        (potential, if self.smooth { push * self.cutoff } else { 0.0 })
+    }
+
+    /// Sorts the bodies that are there, and does something with them.
+    fn with_room<T>(&self, moment: &Moment, work: impl FnOnce(&mut Room) -> T) -> T {
+        let taken = ROOMS.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut room = taken.unwrap_or_default();
+        room.sorted.fill(self, moment);
+        let done = work(&mut room);
+        ROOMS.lock().unwrap_or_else(PoisonError::into_inner).push(room);
+        done
+    }
+
+    /// Shows each two bodies that act on each other: their numbers in the order of cells, and what leads from the second to the first, with its
+    /// square. `begin` and `end` frame those of one body.
+    #[inline]
+    fn each_pair<S>(
+        &self,
+        sorted: &Sorted,
+        state: &mut S,
+        mut see: impl FnMut(&mut S, usize, usize, [f64; 3], f64) -> [f64; 3],
+        mut end: impl FnMut(&mut S, usize, [f64; 3]),
+    ) {
+        let (limit, at) = (self.cutoff * self.cutoff, &sorted.cells.at);
+        sorted.cells.each(|one, others: Range<usize>| {
+            let here = [at[0][one], at[1][one], at[2][one]];
+            let mut sum = [0.0; 3];
+            for other in others {
+                let d = [here[0] - at[0][other], here[1] - at[1][other], here[2] - at[2][other]];
+                let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                if square < limit && !(sorted.is_mixed && sorted.is_no_pair(one, other)) {
+                    let part = see(state, one, other, d, square);
+                    sum = [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]];
+                }
+            }
+            end(state, one, sum);
+        });
+    }
+}
+
+impl Sorted {
+    fn fill(&mut self, force: &LennardJones, moment: &Moment) {
+        self.bodies.clear();
+        self.bodies.extend_from_slice(&moment.model.present(&force.bodies));
+        let first = self.bodies.len();
+        if let Some(against) = &force.against {
+            self.bodies.extend_from_slice(&moment.model.present(against));
+        }
+        self.places.clear();
+        self.places.extend(self.bodies.iter().map(|body| moment.state.location[body.index()]));
+        self.cells.sort(&self.places, force.cutoff);
+        self.is_second.clear();
+        self.movable.clear();
+        for number in self.cells.number.iter().map(|number| *number as usize) {
+            self.is_second.push(number >= first);
+            self.movable.push(moment.model.movable()[self.bodies[number].index()]);
+        }
+        self.is_mixed = force.against.is_some() || self.movable.iter().any(|movable| !movable);
+        self.has_groups = force.against.is_some();
+    }
+
+    /// Whether two do not act on each other: they are of one group where there are two, or none of them can move.
+    fn is_no_pair(&self, one: usize, other: usize) -> bool {
+        self.has_groups && self.is_second[one] == self.is_second[other]
+            || !self.movable[one] && !self.movable[other]
+    }
+}
+
+impl Force for LennardJones {
+    fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        let (_, less) = self.shifts();
+        self.with_room(moment, |Room { sorted, force }| {
+            for force in force.iter_mut() {
+                force.clear();
+                force.resize(sorted.bodies.len(), 0.0);
+            }
+            let push = |force: &mut [Vec<f64>; 3], _: usize, other: usize, d: [f64; 3], square: f64| {
+                let mut push = self.pure(square).1;
+                if less != 0.0 {
+                    push -= less / square.sqrt();
+                }
+                let part = d.map(|d| push * d);
+                for (force, part) in force.iter_mut().zip(part) {
+                    force[other] -= part;
+                }
+                part
+            };
+            self.each_pair(sorted, force, push, |force, one, sum| {
+                for (force, sum) in force.iter_mut().zip(sum) {
+                    force[one] += sum;
+                }
+            });
+            for (place, number) in sorted.cells.number.iter().enumerate() {
+                let body = sorted.bodies[*number as usize].index();
+                loads.force[body] += DVec3::new(force[0][place], force[1][place], force[2][place]);
+            }
+        });
+    }
+
+    fn potential(&self, moment: &Moment) -> f64 {
+        let (shift, less) = self.shifts();
+        self.with_room(moment, |Room { sorted, .. }| {
+            let mut sum = 0.0;
+            let add = |sum: &mut f64, _: usize, _: usize, _: [f64; 3], square: f64| {
+                let over = if less == 0.0 { 0.0 } else { less * (square.sqrt() - self.cutoff) };
+                *sum += self.pure(square).0 - shift + over;
+                [0.0; 3]
+            };
+            self.each_pair(sorted, &mut sum, add, |_, _, _| {});
+            sum
+        })
+    }
+
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_minus_gradient, bodies, loads};
+    use super::*;
+
+    fn gas(count: usize, smooth: bool) -> LennardJones {
+        let bodies = (0..count).map(BodyId::new).collect();
+        LennardJones { bodies, against: None, epsilon: 1.5, sigma: 0.8, cutoff: 2.0, smooth }
+    }
+
+    /// At r = σ, u = 0 and −u′ = 24 ε/σ; at 2^(1/6) σ, u = −ε and −u′ = 0.
+    #[test]
+    fn two_atoms_by_hand() {
+        let force = gas(2, false);
+        let (shift, _) = force.shifts();
+        let (r, _) = (0.8_f64 / 2.0, ());
+        let six = r * r * r * r * r * r;
+        assert!((shift - 6.0 * six * (six - 1.0)).abs() < 1e-16, "{shift}");
+        let lowest = 0.8 * libm::pow(2.0, 1.0 / 6.0);
+        for (distance, potential, push) in
+            [(0.8, 0.0, 24.0 * 1.5 / 0.8), (lowest, -1.5, 0.0), (2.0, shift, 0.0)]
+        {
+            let (model, state) = bodies(&[(DVec3::ZERO, DVec3::ZERO), (distance * DVec3::Y, DVec3::ZERO)]);
+            let loads = loads(&force, &model, &state);
+            assert!(loads.force[1].abs_diff_eq(push * DVec3::Y, 1e-12), "{loads:?}");
+            assert_eq!(loads.force[0], -loads.force[1]);
+            let given = force.potential(&Moment { time: 0.0, state: &state, model: &model });
+            assert!((given - (potential - shift)).abs() < 1e-12, "{given}");
+        }
+    }
+
+    /// A lump of 27 atoms, some of them beyond the cutoff of others.
+    #[test]
+    fn the_force_is_minus_the_gradient_and_falls_to_zero_if_it_is_smooth() {
+        let place = |i: usize| DVec3::new((i % 3) as f64, (i / 3 % 3) as f64, (i / 9) as f64);
+        let jitter = |i: usize| DVec3::splat((i as f64 * 0.618).fract() * 0.1);
+        let located: Vec<_> = (0..27).map(|i| (1.1 * place(i) + jitter(i), DVec3::ZERO)).collect();
+        let (model, state) = bodies(&located);
+        for smooth in [false, true] {
+            assert_minus_gradient(&gas(27, smooth), &model, &state);
+        }
+        let (model, state) = bodies(&[(DVec3::ZERO, DVec3::ZERO), ((2.0 - 1e-9) * DVec3::Y, DVec3::ZERO)]);
+        let [step, none] =
+            [false, true].map(|smooth| loads(&gas(2, smooth), &model, &state).force[1].length());
+        assert!(step > 1e-3 && none < 1e-8, "{step} {none}");
+    }
+
+    /// By all pairs, in the order of bodies; of two groups, those of different ones.
+    #[test]
+    fn cells_give_the_plain_double_sum() {
+        let at = |i: usize, k: f64| (i as f64 * k).fract() * 9.0;
+        let located: Vec<_> = (0..300)
+            .map(|i| (DVec3::new(at(i, 0.618_033), at(i, 0.414_213), at(i, 0.732_050)), DVec3::ZERO))
+            .collect();
+        let (model, state) = bodies(&located);
+        for split in [None, Some(120)] {
+            let ids = |range: Range<usize>| range.map(BodyId::new).collect::<Vec<_>>();
+            let mut force = gas(300, false);
+            if let Some(split) = split {
+                (force.bodies, force.against) = (ids(0..split), Some(ids(split..300)));
+            }
+            let loads = loads(&force, &model, &state);
+            let mut total = DVec3::ZERO;
+            for (i, (here, _)) in located.iter().enumerate() {
+                let (mut sum, mut magnitude) = (DVec3::ZERO, 0.0);
+                for (j, (there, _)) in located.iter().enumerate() {
+                    let d = *here - *there;
+                    let acts = split.is_none_or(|split| (i < split) != (j < split));
+                    if i != j && acts && d.length() < 2.0 {
+                        let part = force.pure(d.length_squared()).1 * d;
+                        sum += part;
+                        magnitude += part.length();
+                    }
+                }
+                assert!((loads.force[i] - sum).length() <= 1e-13 * magnitude, "{i}");
+                total += loads.force[i];
+            }
+            let most = loads.force.iter().map(|force| force.length()).fold(0.0, f64::max);
+            assert!(total.length() < 1e-13 * 300.0 * most, "what one gets the other loses: {total}");
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Forces by formulas of where a body is, how it moves, and what it is.
+
+use std::fmt;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::expression::{ExpressionError, LANES, Resolved, Wide, too_intricate};
+use crate::diagnostic::Span;
+use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined};
+
+/// What a formula of a force may ask for, those of a potential first.
+pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];
+
+/// What a potential may ask for.
+pub const OF_PLACE: &[&str] = QUANTITIES.split_at(6).0;
+
+/// The places of quantities among them.
+const R: usize = 3;
+const MASS: usize = 4;
+const CHARGE: usize = 5;
+const VX: usize = 6;
+const SPEED: usize = 9;
+const TIME: usize = 10;
+
+const _: () = assert!(FORCE_BLOCK == LANES);
+
+/// A formula of the quantities of a body, whose other names have been looked up.
+pub struct BodyFormula {
+    text: Arc<str>,
+    span: Span,
+    resolved: Resolved,
+}
+
+impl BodyFormula {
+    /// A formula that stands at a place; its slots are [`QUANTITIES`] in their order.
+    pub(super) fn new(text: Arc<str>, span: Span, resolved: Resolved) -> BodyFormula {
+        BodyFormula { text, span, resolved }
+    }
+
+    /// What is written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+}
+
+impl fmt::Debug for BodyFormula {
+    // Where it stands does not change what it is.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.resolved.fmt(f)
+    }
+}
+
+/// A number, or a formula of the quantities of a body.
+#[derive(Clone, Debug)]
+pub enum OfBody {
+    /// It is the same everywhere.
+    Constant(f64),
+    /// It follows from the body.
+    Formula(Arc<BodyFormula>),
+}
+
+impl OfBody {
+    fn resolved(&self) -> Resolved {
+        match self {
+            OfBody::Constant(number) => Resolved::of_number(*number, QUANTITIES.len()),
+            OfBody::Formula(formula) => formula.resolved.clone(),
+        }
+    }
+}
+
+/// The force on a body by formulas, and its potential if it has one.
+pub struct FormulaLaw {
+    force: [OfBody; 3],
+    potential: Option<OfBody>,
+    program: Wide,
+    energy: Option<Wide>,
+    /// ∂U/∂x, ∂U/∂y, ∂U/∂z, each as if r did not depend on it, and ∂U/∂r.
+    slopes: Option<Wide>,
+}
+
+impl fmt::Debug for FormulaLaw {
+    // The programs follow from the formulas.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("FormulaLaw").field(&self.force).field(&self.potential).finish()
+    }
+}
+
+impl FormulaLaw {
+    /// The law of these formulas.
+    ///
+    /// # Errors
+    /// Where the derivatives of the potential are too long.
+    pub fn new(force: [OfBody; 3], potential: Option<OfBody>) -> Result<FormulaLaw, ExpressionError> {
+        /// What a formula of a thousand letters may come to.
+        const MOST: u64 = 100_000;
+        let formulas = force.each_ref().map(OfBody::resolved);
+        let program = Wide::new(&formulas.each_ref());
+        let energy = potential.as_ref().map(OfBody::resolved);
+        let mut slopes = None;
+        if let (Some(energy), Some(OfBody::Formula(formula))) = (&energy, &potential) {
+            let each = [0, 1, 2, R].map(|slot| energy.derivative(slot));
+            if each.iter().any(|slope| slope.operations() > MOST) {
+                let message =
+                    "the derivatives of this potential are too long, by which it is held against the force";
+                return Err(too_intricate(0..formula.text.len(), message));
+            }
+            slopes = Some(Wide::new(&each.each_ref()));
+        }
+        let energy = energy.map(|energy| Wide::new(&[&energy]));
+        Ok(FormulaLaw { force, potential, program, energy, slopes })
+    }
+
+    /// Whether the force depends on the time.
+    pub fn depends_on_time(&self) -> bool {
+        self.program.uses(TIME)
+    }
+
+    /// Whether it depends on charges.
+    pub fn depends_on_charge(&self) -> bool {
+        self.program.uses(CHARGE)
+    }
+
+    /// Whether it depends on masses.
+    pub fn depends_on_mass(&self) -> bool {
+        self.program.uses(MASS)
+    }
+
+    /// Why a force has no finite value for these quantities: the formula, and what is wrong with it; none where all have.
+    pub fn explain(&self, quantities: &[f64]) -> Option<(&BodyFormula, ExpressionError)> {
+        self.force.iter().chain(&self.potential).find_map(|formula| match formula {
+            OfBody::Constant(_) => None,
+            OfBody::Formula(formula) => {
+                formula.resolved.explain_non_finite(quantities).map(|error| (&**formula, error))
+            }
+        })
+    }
+
+    /// The force on a body at rest, and minus the gradient of the potential there, N.
+    pub(super) fn compare(&self, quantities: &[f64]) -> (DVec3, DVec3) {
+        let (mut force, mut gradient) = (DVec3::ZERO, DVec3::ZERO);
+        let fill = |slot: usize, column: &mut [f64]| column[0] = quantities[slot];
+        self.program
+            .run(1, fill, |values: [_; 3]| force = DVec3::from_array(values.map(|value| value.at(0))));
+        if let Some(slopes) = &self.slopes {
+            slopes.run(1, fill, |values: [_; 4]| {
+                let [x, y, z, r] = values.map(|value| value.at(0));
+                let place = DVec3::new(quantities[0], quantities[1], quantities[2]);
+                let outwards = if quantities[R] > 0.0 { place / quantities[R] } else { DVec3::ZERO };
+                gradient = DVec3::new(x, y, z) + r * outwards;
+            });
+        }
+        (force, -gradient)
+    }
+}
+
+/// The quantities of a body of a mass (kg) and a charge (C) at a place (m) with a velocity (m/s) at a time (s).
+pub fn quantities(
+    location: DVec3,
+    velocity: DVec3,
+    mass: f64,
+    charge: f64,
+    time: f64,
+) -> [f64; QUANTITIES.len()] {
+    let ([x, y, z], [vx, vy, vz]) = (location.to_array(), velocity.to_array());
+    [x, y, z, location.length(), mass, charge, vx, vy, vz, velocity.length(), time]
+}
+
+/// The quantities where a force had no value.
+pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES.len()] {
+    quantities(at.location, at.velocity, mass, charge, at.time)
+}
+
+/// Writes a quantity of some bodies.
+fn fill(slot: usize, bodies: &[BodyId], moment: &Moment, at_rest: bool, column: &mut [f64]) {
+    let (state, model) = (moment.state, moment.model);
+    let each = column.iter_mut().zip(bodies.iter().map(|body| body.index()));
+    match slot {
+        TIME => column.fill(moment.time),
+        VX..=SPEED if at_rest => column.fill(0.0),
+        0..3 => each.for_each(|(to, i)| *to = state.location[i][slot]),
+        R => each.for_each(|(to, i)| *to = state.location[i].length()),
+        MASS => each.for_each(|(to, i)| *to = model.mass()[i]),
+        CHARGE => each.for_each(|(to, i)| *to = model.charge()[i]),
+        SPEED => each.for_each(|(to, i)| *to = state.velocity[i].length()),
+        _ => each.for_each(|(to, i)| *to = state.velocity[i][slot - VX]),
+    }
+}
+
+impl ForceLaw for FormulaLaw {
+    fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
+        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, at_rest, column);
+        self.program.run(bodies.len(), fill, |[x, y, z]| {
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = DVec3::new(x.at(lane), y.at(lane), z.at(lane));
+            }
+        });
+    }
+
+    fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]) {
+        let Some(energy) = &self.energy else { return out.fill(0.0) };
+        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, true, column);
+        energy.run(bodies.len(), fill, |[value]| {
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = value.at(lane));
+        });
+    }
+
+    fn has_potential(&self) -> bool {
+        self.potential.is_some()
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        (VX..=SPEED).any(|slot| self.program.uses(slot))
+    }
+}
