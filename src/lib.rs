@@ -7,6 +7,7 @@
 //! | [`scene`] | text → checked [`Scene`] | the scene language; every mistake at its place |
 //! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
 //! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
+//! | [`report`] | scene → how right its run is | how runs are compared; nothing that draws scenes |
 //! | [`picture`] | frames → what their pictures show | camera, lights, arrows, texts, in metres; no program that draws |
 //! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
 //! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
@@ -56,6 +57,7 @@ pub mod picture;
 pub mod preview;
 pub mod random;
 pub mod render;
+pub mod report;
 mod run;
 pub mod sandbox;
 pub mod scene;

@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         if arguments.check {
             result = check(run, folder, &whole, &progress).and(result);
         } else {
-            write(run, folder, &whole, &progress, start)?;
+            write(run, &arguments.scene, folder, &whole, &progress, start)?;
         }
     }
     run_arguments::broken_down(run.recorded(), &whole).and(result)
@@ -66,6 +66,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes the scripts of one camera, and says what they come to.
 fn write(
     run: &Run<'_>,
+    path: &Path,
     folder: &Path,
     selection: &Selection,
     progress: &Progress,
@@ -77,7 +78,7 @@ fn write(
     progress.finish();
     say::edits(&folder);
     say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-    say::result(&summary::summary(run, folder.path(), &written, start.elapsed()));
+    say::result(&summary::summary(run, path, folder.path(), &written, start.elapsed()));
     Ok(())
 }
 

@@ -192,7 +192,7 @@ fn report(error: ExportError, path: &Path) -> Report {
 }
 
 /// Writes a file that appears whole or not at all.
-fn whole<T>(
+pub(super) fn whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<fs::File>) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {

@@ -19,6 +19,7 @@ mod preview;
 mod products;
 mod progress;
 mod render;
+mod report;
 mod run_arguments;
 mod sandbox;
 mod say;
@@ -62,6 +63,7 @@ enum Command {
     Export(export::Arguments),
     Status(status::Arguments),
     Check(check::Arguments),
+    Report(report::Arguments),
     Cache(cache::Arguments),
     Templates(templates::Arguments),
     Explain(explain::Arguments),
@@ -108,6 +110,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Batch(arguments) => batch::run(&arguments),
         Command::Status(arguments) => status::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Cache(arguments) => cache::run(&arguments),
         Command::Templates(arguments) => templates::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),

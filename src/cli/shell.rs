@@ -19,6 +19,11 @@ pub(super) fn path(path: &Path) -> String {
     }
 }
 
+/// A text as one word of a command for bash or zsh.
+pub(super) fn word(text: &str) -> String {
+    path(Path::new(text))
+}
+
 /// A piece of a word between `$'` and `'`.
 fn ansi_c(chunk: &std::str::Utf8Chunk<'_>) -> String {
     let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();

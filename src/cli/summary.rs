@@ -11,8 +11,17 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// What was written, and how right it is.
-pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Duration) -> String {
+/// From this drift on, a summary says how to find out how right the run is.
+const DOUBTFUL: f64 = 0.01;
+
+/// What was written, and how right it is. `path` is that of the scene.
+pub(super) fn summary(
+    run: &Run<'_>,
+    path: &Path,
+    folder: &Path,
+    written: &Written,
+    took: Duration,
+) -> String {
     let scene = run.scene();
     let survey = run.survey();
     let frames = scene.simulation.frames();
@@ -41,6 +50,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
          {unit}\
          {blur}\
          written   {bytes} in {seconds:.2} s\n\
+         {report}\
          render    jabuka render {word}\n",
         folder = visible_path(folder),
         word = shell::path(folder),
@@ -56,6 +66,7 @@ pub(super) fn summary(run: &Run<'_>, folder: &Path, written: &Written, took: Dur
             .zip(scene.simulation.contacts)
             .map(|(totals, law)| contacts(totals, law))
             .unwrap_or_default(),
+        report = report(scene, path, survey.drift),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
     )
@@ -72,6 +83,15 @@ fn particles(scene: &Scene) -> String {
 /// How right a run is.
 pub(super) fn drift(drift: f64) -> String {
     format!("drift     {} of the largest kinetic energy\n", percent(drift))
+}
+
+/// The command that says how right the run is, where the drift is large.
+fn report(scene: &Scene, path: &Path, drift: f64) -> String {
+    if drift.abs() <= DOUBTFUL {
+        return String::new();
+    }
+    let set = scene.overrides.iter().map(|value| format!(" --set {}", shell::word(value)));
+    format!("how right jabuka report {}{}\n", shell::path(path), set.collect::<String>())
 }
 
 /// How many impacts there have been, and what contacts have taken.

@@ -57,7 +57,7 @@ impl Labour {
 }
 
 /// How often a method evaluates the forces in a step, by trying it.
-fn evaluations(method: &'static Method) -> u64 {
+pub fn evaluations(method: &'static Method) -> u64 {
     struct Counting(Arc<AtomicU64>);
 
     impl Force for Counting {

@@ -10,6 +10,7 @@
 //! | the run as it is computed | `simulation` |
 //! | all of its moments, to be read in any order | `recording`, `record` |
 //! | one frame after another, with what has been before | `frames`, `past`, `lag` |
+//! | one frame after another, and nothing else | `snapshots` |
 //! | the particles that emitters send out | `particles` |
 //! | what is seen while a shutter is open | `exposure` |
 //! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
@@ -32,6 +33,7 @@ mod record;
 mod recording;
 mod selection;
 mod simulation;
+mod snapshots;
 mod span;
 mod survey;
 #[cfg(test)]
@@ -49,7 +51,7 @@ pub use exposure::Exposure;
 pub use frame::Frame;
 pub use frames::{Frames, within};
 pub use impacts::ImpactCounts;
-pub use labour::Labour;
+pub use labour::{Labour, evaluations};
 pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
 pub use moments::Moments;
@@ -60,6 +62,7 @@ pub use reach::Reach;
 pub use record::{Checkpoint, Recorded, Recorder};
 pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
+pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
 pub use survey::{ContactTotals, Corrected, Crossing, Survey, Surveyor, survey};
 pub(crate) use vectors::anchors;

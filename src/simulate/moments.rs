@@ -38,6 +38,11 @@ impl Moments {
         Moments { intervals, shutters: Vec::new(), others: Vec::new(), frames, frame_rate }
     }
 
+    /// None: the frames alone.
+    pub(super) fn none(scene: &Scene) -> Moments {
+        Moments { intervals: Vec::new(), ..Moments::of_ghosts(scene) }
+    }
+
     /// The same, and a time (s), from which on the shutters open, too.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {

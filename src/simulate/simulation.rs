@@ -54,6 +54,11 @@ impl<'a> Simulation<'a> {
         done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }
 
+    /// The number of timesteps that have been made.
+    pub(super) fn steps(&self) -> u64 {
+        self.dynamics.steps()
+    }
+
     /// The present moment as bytes, from which [`resume`](Self::resume) goes on; none where that is not possible.
     pub(super) fn checkpoint(&mut self) -> Option<Vec<u8>> {
         if !self.waiting.is_empty() || self.next > self.intervals {

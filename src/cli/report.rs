@@ -1,0 +1,151 @@
+//! `jabuka report`: how right is the run of a scene?
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use clap::ValueEnum;
+use jabuka::Scene;
+use jabuka::diagnostic::visible_path;
+use jabuka::export::ExportError;
+use jabuka::output::OutputError;
+use jabuka::overwrite::Kept;
+use jabuka::report::plot::{Picture, png, svg};
+use jabuka::report::{ACCURACY, Assessment, Phase, assess};
+
+use super::export::whole;
+use super::progress::Progress;
+use super::scene_arguments::SceneArguments;
+use super::{Failure, interrupt, say};
+
+/// Find out how right the run of a scene is, and which method and step reach a wanted accuracy
+///
+/// The run is compared with itself at half and at a quarter of its step, and with a twin that begins a hair elsewhere. Then other
+/// methods and steps are tried. This takes about ten times as long as the run, or two seconds. Nothing is written but the plot.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// The accuracy that is wanted: how far any point of a body may be from where it should be, as a part of the size of the scene.
+    /// 0.001 is about a pixel
+    #[arg(long, value_name = "PART", default_value_t = ACCURACY, value_parser = parse_accuracy)]
+    accuracy: f64,
+    /// Draw the drift of the energy, the error and the distance of neighbours over time: FILE.svg or FILE.png
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// How it is shown
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    #[command(flatten)]
+    of_scene: SceneArguments,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Text,
+    /// For programs: an object
+    Json,
+}
+
+/// What a plot can be written as.
+#[derive(Clone, Copy)]
+enum Plot {
+    Svg,
+    Png,
+}
+
+impl Plot {
+    /// The format that the ending of a file's name says.
+    fn of(path: &Path) -> Result<Plot, Failure> {
+        let extension = path.extension().unwrap_or_default();
+        if extension.eq_ignore_ascii_case("svg") {
+            Ok(Plot::Svg)
+        } else if extension.eq_ignore_ascii_case("png") {
+            Ok(Plot::Png)
+        } else {
+            let shown = visible_path(path);
+            Err(Failure::Usage(format!("a plot is an `.svg` or a `.png`, and `{shown}` ends in neither")))
+        }
+    }
+}
+
+fn parse_accuracy(argument: &str) -> Result<f64, String> {
+    match argument.parse() {
+        Ok(part) if (1e-12..=0.5).contains(&part) => Ok(part),
+        _ => Err("it is a part of the size of the scene, from 1e-12 to 0.5, as in 1e-3".to_owned()),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    /// What the bar counts of each of the two phases.
+    const STEPS: usize = 500;
+    let stop = interrupt::watched();
+    let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;
+    let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
+    if let Some((path, _)) = plot {
+        say::spared(Kept::of_scene(&scene).check(path))?;
+    }
+    let progress = Progress::new(2 * STEPS);
+    let mut done = 0;
+    let assessed = assess(&scene, arguments.accuracy, &mut |phase, part| {
+        let (what, before) = match phase {
+            Phase::Comparing => ("comparing", 0),
+            Phase::Trying => ("trying", STEPS),
+        };
+        progress.phase(what);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is a part of few steps")]
+        let now = before + (part * STEPS as f64) as usize;
+        while done < now {
+            progress.step();
+            done += 1;
+        }
+        !stop.load(Ordering::Relaxed)
+    });
+    progress.finish();
+    let Ok(assessment) = assessed else {
+        say::error("stopped\n");
+        return Err(Failure::Interrupted);
+    };
+    match arguments.format {
+        Format::Text => say::result(&assessment.to_text(&visible_path(&arguments.scene).to_string())),
+        Format::Json => match serde_json::to_string_pretty(&assessment) {
+            Ok(text) => say::json(&format!("{text}\n")),
+            Err(error) => return Err(Failure::Usage(error.to_string())),
+        },
+    }
+    match plot {
+        Some((path, format)) => draw(&assessment, &scene, path, format, arguments.format),
+        None => Ok(()),
+    }
+}
+
+/// Writes the plot, and says so where people read.
+fn draw(
+    assessment: &Assessment,
+    scene: &Scene,
+    path: &Path,
+    plot: Plot,
+    format: Format,
+) -> Result<(), Failure> {
+    let title = scene.title.as_deref().unwrap_or(&scene.name);
+    let Some(picture) = Picture::of(assessment, title) else {
+        say::error("nothing is integrated, so there is no plot\n");
+        return Err(Failure::Errors);
+    };
+    let written = whole(path, |mut file| {
+        match plot {
+            Plot::Svg => file.write_all(svg(&picture).as_bytes())?,
+            Plot::Png => file.write_all(&png(&picture).map_err(std::io::Error::from)?)?,
+        }
+        file.flush().map_err(ExportError::from)
+    });
+    if let Err(ExportError::Io(error)) = written {
+        say::report(&OutputError::Io(path.to_owned(), error).report());
+        return Err(Failure::Errors);
+    }
+    if format == Format::Text {
+        say::result(&format!("plot      {}\n", visible_path(path)));
+    }
+    Ok(())
+}

@@ -1,0 +1,205 @@
+//! The run beside itself: at half and at a quarter of its step, and beside a twin that begins a hair elsewhere.
+
+use glam::DVec3;
+
+use super::Stopped;
+use super::lockstep::{Ended, Track, Watch, together};
+use super::measure::{Distance, Measured, union};
+use super::neighbours::displaced;
+use super::setting::Setting;
+use crate::dynamics::{Accounts, Snapshot};
+use crate::scene::Scene;
+
+/// What is seen at a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Moment {
+    /// s
+    pub(super) time: f64,
+    /// How far any point of a body is at most from where half the step has it, m; none after the end of either.
+    pub(super) off: Option<f64>,
+    /// The sums of the squares of the distances of all bodies: from half the step, and from there to a quarter, m².
+    pub(super) squares: Option<[f64; 2]>,
+    /// The error of the energy, J.
+    pub(super) energy: f64,
+    /// By how much linear and angular momentum have changed: in the run, and at half the step.
+    pub(super) changed: [[f64; 2]; 2],
+    /// The twin: mean squares of the distances of places (m²), of velocities, and of orientations.
+    pub(super) apart: Option<[f64; 3]>,
+}
+
+/// What the run, and the same at smaller steps, come to.
+#[derive(Debug, Default)]
+pub(super) struct Compared {
+    pub(super) moments: Vec<Moment>,
+    /// For each body: where it is off most in place and in orientation, the time at which a point of it is off most, and how far it
+    /// travels, m.
+    pub(super) bodies: Vec<Off>,
+    /// The diagonal of the box in which bodies move, m, by the finest run.
+    pub(super) size: f64,
+    /// The fastest that a body is, m/s.
+    pub(super) fastest: f64,
+    pub(super) largest_kinetic: f64,
+    /// The largest sums of the magnitudes of all momenta.
+    pub(super) momenta: [f64; 2],
+    /// What the accounts of energy hold at the end of the run.
+    pub(super) accounts: Accounts,
+    /// The runs at the step, its half, its quarter, and the twin, as far as they broke down.
+    pub(super) ended: [Option<Ended>; 4],
+    pub(super) steps: [u64; 3],
+    /// The error of the energy where it is largest at half the step, over the largest kinetic energy.
+    pub(super) drift_at_half: f64,
+    /// The largest distance of the runs at half and at a quarter of the step, m.
+    pub(super) off_at_half: f64,
+}
+
+/// How far off a body is at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Off {
+    pub(super) most: Distance,
+    pub(super) time: f64,
+    pub(super) way: f64,
+}
+
+/// Where and how bodies are when they are seen first.
+struct Seen {
+    before: Vec<Option<DVec3>>,
+    momenta: Option<[[DVec3; 2]; 2]>,
+    boxes: [Option<[DVec3; 2]>; 3],
+    kinetic: [f64; 2],
+    energy_at_half: f64,
+}
+
+/// Makes these runs.
+pub(super) fn compare(
+    scene: &Scene,
+    own: Setting,
+    measured: &Measured,
+    watch: &mut Watch<'_>,
+) -> Result<Compared, Stopped> {
+    let settings = [own, own.finer(2), own.finer(4)];
+    let mut scenes: Vec<Scene> = settings.iter().map(|setting| setting.applied(scene, own)).collect();
+    scenes.push(displaced(scene, measured));
+    let frames = scene.simulation.frames().max(1);
+    #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
+    let costs = settings.iter().chain([&own]).map(|setting| setting.cost(scene) / frames as f64);
+    let mut tracks: Vec<Track<'_>> =
+        scenes.iter().zip(costs).map(|(scene, cost)| Track::new(scene, cost)).collect();
+    let mut found = Compared { bodies: vec![Off::default(); measured.bodies.len()], ..Compared::default() };
+    let mut seen = Seen {
+        before: vec![None; measured.bodies.len()],
+        momenta: None,
+        boxes: [None; 3],
+        kinetic: [0.0; 2],
+        energy_at_half: 0.0,
+    };
+    together(&mut tracks, scene, watch, &mut |moments| found.see(measured, &mut seen, moments))?;
+    let size = |found: &[DVec3; 2]| (found[1] - found[0]).length();
+    found.size = seen.boxes.iter().flatten().last().map_or(0.0, size);
+    found.drift_at_half =
+        if seen.kinetic[1] > 0.0 { seen.energy_at_half / seen.kinetic[1] } else { 0.0 };
+    found.steps = [0, 1, 2].map(|track| tracks[track].steps());
+    let mut ended = tracks.into_iter().map(|track| track.ended);
+    found.ended = std::array::from_fn(|_| ended.next().flatten());
+    Ok(found)
+}
+
+impl Compared {
+    fn see(&mut self, measured: &Measured, seen: &mut Seen, moments: &[Option<Snapshot>]) {
+        let [run, half, quarter, twin] = moments else { return };
+        for (kept, moment) in seen.boxes.iter_mut().zip([run, half, quarter]) {
+            let here = moment.as_ref().and_then(|moment| measured.around(moment));
+            // A finer run that ends early does not say how large all is.
+            *kept = match (*kept, here) {
+                (Some(kept), Some(here)) => Some(union(kept, here)),
+                (kept, here) => kept.or(here),
+            };
+        }
+        if let Some(half) = half {
+            seen.kinetic[1] = seen.kinetic[1].max(half.balance.kinetic);
+            let error = half.balance.drift * seen.kinetic[1];
+            if error.abs() > seen.energy_at_half.abs() {
+                seen.energy_at_half = error;
+            }
+        }
+        let Some(run) = run else { return };
+        seen.kinetic[0] = seen.kinetic[0].max(run.balance.kinetic);
+        self.largest_kinetic = seen.kinetic[0];
+        self.accounts = run.balance.accounts;
+        let mut moment =
+            Moment { time: run.time, energy: run.balance.drift * seen.kinetic[0], ..Moment::default() };
+        self.see_ways(measured, seen, run);
+        if let Some(half) = half {
+            moment.off = Some(self.see_off(measured, [run, half]));
+            let [of_run, of_half] =
+                [run, half].map(|at| [at.balance.linear_momentum, at.balance.angular_momentum]);
+            let [first, first_of_half] = *seen.momenta.get_or_insert([of_run, of_half]);
+            moment.changed = [
+                [0, 1].map(|kind| (of_run[kind] - first[kind]).length()),
+                [0, 1].map(|kind| (of_half[kind] - first_of_half[kind]).length()),
+            ];
+            let momenta = measured.momenta(run);
+            self.momenta = [0, 1].map(|kind| self.momenta[kind].max(momenta[kind]));
+            if let Some(quarter) = quarter {
+                let squares = |one, two| {
+                    points(measured, [one, two]).fold((0.0, 0.0_f64), |(sum, most), (_, distance)| {
+                        (sum + distance.point * distance.point, most.max(distance.point))
+                    })
+                };
+                let (coarse, fine) = (squares(run, half), squares(half, quarter));
+                moment.squares = Some([coarse.0, fine.0]);
+                self.off_at_half = self.off_at_half.max(fine.1);
+            }
+        }
+        moment.apart = twin.as_ref().map(|twin| apart(measured, [run, twin]));
+        self.moments.push(moment);
+    }
+
+    fn see_ways(&mut self, measured: &Measured, seen: &mut Seen, run: &Snapshot) {
+        for (body, &id) in measured.bodies.iter().enumerate() {
+            let now = run.body(id);
+            if let (Some(now), Some(before)) = (now, seen.before[body]) {
+                self.bodies[body].way += (now.location - before).length();
+            }
+            seen.before[body] = now.map(|now| now.location);
+            self.fastest = self.fastest.max(now.map_or(0.0, |now| now.velocity.length()));
+        }
+    }
+
+    /// How far any point of a body is off at most at a moment, m.
+    fn see_off(&mut self, measured: &Measured, moments: [&Snapshot; 2]) -> f64 {
+        let mut most = 0.0_f64;
+        for (body, distance) in points(measured, moments) {
+            let off = &mut self.bodies[body];
+            if distance.point > off.most.point {
+                off.time = moments[0].time;
+            }
+            off.most.place = off.most.place.max(distance.place);
+            off.most.angle = off.most.angle.max(distance.angle);
+            off.most.point = off.most.point.max(distance.point);
+            most = most.max(distance.point);
+        }
+        most
+    }
+}
+
+/// How far the bodies of two moments are apart, each with its number among those that are compared.
+pub(super) fn points<'s>(
+    measured: &'s Measured,
+    moments: [&'s Snapshot; 2],
+) -> impl Iterator<Item = (usize, Distance)> + 's {
+    (0..measured.bodies.len())
+        .filter_map(move |body| Some((body, measured.distance(body, measured.pair(body, moments)?))))
+}
+
+/// Mean squares of how far two moments are apart: in places (m²), velocities and orientations.
+fn apart(measured: &Measured, moments: [&Snapshot; 2]) -> [f64; 3] {
+    let (mut sums, mut count) = ([0.0; 3], 0.0);
+    for body in 0..measured.bodies.len() {
+        let Some(pair) = measured.pair(body, moments) else { continue };
+        let Distance { place, angle, .. } = measured.distance(body, pair);
+        let faster = (pair[0].velocity - pair[1].velocity).length_squared();
+        sums = [sums[0] + place * place, sums[1] + faster, sums[2] + angle * angle];
+        count += 1.0;
+    }
+    sums.map(|sum| if count > 0.0 { sum / count } else { 0.0 })
+}

@@ -1,0 +1,92 @@
+//! Several runs that advance side by side, so that they can be compared and none has to be kept.
+
+use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+
+use super::Stopped;
+use crate::dynamics::Snapshot;
+use crate::scene::Scene;
+use crate::simulate::{SimulateError, Snapshots};
+
+/// Told how much has been computed, in evaluations of the forces; false where somebody wants to stop.
+pub type Watch<'a> = dyn FnMut(f64) -> bool + 'a;
+
+/// Why and when a run ended before its last frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ended {
+    /// The time of the last frame before, s; none: there was no frame.
+    pub after: Option<f64>,
+    /// Why.
+    pub why: SimulateError,
+}
+
+/// A run that is compared with others.
+pub(super) struct Track<'a> {
+    snapshots: Snapshots<'a>,
+    /// What has been computed and not been seen.
+    waiting: std::collections::VecDeque<Snapshot>,
+    pub(super) ended: Option<Ended>,
+    last: Option<f64>,
+    /// What an interval between two frames takes, in evaluations of the forces.
+    cost: f64,
+}
+
+impl<'a> Track<'a> {
+    /// The run of a scene, which takes so many evaluations of the forces for each frame.
+    pub(super) fn new(scene: &'a Scene, cost: f64) -> Track<'a> {
+        let waiting = std::collections::VecDeque::new();
+        Track { snapshots: Snapshots::new(scene), waiting, ended: None, last: None, cost }
+    }
+
+    /// How many timesteps have been made.
+    pub(super) fn steps(&self) -> u64 {
+        self.snapshots.steps()
+    }
+
+    fn advance(&mut self, frames: usize) {
+        for _ in 0..frames {
+            if self.ended.is_some() {
+                return;
+            }
+            match self.snapshots.next() {
+                Some(Ok(snapshot)) => {
+                    self.last = Some(snapshot.time);
+                    self.waiting.push_back(snapshot);
+                }
+                Some(Err(why)) => self.ended = Some(Ended { after: self.last, why }),
+                None => return,
+            }
+        }
+    }
+}
+
+/// Advances runs of a scene to its end; `see` is told of each frame, as far as each run has it.
+pub(super) fn together(
+    tracks: &mut [Track<'_>],
+    scene: &Scene,
+    watch: &mut Watch<'_>,
+    see: &mut dyn FnMut(&[Option<Snapshot>]),
+) -> Result<(), Stopped> {
+    /// So many bodies wait to be seen.
+    const ROOM: usize = 4096;
+    let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
+    let mut done = 0;
+    while done < frames && tracks.iter().any(|track| track.ended.is_none()) {
+        let now = room.min(frames - done);
+        tracks.par_iter_mut().for_each(|track| track.advance(now));
+        for _ in 0..now {
+            let seen: Vec<Option<Snapshot>> =
+                tracks.iter_mut().map(|track| track.waiting.pop_front()).collect();
+            if seen.iter().any(Option::is_some) {
+                see(&seen);
+            }
+        }
+        done += now;
+        let cost: f64 = tracks.iter().map(|track| track.cost).sum();
+        #[allow(clippy::cast_precision_loss, reason = "there are at most 64")]
+        let cost = cost * now as f64;
+        if !watch(cost) {
+            return Err(Stopped);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,126 @@
+//! How far two runs of a scene are apart.
+
+use glam::{DQuat, DVec3};
+
+use crate::dynamics::{BodySnapshot, Shape, Snapshot};
+use crate::scene::Scene;
+
+/// What is compared of a scene: the bodies that forces move.
+pub(super) struct Measured {
+    /// The numbers of these bodies in the scene.
+    pub(super) bodies: Vec<usize>,
+    /// For each of them, how far its farthest point is from its centre, m; 0 for a ball, which looks the same however it is turned.
+    reach: Vec<f64>,
+    /// The radius of a ball around each of them, m.
+    radius: Vec<f64>,
+    mass: Vec<f64>,
+    inertia: Vec<f64>,
+}
+
+/// How far a body is from where another run has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Distance {
+    /// Of the centres, m.
+    pub(super) place: f64,
+    /// The angle between the two orientations, rad.
+    pub(super) angle: f64,
+    /// Of any point of the body at most, m.
+    pub(super) point: f64,
+}
+
+impl Measured {
+    /// The bodies of a scene that forces move.
+    pub(super) fn of(scene: &Scene) -> Measured {
+        let moves = |id: &usize| {
+            let body = &scene.bodies[*id];
+            !body.start.fixed && body.motion.is_none() && body.start.mass > 0.0
+        };
+        let bodies: Vec<usize> = (0..scene.bodies.len()).filter(moves).collect();
+        let of = |get: &dyn Fn(usize) -> f64| bodies.iter().map(|&id| get(id)).collect();
+        let radius: Vec<f64> = of(&|id| scene.bodies[id].shape.bounding_radius().unwrap_or_default());
+        let is_ball = |id: usize| matches!(scene.bodies[id].shape, Shape::Sphere { .. });
+        let reach = bodies.iter().zip(&radius).map(|(&id, r)| if is_ball(id) { 0.0 } else { *r }).collect();
+        let mass = of(&|id| scene.bodies[id].start.mass);
+        let inertia = of(&|id| scene.bodies[id].start.inertia.max_element());
+        Measured { reach, radius, mass, inertia, bodies }
+    }
+
+    /// A body of two moments, by its number among those that are compared; none where it is away.
+    pub(super) fn pair<'s>(
+        &self,
+        body: usize,
+        moments: [&'s Snapshot; 2],
+    ) -> Option<[&'s BodySnapshot; 2]> {
+        let id = *self.bodies.get(body)?;
+        let [one, two] = moments.map(|moment| moment.body(id));
+        Some([one?, two?])
+    }
+
+    /// How far a body of two moments is apart.
+    pub(super) fn distance(&self, body: usize, [one, two]: [&BodySnapshot; 2]) -> Distance {
+        let place = (one.location - two.location).length();
+        let angle = angle(one.orientation, two.orientation);
+        Distance { place, angle, point: place + angle * self.reach[body] }
+    }
+
+    /// The box around the bodies of a moment; none where there is none.
+    pub(super) fn around(&self, moment: &Snapshot) -> Option<[DVec3; 2]> {
+        let places = self.bodies.iter().zip(&self.radius).filter_map(|(&id, radius)| {
+            let place = moment.body(id)?.location;
+            Some([place - *radius, place + *radius])
+        });
+        places.reduce(union)
+    }
+
+    /// The largest that linear and angular momentum could be as bodies move: if all momenta had one direction.
+    pub(super) fn momenta(&self, moment: &Snapshot) -> [f64; 2] {
+        let (mut linear, mut angular) = (0.0, 0.0);
+        for (body, &id) in self.bodies.iter().enumerate() {
+            let Some(at) = moment.body(id) else { continue };
+            let momentum = self.mass[body] * at.velocity;
+            linear += momentum.length();
+            angular +=
+                at.location.cross(momentum).length() + self.inertia[body] * at.angular_velocity.length();
+        }
+        [linear, angular]
+    }
+}
+
+/// The box around two boxes.
+pub(super) fn union([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> [DVec3; 2] {
+    [a.min(c), b.max(d)]
+}
+
+/// The angle of the turn from one orientation to another, rad; exact also where it is tiny.
+fn angle(one: DQuat, two: DQuat) -> f64 {
+    let turn = one.conjugate() * two;
+    2.0 * libm::atan2(turn.xyz().length(), turn.w.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tiny_turn_has_its_angle() {
+        for expected in [0.0, 1e-12, 1e-3, 1.0, 3.0] {
+            let found = angle(DQuat::from_rotation_x(0.3), -DQuat::from_rotation_x(0.3 + expected));
+            assert!((found - expected).abs() < 1e-15 + 1e-15 * expected, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn only_what_forces_move_is_compared_and_a_ball_may_turn() {
+        let text = "[body.ball]\nshape.sphere.radius = 1\n[body.box]\nshape.box.size = [2, 2, 2]\n\
+                    [body.rock]\nshape.sphere.radius = 1\nfixed = true\n\
+                    [body.lift]\nshape.sphere.radius = 1\nmotion.formula.location = ['t', 0, 0]\n";
+        let scene = Scene::parse(text).unwrap();
+        let measured = Measured::of(&scene);
+        assert_eq!(measured.bodies, [0, 1]);
+        let one = BodySnapshot::default();
+        let two = BodySnapshot { location: DVec3::X, orientation: DQuat::from_rotation_y(0.1), ..one };
+        let points = [0, 1].map(|body| measured.distance(body, [&one, &two]).point);
+        assert!((points[0] - 1.0).abs() < 1e-15);
+        assert!((points[1] - (1.0 + 0.1 * 3.0_f64.sqrt())).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,134 @@
+//! How right a run is: the run beside itself at smaller steps, beside a twin that begins a hair elsewhere, and by other methods.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | a method and its step, as they are tried and written | `setting` |
+//! | several runs side by side, frame by frame | `lockstep` |
+//! | how far two moments are apart | `measure` |
+//! | the run, half its step, a quarter of it, and the twin | `compare` |
+//! | error, order, momenta, how long the film is right | `verdict` |
+//! | how fast neighbours part | `neighbours` |
+//! | which step and method reach an accuracy | `trials` |
+//! | all of it as text, and as a picture | `text`, `plot` |
+//!
+//! The error is Richardson's estimate: with a method of order p, a run at the step h is off by about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1)
+//! (E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). Nothing is kept of the runs: memory
+//! does not grow with them, but for some numbers a frame.
+
+mod compare;
+mod lockstep;
+mod measure;
+mod neighbours;
+pub mod plot;
+mod setting;
+#[cfg(test)]
+mod tests;
+mod text;
+mod trials;
+mod verdict;
+
+use serde::Serialize;
+
+use self::measure::Measured;
+use self::setting::Setting;
+use self::trials::Goal;
+use self::verdict::Verdict;
+use crate::scene::Scene;
+
+pub use lockstep::{Ended, Watch};
+pub use neighbours::Parting;
+pub use trials::{Trial, Untried};
+pub use verdict::{BodyError, Conserved, Order, Trusted};
+
+/// The accuracy that is wanted where nobody says another: about a pixel of an image.
+pub const ACCURACY: f64 = 1e-3;
+
+/// That somebody has stopped it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped;
+
+/// How right a run is.
+#[derive(Clone, Debug, Serialize)]
+pub struct Assessment {
+    /// The name of the method.
+    pub integrator: &'static str,
+    /// Its order.
+    pub order: u32,
+    /// The timestep, s.
+    pub timestep: f64,
+    /// The timesteps from one frame to the next.
+    pub steps_per_frame: u32,
+    /// How many bodies are moved by forces. Where there are none, nothing is integrated, and nothing else is known.
+    pub bodies_moved: usize,
+    /// The time of the last frame, s.
+    pub end: f64,
+    /// What is known of the run; none where nothing is integrated.
+    pub verdict: Option<Verdict>,
+    /// The accuracy that is wanted, as a part of the size of the scene.
+    pub accuracy: f64,
+    /// The methods and steps that were tried.
+    pub trials: Vec<Trial>,
+    /// The number of the trial that reaches the accuracy with the fewest evaluations of the forces.
+    pub recommended: Option<usize>,
+    /// The methods that were not tried, or not as finely as they would have to be.
+    pub untried: Vec<Untried>,
+    /// Whether there are particles, of which nothing is known.
+    pub has_particles: bool,
+}
+
+/// What is being done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The run is compared with itself at smaller steps.
+    Comparing,
+    /// Other steps and methods are tried.
+    Trying,
+}
+
+/// Finds out how right the run of a scene is. `watch` is told what is being done, and which part of that; where it answers false, all
+/// ends.
+///
+/// # Errors
+/// Where `watch` has ended it.
+pub fn assess(
+    scene: &Scene,
+    accuracy: f64,
+    watch: &mut dyn FnMut(Phase, f64) -> bool,
+) -> Result<Assessment, Stopped> {
+    let (own, measured) = (Setting::of(scene), Measured::of(scene));
+    let mut assessment = Assessment {
+        integrator: own.method.name,
+        order: own.method.order,
+        timestep: own.timestep(scene),
+        steps_per_frame: own.steps,
+        bodies_moved: measured.bodies.len(),
+        end: scene.simulation.end(),
+        verdict: None,
+        accuracy,
+        trials: Vec::new(),
+        recommended: None,
+        untried: Vec::new(),
+        has_particles: !scene.emitters.is_empty(),
+    };
+    if measured.bodies.is_empty() || scene.simulation.frames() < 2 {
+        return Ok(assessment);
+    }
+    let (mut done, all) = (0.0, 8.0 * own.cost(scene));
+    let compared = compare::compare(scene, own, &measured, &mut |cost| {
+        done += cost;
+        watch(Phase::Comparing, (done / all).min(1.0))
+    })?;
+    let verdict = Verdict::of(scene, own, &measured, &compared, accuracy);
+    let size = if verdict.knows_the_size() { verdict.size } else { 0.0 };
+    let goal = Goal { scene, measured: &measured, own, accuracy, order: verdict.order, size };
+    let (mut done, all) = (0.0, goal.budget());
+    let trials = goal.search(verdict.known(scene, own, &compared), &mut |cost| {
+        done += cost;
+        watch(Phase::Trying, (done / all).min(1.0))
+    })?;
+    assessment.recommended = trials::cheapest(&trials.tried);
+    assessment.verdict = Some(verdict);
+    assessment.trials = trials.tried;
+    assessment.untried = trials.untried;
+    Ok(assessment)
+}

@@ -1,0 +1,229 @@
+//! How fast neighbours part: a twin of the run begins a hair beside it, and the growth of their distance tells regular motion from
+//! chaos.
+//!
+//! The two are told apart by MEGNO, the mean exponential growth of nearby orbits (P. M. Cincotta, C. Simó, *Astronomy and
+//! Astrophysics Supplement* 147, 205, 2000): with the distance d, Y(t) = (2/t) ∫ (ḋ/d) s ds, and its mean over time. Where d
+//! grows like tⁿ, Y is 2n, so 2 for most regular motion; where it grows like exp(λt), the mean of Y is λt/2.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::measure::Measured;
+use crate::scene::Scene;
+
+/// How far the twin begins beside the run, as a part of the size of the scene.
+pub(super) const APART: f64 = 1e-9;
+
+/// From this part of the size of the scene on, neighbours are no neighbours any more.
+const FAR: f64 = 0.02;
+
+/// Above this mean of Y the motion is chaotic: a distance that grows like t² has 4.
+const CHAOTIC: f64 = 5.0;
+
+/// Below this it is regular.
+const REGULAR: f64 = 3.5;
+
+/// Neighbours that get so many times farther apart do not part regularly, whatever the mean of Y.
+const LARGE: f64 = 1e4;
+
+/// How neighbours part.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Parting {
+    /// Nothing could be displaced, or too few frames were seen.
+    Unknown,
+    /// No faster than in regular motion.
+    Regular {
+        /// How many times their first distance they are apart at the end.
+        growth: f64,
+    },
+    /// Faster than in regular motion; the run is too short to tell whether it goes on so.
+    Unclear {
+        /// How many times their first distance they are apart at the end.
+        growth: f64,
+    },
+    /// Within a short time: impacts tear them apart.
+    Sudden {
+        /// When they are no neighbours any more, s.
+        time: f64,
+    },
+    /// Exponentially.
+    Chaotic {
+        /// The time in which the distance grows by the factor e, s.
+        lyapunov_time: f64,
+        /// The time in which it doubles, s.
+        doubling_time: f64,
+    },
+}
+
+/// The scene of the twin: what forces move begins a hair elsewhere and a hair faster. Where bodies touch, only faster, so that
+/// none begins within another. A motion in a plane stays in it.
+pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
+    let mut twin = scene.clone();
+    let starts = || scene.bodies.iter().map(|body| body.start.location);
+    let Some(min) = starts().reduce(DVec3::min) else { return twin };
+    let max = starts().fold(min, DVec3::max);
+    let end = scene.simulation.end();
+    let fastest = scene.bodies.iter().map(|body| body.start.velocity.length()).fold(0.0, f64::max);
+    let widest = scene.bodies.iter().filter_map(|body| body.shape.bounding_radius()).fold(0.0, f64::max);
+    let pull = scene.simulation.gravity.length();
+    // How fast things get is only known later: an order of magnitude is enough.
+    let size = match (max - min).length() {
+        0.0 => widest + (fastest + pull * end) * end,
+        size => size,
+    };
+    let free = axes_of_motion(scene, measured);
+    let (apart, touches) = (APART * size, scene.simulation.contacts.is_some());
+    for (number, &id) in measured.bodies.iter().enumerate() {
+        let start = &mut twin.bodies[id].start;
+        if !touches {
+            start.location += apart * direction(3 * number, free);
+        }
+        let faster = apart / end;
+        start.velocity += faster * direction(3 * number + 1, free);
+        // In a plane, bodies turn about its normal alone.
+        let about = if free == DVec3::ONE { free } else { DVec3::ONE - free };
+        start.angular_velocity += APART / end * direction(3 * number + 2, about);
+    }
+    twin
+}
+
+/// The axes of a motion in a plane: those along which something moves, is pulled, or differs in place: 1 each, and 0 for the other.
+/// All are 1 where the motion is in no plane.
+fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
+    let mut free = DVec3::ZERO;
+    let mut first = None;
+    for &id in &measured.bodies {
+        let start = &scene.bodies[id].start;
+        let from = start.location - *first.get_or_insert(start.location);
+        // Only a body that is turned or turns about one axis stays in a plane.
+        let turns = start.angular_velocity;
+        let in_plane = DVec3::new(turns.y.abs() + turns.z.abs(), turns.x.abs() + turns.z.abs(), 0.0)
+            + DVec3::Z * (turns.x.abs() + turns.y.abs());
+        free += from.abs() + start.velocity.abs() + start.force.abs() + in_plane;
+    }
+    free += scene.simulation.gravity.abs();
+    let free = DVec3::from_array(free.to_array().map(|extent| f64::from(u8::from(extent > 0.0))));
+    // What follows a given motion may lead others anywhere, and what moves along a line is in many planes.
+    let is_led = scene.bodies.iter().any(|body| body.motion.is_some());
+    if is_led || free.element_sum() < 2.0 { DVec3::ONE } else { free }
+}
+
+/// Directions that are spread over the sphere, in the axes that are free; the same on every run.
+fn direction(number: usize, free: DVec3) -> DVec3 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    #[allow(clippy::cast_precision_loss, reason = "any number will do")]
+    let part = (number as f64 + 0.5) * GOLDEN % 1.0;
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * (17.0 * part % 1.0));
+    let height = 1.8 * part - 0.9;
+    let around = (1.0 - height * height).sqrt();
+    (DVec3::new(around * cos, height, around * sin) * free).normalize_or_zero()
+}
+
+/// How neighbours part whose distances are these at these times, s; a distance of 1 is the size of the scene. And the
+/// mean of Y, which is 0 where nothing is known.
+pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
+    /// So few moments tell nothing.
+    const FEW: usize = 8;
+    let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
+    let begin = distances.iter().position(|distance| *distance > 0.0).unwrap_or(near);
+    let seen: Vec<(f64, f64)> = (begin..near)
+        .filter(|&k| distances[k] > 0.0)
+        .map(|k| (times[k] - times[begin], libm::log(distances[k])))
+        .collect();
+    let (Some(first), Some(last)) = (seen.first(), seen.last()) else { return (Parting::Unknown, 0.0) };
+    if seen.len() < FEW {
+        return (Parting::Unknown, 0.0);
+    }
+    let growth = libm::exp(last.1 - first.1);
+    let ((mean, late), slope) = (megno(&seen), slope(&seen));
+    let found = if mean > CHAOTIC && slope > 0.0 {
+        Parting::Chaotic { lyapunov_time: 1.0 / slope, doubling_time: std::f64::consts::LN_2 / slope }
+    } else if near < distances.len() && growth > LARGE {
+        Parting::Sudden { time: times[near] }
+    } else if mean.max(late) > REGULAR || growth > LARGE {
+        Parting::Unclear { growth }
+    } else {
+        Parting::Regular { growth }
+    };
+    (found, mean)
+}
+
+/// The mean of Y over time, and over the second half of it; of times from 0 on (s) and logarithms of distances.
+fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
+    let end = seen.last().map_or(0.0, |last| last.0);
+    let (mut integral, mut sum, mut late) = (0.0, 0.0, 0.0);
+    for pair in seen.windows(2) {
+        let ([(before, from), (now, to)], middle) =
+            ([pair[0], pair[1]], f64::midpoint(pair[0].0, pair[1].0));
+        integral += (to - from) * middle;
+        let part = 2.0 * integral / now * (now - before);
+        sum += part;
+        late += if middle > end / 2.0 { part } else { 0.0 };
+    }
+    if end > 0.0 { (sum / end, 2.0 * late / end) } else { (0.0, 0.0) }
+}
+
+/// The slope of the line that fits best, 1/s.
+fn slope(seen: &[(f64, f64)]) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
+    let count = seen.len() as f64;
+    let (t, y) = seen.iter().fold((0.0, 0.0), |(t, y), point| (t + point.0 / count, y + point.1 / count));
+    let [both, square] = seen.iter().fold([0.0; 2], |[both, square], point| {
+        [both + (point.0 - t) * (point.1 - y), square + (point.0 - t) * (point.0 - t)]
+    });
+    if square > 0.0 { both / square } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(distance: impl Fn(f64) -> f64) -> Parting {
+        let times: Vec<f64> = (0..500).map(|k| 0.04 * f64::from(k)).collect();
+        let distances: Vec<f64> = times.iter().map(|t| 1e-9 * distance(*t)).collect();
+        parting(&times, &distances).0
+    }
+
+    #[test]
+    fn exponential_growth_is_told_from_powers_of_time() {
+        assert!(matches!(of(|_| 1.0), Parting::Regular { growth: 1.0 }));
+        assert!(matches!(of(|t| 1.0 + 50.0 * t), Parting::Regular { .. }));
+        // An orbit: it grows with time, and is a hundred times larger near the sun.
+        let orbit = |t: f64| (1.0 + 30.0 * t) * (1.0 + 99.0 * libm::pow(libm::cos(t), 20.0));
+        assert!(matches!(of(orbit), Parting::Regular { .. }), "{:?}", of(orbit));
+        assert!(matches!(of(|t| 1.0 + 30.0 * t * t), Parting::Regular { .. } | Parting::Unclear { .. }));
+        let chaos = |t: f64| libm::exp(1.5 * t) * (1.2 + libm::sin(5.0 * t));
+        let Parting::Chaotic { lyapunov_time, doubling_time } = of(chaos) else { panic!("{:?}", of(chaos)) };
+        assert!((1.5 * lyapunov_time - 1.0).abs() < 0.05, "{lyapunov_time}");
+        assert!((doubling_time / lyapunov_time - 0.693_147).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_impact_that_tears_neighbours_apart_is_no_regular_motion() {
+        let torn = |t: f64| if t < 5.0 { 1.0 } else { libm::exp(60.0 * (t - 5.0)) };
+        let Parting::Sudden { time } = of(torn) else { panic!("{:?}", of(torn)) };
+        assert!((time - 5.28).abs() < 0.05, "{time}");
+        assert!(matches!(of(|t| if t < 5.0 { 1.0 } else { 1e5 }), Parting::Unclear { .. } | Parting::Chaotic { .. }));
+    }
+
+    #[test]
+    fn what_nobody_can_see_part_is_not_known() {
+        assert_eq!(of(|_| 0.0), Parting::Unknown);
+        assert_eq!(of(|_| 1e9), Parting::Unknown);
+        assert_eq!(parting(&[], &[]).0, Parting::Unknown);
+    }
+
+    #[test]
+    fn a_twin_of_a_motion_in_a_plane_stays_in_it() {
+        let text = "simulation.gravity = [0, -9.81, 0]\n[body.a]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n\
+                    [body.b]\nshape.sphere.radius = 0.1\nlocation = [2, 0, 0]\n";
+        let scene = Scene::parse(text).unwrap();
+        let twin = displaced(&scene, &Measured::of(&scene));
+        for (one, two) in scene.bodies.iter().zip(&twin.bodies) {
+            let by = two.start.location - one.start.location;
+            assert!(by.z == 0.0 && (by.length() - 1e-9).abs() < 1e-15, "{by}");
+            assert!(two.start.velocity.z == 0.0 && two.start.velocity != DVec3::ZERO);
+        }
+    }
+}

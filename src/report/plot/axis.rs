@@ -1,0 +1,98 @@
+//! An axis: from values to the part of its length, and the values that are named along it.
+
+use super::text::digits;
+
+/// An axis of a plot.
+pub(super) struct Axis {
+    min: f64,
+    max: f64,
+    is_logarithmic: bool,
+}
+
+/// So many values are named at most, but for one.
+const TICKS: f64 = 6.0;
+
+/// Less than this is nothing.
+const LEAST: f64 = 1e-18;
+
+impl Axis {
+    /// From one value to another.
+    pub(super) fn linear(min: f64, max: f64) -> Axis {
+        Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: false }
+    }
+
+    /// Around all values and zero, a little wider than these.
+    pub(super) fn around<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
+        let finite = values.filter(|value| value.is_finite());
+        let (min, max) = finite.fold((0.0_f64, 0.0_f64), |(min, max), value| (min.min(*value), max.max(*value)));
+        match max - min {
+            0.0 => Axis::linear(-1.0, 1.0),
+            range => Axis::linear(min - 0.05 * range, max + 0.05 * range),
+        }
+    }
+
+    /// In whole powers of ten around all values that are larger than nothing.
+    pub(super) fn logarithmic<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
+        let positive = values.filter(|value| value.is_finite() && **value > LEAST).map(|v| libm::log10(*v));
+        let range = positive.fold(None, |range: Option<[f64; 2]>, value| match range {
+            Some([min, max]) => Some([min.min(value), max.max(value)]),
+            None => Some([value; 2]),
+        });
+        let [min, max] = range.unwrap_or([-3.0, 0.0]);
+        let (min, max) = (min.floor(), max.ceil());
+        Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: true }
+    }
+
+    /// Where a value is along the axis, 0 to 1.
+    pub(super) fn part(&self, value: f64) -> f64 {
+        let place = if self.is_logarithmic { libm::log10(value.max(LEAST)) } else { value };
+        (place - self.min) / (self.max - self.min)
+    }
+
+    /// The values that are named, each with its name.
+    pub(super) fn ticks(&self) -> Vec<(f64, String)> {
+        let range = self.max - self.min;
+        if self.is_logarithmic {
+            let every = (range / TICKS).ceil().max(1.0);
+            let first = (self.min / every).ceil() * every;
+            return steps(first, every, self.max).map(|power| (libm::exp10(power), format!("1e{power}"))).collect();
+        }
+        let power = libm::exp10(libm::log10(range / TICKS).floor());
+        let every = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+        let every = every.into_iter().find(|every| range / every <= TICKS).unwrap_or(range);
+        let first = (self.min / every).ceil() * every;
+        let rounded = |value: f64| if value.abs() < 1e-9 * every { 0.0 } else { value };
+        steps(first, every, self.max).map(rounded).map(|value| (value, digits(value, 6))).collect()
+    }
+}
+
+/// Values at equal distances, not beyond the last.
+fn steps(first: f64, every: f64, last: f64) -> impl Iterator<Item = f64> {
+    (0..20).map(move |k| first + f64::from(k) * every).take_while(move |value| *value <= last + 1e-9 * every)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(axis: &Axis) -> Vec<String> {
+        axis.ticks().into_iter().map(|(_, name)| name).collect()
+    }
+
+    #[test]
+    fn round_values_are_named() {
+        assert_eq!(names(&Axis::linear(0.0, 10.0)), ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(names(&Axis::linear(0.0, 9e8)), ["0", "2e8", "4e8", "6e8", "8e8"]);
+        assert_eq!(names(&Axis::around([0.0, -0.19].iter())), ["-0.15", "-0.1", "-0.05", "0"]);
+        assert_eq!(names(&Axis::around([0.0].iter())), ["-1", "-0.5", "0", "0.5", "1"]);
+        assert_eq!(names(&Axis::logarithmic([3e-9, 0.0, 0.5].iter())), ["1e-8", "1e-6", "1e-4", "1e-2", "1e0"]);
+        assert_eq!(names(&Axis::logarithmic([].iter())), ["1e-3", "1e-2", "1e-1", "1e0"]);
+    }
+
+    #[test]
+    fn values_have_their_place() {
+        let axis = Axis::logarithmic([1e-4, 1.0].iter());
+        assert!((axis.part(1e-2) - 0.5).abs() < 1e-12 && axis.part(0.0) < 0.0);
+        assert_eq!(Axis::linear(-1.0, 1.0).part(0.0), 0.5);
+    }
+}

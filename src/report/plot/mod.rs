@@ -1,0 +1,219 @@
+//! An assessment as a picture: the drift of the energy, the error and the distance of neighbours over time.
+//!
+//! The picture is a list of lines and texts in pixels, from which an SVG and a PNG are made alike.
+
+mod axis;
+mod png;
+mod svg;
+
+use super::verdict::{Curves, Verdict};
+use super::{Assessment, Parting, text};
+use axis::Axis;
+
+pub use png::png;
+pub use svg::svg;
+
+/// Red, green and blue, 0 to 255.
+type Rgb = [u8; 3];
+
+const GROUND: Rgb = [255, 255, 255];
+const INK: Rgb = [52, 50, 46];
+const FAINT_INK: Rgb = [122, 118, 110];
+const GRID: Rgb = [228, 226, 221];
+const ENERGY: Rgb = [192, 67, 43];
+const ERROR: Rgb = [38, 98, 158];
+const NEIGHBOURS: Rgb = [46, 125, 79];
+
+const WIDTH: f64 = 1100.0;
+const LEFT: f64 = 120.0;
+const RIGHT: f64 = 40.0;
+const TOP: f64 = 92.0;
+/// Of a panel, and from the lower edge of one to the upper edge of the next.
+const HEIGHT: f64 = 220.0;
+const GAP: f64 = 66.0;
+
+/// Where a text ends, begins, or has its middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// What a picture consists of. Places are in pixels, from the upper left corner.
+#[derive(Clone, Debug, PartialEq)]
+enum Item {
+    Line { points: Vec<[f64; 2]>, width: f64, color: Rgb },
+    /// `at` is the middle of its height.
+    Text { at: [f64; 2], text: String, anchor: Anchor, large: bool, color: Rgb },
+}
+
+/// A picture that is not drawn yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    width: f64,
+    height: f64,
+    items: Vec<Item>,
+}
+
+/// A curve over time, in a panel of its own.
+struct Panel<'a> {
+    title: String,
+    times: &'a [f64],
+    values: Vec<f64>,
+    is_logarithmic: bool,
+    /// A value that is marked.
+    mark: Option<f64>,
+    color: Rgb,
+}
+
+impl Picture {
+    /// The picture of an assessment; none where nothing is integrated.
+    pub fn of(assessment: &Assessment, title: &str) -> Option<Picture> {
+        let verdict = assessment.verdict.as_ref()?;
+        let panels = panels(assessment, verdict);
+        let count = f64::from(u8::try_from(panels.len()).unwrap_or(u8::MAX));
+        let height = TOP + count * (HEIGHT + GAP) - GAP + 40.0;
+        let mut picture = Picture { width: WIDTH, height, items: Vec::new() };
+        let method = format!("{}, step {} s", assessment.integrator, text::digits(assessment.timestep, 4));
+        picture.text([LEFT, 28.0], title.to_owned(), Anchor::Start, INK, true);
+        picture.text([WIDTH - RIGHT, 28.0], method, Anchor::End, FAINT_INK, false);
+        let times = Axis::linear(0.0, assessment.end);
+        let mut top = TOP;
+        for (place, panel) in panels.iter().enumerate() {
+            picture.panel(panel, &times, top, place + 1 == panels.len());
+            if let (1, Some(until)) = (place, verdict.trusted.until.filter(|_| !verdict.trusted.to_the_end)) {
+                let x = picture.across(&times, until);
+                picture.rule(vec![[x, top], [x, top + HEIGHT]], FAINT_INK);
+            }
+            top += HEIGHT + GAP;
+        }
+        Some(picture)
+    }
+
+    fn across(&self, times: &Axis, time: f64) -> f64 {
+        LEFT + times.part(time) * (self.width - LEFT - RIGHT)
+    }
+
+    /// A thin line along an axis, which is sharp on pixels.
+    fn rule(&mut self, points: Vec<[f64; 2]>, color: Rgb) {
+        let onto_pixels = |point: [f64; 2]| point.map(|place| place.floor() + 0.5);
+        self.line(points.into_iter().map(onto_pixels).collect(), 1.0, color);
+    }
+
+    fn line(&mut self, points: Vec<[f64; 2]>, width: f64, color: Rgb) {
+        self.items.push(Item::Line { points, width, color });
+    }
+
+    fn text(&mut self, at: [f64; 2], text: String, anchor: Anchor, color: Rgb, large: bool) {
+        self.items.push(Item::Text { at, text, anchor, large, color });
+    }
+
+    fn panel(&mut self, panel: &Panel<'_>, times: &Axis, top: f64, is_last: bool) {
+        let (left, right, bottom) = (LEFT, self.width - RIGHT, top + HEIGHT);
+        let axis = match panel.is_logarithmic {
+            true => Axis::logarithmic(panel.values.iter().chain(&panel.mark)),
+            false => Axis::around(panel.values.iter()),
+        };
+        let y = |value: f64| bottom - axis.part(value) * HEIGHT;
+        self.text([left, top - 18.0], panel.title.clone(), Anchor::Start, INK, false);
+        for (value, label) in axis.ticks() {
+            self.rule(vec![[left, y(value)], [right, y(value)]], GRID);
+            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_INK, false);
+        }
+        for (value, label) in times.ticks() {
+            let x = self.across(times, value);
+            self.rule(vec![[x, top], [x, bottom]], GRID);
+            let label = if is_last { format!("{label} s") } else { label };
+            self.text([x, bottom + 16.0], label, Anchor::Middle, FAINT_INK, false);
+        }
+        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_INK);
+        if let Some(mark) = panel.mark {
+            self.rule(vec![[left, y(mark)], [right, y(mark)]], FAINT_INK);
+        }
+        let points = panel.times.iter().zip(&panel.values);
+        // Zero has no place on a logarithmic axis.
+        let points = points.filter(|(_, value)| value.is_finite() && (!panel.is_logarithmic || **value > 0.0));
+        let points = points.map(|(time, value)| [self.across(times, *time), y(*value).clamp(top, bottom)]);
+        let points = thinned(points.collect());
+        self.line(points, 2.0, panel.color);
+    }
+}
+
+fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
+    let Curves { times, drift, error, neighbours } = &verdict.curves;
+    let parting = match verdict.neighbours {
+        Parting::Chaotic { doubling_time, .. } => {
+            format!(": chaotic, it doubles every {} s", text::digits(doubling_time, 2))
+        }
+        Parting::Sudden { time } => format!(": torn apart by t = {} s", text::digits(time, 3)),
+        Parting::Unclear { .. } => ": perhaps chaotic".to_owned(),
+        Parting::Regular { .. } => ": regular so far".to_owned(),
+        Parting::Unknown => String::new(),
+    };
+    let wanted = text::digits(assessment.accuracy, 2);
+    vec![
+        Panel {
+            title: "Drift of the energy, % of the largest kinetic energy".to_owned(),
+            times,
+            values: drift.iter().map(|part| part * 100.0).collect(),
+            is_logarithmic: false,
+            mark: None,
+            color: ENERGY,
+        },
+        Panel {
+            title: format!(
+                "Error of the worst point, as a part of the size of the scene ({} m); the line marks {wanted}",
+                text::digits(verdict.size, 3)
+            ),
+            times,
+            values: error.clone(),
+            is_logarithmic: true,
+            mark: Some(assessment.accuracy),
+            color: ERROR,
+        },
+        Panel {
+            title: format!("Distance of a twin that begins a hair elsewhere{parting}"),
+            times,
+            values: neighbours.clone(),
+            is_logarithmic: true,
+            mark: None,
+            color: NEIGHBOURS,
+        },
+    ]
+}
+
+/// A curve without the points that nobody can see: of those within a pixel's width, the first, the highest, the lowest and the last.
+fn thinned(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    let mut rest = &points[..];
+    while let Some(first) = rest.first() {
+        let count = rest.partition_point(|point| point[0] < first[0] + 1.0).max(1);
+        let (here, later) = rest.split_at(count);
+        rest = later;
+        let by_height = |a: &usize, b: &usize| here[*a][1].total_cmp(&here[*b][1]);
+        let lowest = (0..count).min_by(by_height).unwrap_or(0);
+        let highest = (0..count).max_by(by_height).unwrap_or(0);
+        let mut places = vec![0, lowest, highest, count - 1];
+        places.sort_unstable();
+        places.dedup();
+        kept.extend(places.into_iter().map(|place| here[place]));
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_keeps_its_peaks() {
+        let points: Vec<[f64; 2]> = (0..10_000)
+            .map(|k| [f64::from(k) * 0.01, if k == 5_003 { 9.0 } else { f64::from(k % 7) }])
+            .collect();
+        let kept = thinned(points.clone());
+        assert!(kept.len() <= 4 * 101, "{}", kept.len());
+        assert!(kept.contains(&points[5_003]) && kept.contains(&points[0]) && kept.contains(&points[9_999]));
+        assert!(kept.is_sorted_by(|a, b| a[0] <= b[0]));
+    }
+}

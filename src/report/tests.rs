@@ -1,0 +1,203 @@
+//! Reports of runs whose true course is known.
+
+use glam::DVec3;
+
+use super::*;
+use crate::simulate::{SimulateError, Snapshots};
+
+fn scene(text: &str) -> Scene {
+    Scene::parse(text).unwrap()
+}
+
+fn assessed(scene: &Scene, accuracy: f64) -> (Assessment, Verdict) {
+    let assessment = assess(scene, accuracy, &mut |_, _| true).unwrap();
+    let verdict = assessment.verdict.clone().unwrap();
+    (assessment, verdict)
+}
+
+/// A mass of 1 kg on a spring of 4 N/m, which begins at 1 m with 2 m/s across: ω = 2/s, and the orbit is a circle.
+fn oscillator(integrator: &str, step: f64) -> Scene {
+    scene(&format!(
+        "simulation = {{ duration = 6, step = {step}, integrator = '{integrator}' }}\n\
+         [body.anchor]\nshape.sphere.radius = 0.1\nfixed = true\n\
+         [body.mass]\nshape.sphere.radius = 0.1\nmass = 1\nlocation = [1, 0, 0]\nvelocity = [0, 0, -2]\n\
+         [force.spring.spring]\nbetween = ['anchor', 'mass']\nstiffness = 4\nrest_length = 0\n"
+    ))
+}
+
+fn on_circle(time: f64) -> DVec3 {
+    DVec3::new(libm::cos(2.0 * time), 0.0, -libm::sin(2.0 * time))
+}
+
+/// An orbit of semi-major axis 1 and eccentricity 0.5 around a fixed sun with GM = 1.
+fn kepler(integrator: &str, step: f64) -> Scene {
+    scene(&format!(
+        "simulation = {{ duration = 12.6, step = {step}, integrator = '{integrator}' }}\n\
+         [body.sun]\nshape.sphere.radius = 0.01\nmass = 1\nfixed = true\n\
+         [body.planet]\nshape.sphere.radius = 0.01\nmass = 1e-3\nlocation = [0.5, 0, 0]\n\
+         velocity = [0, {:?}, 0]\n[force.pull.gravitation]\nconstant = 1\n",
+        3.0_f64.sqrt()
+    ))
+}
+
+/// Where the planet is: by Kepler's equation E − e sin E = t.
+fn on_ellipse(time: f64) -> DVec3 {
+    let mut anomaly = time;
+    for _ in 0..50 {
+        anomaly -= (anomaly - 0.5 * libm::sin(anomaly) - time) / (1.0 - 0.5 * libm::cos(anomaly));
+    }
+    DVec3::new(libm::cos(anomaly) - 0.5, 0.75_f64.sqrt() * libm::sin(anomaly), 0.0)
+}
+
+/// How far a body of a run is at most from where it should be.
+fn true_error(scene: &Scene, body: usize, truth: fn(f64) -> DVec3) -> f64 {
+    let distance = |at: Result<_, SimulateError>| {
+        let at: crate::dynamics::Snapshot = at.unwrap();
+        (at.body(body).unwrap().location - truth(at.time)).length()
+    };
+    Snapshots::new(scene).map(distance).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_estimated_error_is_the_true_one_within_a_factor_of_two() {
+    let oscillators = ["euler-cromer", "velocity-verlet", "rk4", "yoshida4"].map(|method| {
+        let step = if method == "euler-cromer" { 0.002 } else { 0.02 };
+        (oscillator(method, step), on_circle as fn(f64) -> DVec3)
+    });
+    let orbits = ["velocity-verlet", "rk4", "yoshida4"].map(|method| (kepler(method, 0.004), on_ellipse as _));
+    for (scene, truth) in oscillators.into_iter().chain(orbits) {
+        let (_, verdict) = assessed(&scene, 1e-3);
+        let (found, true_one) = (verdict.error, true_error(&scene, 1, truth));
+        let name = scene.simulation.method.name;
+        assert!((0.5..2.0).contains(&(found / true_one)), "{name}: {found} {true_one}");
+        assert_eq!(verdict.bodies[0].body, if scene.bodies.len() == 2 { &*scene.bodies[1].name } else { "" });
+        assert!(matches!(verdict.order, Order::Nominal { .. }), "{name}: {:?}", verdict.order);
+    }
+}
+
+#[test]
+fn what_is_recommended_reaches_the_accuracy() {
+    let scene = oscillator("explicit-euler", 0.02);
+    let (assessment, verdict) = assessed(&scene, 1e-3);
+    // Its energy grows by 1 + (ω dt)² each step.
+    let grown = libm::pow(1.0 + 0.04 * 0.04, 300.0) - 1.0;
+    assert!(verdict.drift > 0.5 * grown, "{}", verdict.drift);
+    assert!(!verdict.trusted.to_the_end && verdict.trusted.until.unwrap() < 1.0);
+    let best = &assessment.trials[assessment.recommended.unwrap()];
+    let lines = assessment.to_text("scene.toml");
+    for line in [format!("integrator = \"{}\"", best.integrator), format!("step = {}", best.step)] {
+        assert!(lines.contains(&line), "{lines}");
+    }
+    let cured = oscillator(best.integrator, best.step);
+    let size = 2.0 * (1.1 * 1.1 + 1.1 * 1.1 + 0.1 * 0.1_f64).sqrt();
+    let error = true_error(&cured, 1, on_circle);
+    assert!(error <= 1e-3 * size, "{} {}: {error}", best.integrator, best.step);
+    // It is not much finer than it has to be: a step four times as long fails.
+    let coarser = oscillator(best.integrator, 4.0 * best.step);
+    assert!(true_error(&coarser, 1, on_circle) > 1e-3 * size, "{} {}", best.integrator, best.step);
+}
+
+#[test]
+fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
+    for scene in [oscillator("velocity-verlet", 0.01), kepler("velocity-verlet", 0.01)] {
+        let found = assessed(&scene, 1e-3).1.neighbours;
+        assert!(matches!(found, Parting::Regular { .. }), "{found:?}");
+    }
+    let pendulum = scene(
+        "simulation = { duration = 20, step = 0.004, integrator = 'rk4', gravity = [0, -9.81, 0] }\n\
+         [body.upper]\nshape.sphere.radius = 0.1\nlocation = [0.5, 0.866, 0]\n\
+         [body.lower]\nshape.sphere.radius = 0.1\nlocation = [1, 1.73, 0]\n\
+         [joint.top.rod]\nbetween = [[0, 0, 0], 'upper']\n[joint.bottom.rod]\nbetween = ['upper', 'lower']\n",
+    );
+    let (assessment, verdict) = assessed(&pendulum, 1e-3);
+    let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else { panic!("{:?}", verdict.neighbours) };
+    // Of the order of the period of a small swing, 2 s, over 2π.
+    assert!((0.1..2.0).contains(&lyapunov_time), "{lyapunov_time}");
+    assert!(assessment.untried.iter().any(|untried| untried.integrator == "yoshida4"));
+}
+
+#[test]
+fn momenta_are_told_from_what_acts_from_outside() {
+    let (_, orbit) = assessed(&kepler("rk4", 0.01), 1e-3);
+    assert_eq!(orbit.linear_momentum, Conserved::Changed, "the sun is fixed");
+    let Conserved::Kept { drift } = orbit.angular_momentum else { panic!("{:?}", orbit.angular_momentum) };
+    assert!(drift > 1e-12 && drift < 1e-4, "{drift}");
+    let (_, wide) = assessed(&oscillator("explicit-euler", 0.02), 1e-3);
+    assert!(matches!(wide.angular_momentum, Conserved::Kept { drift } if drift > 0.1), "{wide:?}");
+    let pair = scene(
+        "simulation = { duration = 5, step = 0.01, integrator = 'velocity-verlet' }\n\
+         [body.a]\nshape.sphere.radius = 0.1\nmass = 1\n\
+         [body.b]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [0, 1, 0]\n\
+         [force.spring.spring]\nbetween = ['a', 'b']\nstiffness = 4\nrest_length = 1\n",
+    );
+    let (_, verdict) = assessed(&pair, 1e-3);
+    for found in [verdict.linear_momentum, verdict.angular_momentum] {
+        assert!(matches!(found, Conserved::Kept { drift } if drift < 1e-12), "{found:?}");
+    }
+}
+
+#[test]
+fn where_nothing_is_integrated_that_is_said() {
+    let given = "[body.a]\nshape.sphere.radius = 0.1\nmotion.formula.location = ['t', 0, 0]\n";
+    let emitter = "[emitter.e]\nshape.sphere.radius = 0.1\nrate = 10\nlifetime = 1\nfrom.point = [0, 0, 0]\n";
+    let still = "simulation.duration = 0\n[body.a]\nshape.sphere.radius = 0.1\n";
+    for (text, expected) in [
+        (given, "no body is moved by forces, so nothing is integrated"),
+        (emitter, "their errors are not measured"),
+        (still, "a single frame, so nothing is integrated"),
+    ] {
+        let assessment = assess(&scene(text), 1e-3, &mut |_, _| true).unwrap();
+        assert!(assessment.verdict.is_none());
+        let said = assessment.to_text("s.toml");
+        assert!(said.contains(expected), "{said}");
+        assert!(plot::Picture::of(&assessment, "s").is_none());
+    }
+}
+
+#[test]
+fn a_run_that_breaks_down_is_told_with_its_time() {
+    // Explicit Euler on a stiff spring: each step multiplies the amplitude by some ten thousand.
+    let text = "simulation = { duration = 20, step = 0.04, integrator = 'explicit-euler' }\n\
+                [body.a]\nshape.sphere.radius = 0.1\nfixed = true\n\
+                [body.b]\nshape.sphere.radius = 0.1\nmass = 1\nlocation = [1, 0, 0]\nvelocity = [0, 1, 0]\n\
+                [force.s.spring]\nbetween = ['a', 'b']\nstiffness = 1e9\nrest_length = 0\n";
+    let scene = scene(text);
+    let (assessment, verdict) = assessed(&scene, 1e-2);
+    assert!(!verdict.broken.is_empty() && !verdict.trusted.to_the_end);
+    let said = assessment.to_text("s.toml");
+    assert!(said.contains("is at no finite place"), "{said}");
+    assert!(plot::Picture::of(&assessment, "s").is_some());
+}
+
+#[test]
+fn bodies_that_rest_and_nothing_that_moves_make_no_trouble() {
+    let rest = "simulation = { duration = 0.4, gravity = [0, -9.81, 0], contacts = 'event-driven', integrator = 'rk4' }\n\
+                [body.a]\nshape.box.size = [1, 1, 1]\nlocation = [0, 0.5, 0]\n";
+    let still = "simulation.duration = 0.4\n[body.a]\nshape.sphere.radius = 0.1\n";
+    let pile = rest.replace("event-driven", "time-stepping").replace("rk4", "euler-cromer");
+    for text in [rest, still, &pile] {
+        let (assessment, verdict) = assessed(&scene(text), 1e-2);
+        assert!(verdict.broken.is_empty(), "{:?}", verdict.broken);
+        assert!(verdict.trusted.to_the_end, "{}", assessment.to_text("s.toml"));
+    }
+}
+
+#[test]
+fn somebody_may_stop_it() {
+    let scene = oscillator("rk4", 0.01);
+    for last in [Phase::Comparing, Phase::Trying] {
+        let stopped = assess(&scene, 1e-3, &mut |phase, _| phase != last);
+        assert_eq!(stopped.err(), Some(Stopped));
+    }
+}
+
+#[test]
+fn a_report_and_its_pictures_are_the_same_on_each_run() {
+    let scene = oscillator("velocity-verlet", 0.02);
+    let [one, two] = [0, 1].map(|_| assessed(&scene, 1e-3).0);
+    assert_eq!(one.to_text("s"), two.to_text("s"));
+    let [one, two] = [&one, &two].map(|of| plot::Picture::of(of, "A <ball> & ω").unwrap());
+    assert_eq!(plot::svg(&one), plot::svg(&two));
+    assert_eq!(plot::png(&one).unwrap(), plot::png(&two).unwrap());
+    assert!(plot::svg(&one).contains("A &lt;ball&gt; &amp; ω"));
+}

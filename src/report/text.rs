@@ -1,0 +1,330 @@
+//! How right a run is, in words.
+
+use std::fmt::Write;
+
+use super::neighbours::APART;
+use super::verdict::{Conserved, Order, Trusted, Verdict};
+use super::{Assessment, Parting, Trial, Untried};
+
+/// So many bodies are named.
+const NAMED: usize = 5;
+
+/// Behind the name of what a line is about.
+const INDENT: &str = "          ";
+
+impl Assessment {
+    /// All that is known, for people. The commands of its answers are about the scene of this name, as a shell takes it.
+    pub fn to_text(&self, shown: &str) -> String {
+        let mut out = format!(
+            "{shown}: {}, timestep {} s, {} a frame\n",
+            self.integrator,
+            digits(self.timestep, 4),
+            self.steps_per_frame
+        );
+        match &self.verdict {
+            Some(verdict) => {
+                self.say_verdict(&mut out, verdict);
+                self.say_trials(&mut out, verdict);
+            }
+            None if self.bodies_moved == 0 => {
+                out = format!("{shown}: no body is moved by forces, so nothing is integrated\n");
+            }
+            None => {
+                out = format!("{shown}: a single frame, so nothing is integrated\n");
+            }
+        }
+        if self.has_particles {
+            line(&mut out, "particles", "their errors are not measured");
+        }
+        out
+    }
+
+    fn say_verdict(&self, out: &mut String, verdict: &Verdict) {
+        for broken in &verdict.broken {
+            let kept = match broken.after {
+                Some(after) => format!("the frames up to t = {} s count", digits(after, 4)),
+                None => "it has no frame".to_owned(),
+            };
+            line(out, "broken", &format!("{}: {}; {kept}", broken.run, broken.why));
+        }
+        line(out, "energy", &format!("drifts by {} of the largest kinetic energy", percent(verdict.drift)));
+        if !verdict.accounts.is_empty() {
+            let held = verdict.accounts.iter().map(|(name, held)| format!("{name} {} J", digits(*held, 3)));
+            let held: Vec<String> = held.collect();
+            line(out, "", &format!("not counted as drift: {}", held.join(", ")));
+        }
+        line(out, "momentum", &momenta(verdict));
+        self.say_error(out, verdict);
+        self.say_bodies(out, verdict);
+        let order = verdict.order_in_words(self);
+        line(out, "order", &order);
+        line(out, "motion", &self.motion_in_words(verdict));
+        self.say_trust(out, verdict);
+    }
+
+    fn say_error(&self, out: &mut String, verdict: &Verdict) {
+        let error = digits(verdict.error, 2);
+        let part = percent(part(verdict.error, verdict.size));
+        let about = match verdict.order {
+            Order::None { .. } => "at least",
+            _ => "at most about",
+        };
+        let size = digits(verdict.size, 3);
+        line(out, "error", &format!("a point is off by {about} {error} m, {part} of the size of the scene ({size} m)"));
+    }
+
+    fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
+        let named: Vec<&super::BodyError> = verdict.bodies.iter().take(NAMED).collect();
+        // What is less is rounding.
+        let is_seen = |place: f64| place > 1e-12 * verdict.size;
+        let mut rows = vec![["body", "place off by", "of its way", "turned by", "at t"].map(str::to_owned)];
+        rows.extend(named.iter().map(|body| {
+            [
+                body.body.clone(),
+                format!("{} m", digits(body.place, 2)),
+                if is_seen(body.place) && body.way > 0.0 { percent(body.place / body.way) } else { "-".to_owned() },
+                format!("{}°", digits(body.orientation, 2)),
+                format!("{} s", digits(body.time, 4)),
+            ]
+        }));
+        table(out, &rows);
+        match verdict.bodies.len() - named.len() {
+            0 => {}
+            1 => line(out, "", "1 other body is off by less"),
+            others => line(out, "", &format!("{others} other bodies are off by less")),
+        }
+    }
+
+    fn motion_in_words(&self, verdict: &Verdict) -> String {
+        match verdict.neighbours {
+            Parting::Unknown => "too few frames tell whether it is chaotic".to_owned(),
+            Parting::Regular { growth } => format!("regular so far: {}", apart(growth)),
+            Parting::Sudden { time } => format!(
+                "unpredictable: neighbours that begin {APART:e} of the size apart are torn apart by t = {} s",
+                digits(time, 3)
+            ),
+            Parting::Unclear { growth } => format!(
+                "perhaps chaotic: {}; a longer run would tell",
+                apart(growth)
+            ),
+            Parting::Chaotic { lyapunov_time, doubling_time } => {
+                let start = format!(
+                    "chaotic: a small difference doubles every {} s (Lyapunov time {} s)",
+                    digits(doubling_time, 2),
+                    digits(lyapunov_time, 2)
+                );
+                // From the rounding of numbers to 1 % of the scene.
+                let by_rounding = lyapunov_time * libm::log(0.01 / f64::EPSILON);
+                match by_rounding < self.end {
+                    true => format!(
+                        "{start};\n{INDENT}after about {} s even rounding has grown to 1 % of the scene, at any step",
+                        digits(by_rounding, 2)
+                    ),
+                    false => start,
+                }
+            }
+        }
+    }
+
+    fn say_trust(&self, out: &mut String, verdict: &Verdict) {
+        let wanted = format!("to {} of the size", percent(self.accuracy));
+        line(out, "trust", &format!("{wanted}: {}", until(verdict.trusted)));
+        let looser = verdict.trusted_to_a_percent;
+        if self.accuracy < 0.01 && !verdict.trusted.to_the_end {
+            line(out, "", &format!("to 1 % of the size: {}", until(looser)));
+        }
+    }
+
+    fn say_trials(&self, out: &mut String, verdict: &Verdict) {
+        let least = self.accuracy * verdict.size;
+        let wanted = percent(self.accuracy);
+        line(out, "tried", &format!("to be right to {wanted} of the size, {} m:", digits(least, 2)));
+        let mut rows =
+            vec![["integrator", "step", "steps", "force evaluations", "error", "drift", ""].map(str::to_owned)];
+        rows.extend(self.trials.iter().enumerate().map(|(place, trial)| {
+            [
+                trial.integrator.to_owned(),
+                format!("{} s", digits(trial.timestep, 4)),
+                trial.steps.to_string(),
+                trial.evaluations.to_string(),
+                trial.error.map_or_else(|| broke_down(trial), |error| format!("{} m", digits(error, 2))),
+                percent(trial.drift),
+                match trial.reaches {
+                    true if self.recommended == Some(place) => "enough, cheapest".to_owned(),
+                    true => "enough".to_owned(),
+                    false => String::new(),
+                },
+            ]
+        }));
+        table(out, &rows);
+        let mut said: Vec<&str> = Vec::new();
+        for Untried { why, .. } in &self.untried {
+            if !said.contains(&why.as_str()) {
+                let names = self.untried.iter().filter(|other| other.why == *why);
+                let names: Vec<&str> = names.map(|untried| untried.integrator).collect();
+                line(out, "", &format!("{}: {why}", names.join(", ")));
+                said.push(why);
+            }
+        }
+        self.say_advice(out, verdict);
+    }
+
+    fn say_advice(&self, out: &mut String, verdict: &Verdict) {
+        let own = self.trials.iter().find(|trial| self.is_own(trial));
+        let Some(best) = self.recommended.map(|place| &self.trials[place]) else {
+            let why = match verdict.neighbours {
+                Parting::Chaotic { .. } | Parting::Sudden { .. } => {
+                    "nothing that was tried reaches this to the end: differences grow so fast that ten times the \
+                     accuracy buys little time"
+                }
+                _ if matches!(verdict.order, Order::None { .. }) => {
+                    "nothing that was tried reaches this: small steps change the course of the run"
+                }
+                _ => "nothing that was tried reaches this; a looser `--accuracy` may do",
+            };
+            line(out, "advice", why);
+            return;
+        };
+        let reached = own.is_some_and(|own| own.reaches);
+        let saved = own.map_or(1.0, |own| ratio(own.evaluations, best.evaluations));
+        if self.is_own(best) || reached && saved < 1.5 {
+            line(out, "advice", "keep the method and the step: they reach this");
+            return;
+        }
+        let why = match (reached, saved) {
+            (true, saved) => format!("the run reaches this; so does the following, {} times as fast:", digits(saved, 2)),
+            (false, saved) if saved >= 1.5 => format!("write this, which is {} times as fast:", digits(saved, 2)),
+            (false, saved) if saved <= 0.67 => {
+                format!("write this, which takes {} times as long:", digits(1.0 / saved, 2))
+            }
+            (false, _) => "write this, which takes about as long:".to_owned(),
+        };
+        line(out, "advice", &why);
+        for written in self.lines_to_write(best) {
+            line(out, "", &written);
+        }
+    }
+
+    /// Whether a trial is the run as it is.
+    fn is_own(&self, trial: &Trial) -> bool {
+        trial.integrator == self.integrator && trial.steps_per_frame == self.steps_per_frame
+    }
+
+    /// What to write into the scene for a trial.
+    fn lines_to_write(&self, trial: &Trial) -> [String; 3] {
+        [
+            "[simulation]".to_owned(),
+            format!("integrator = \"{}\"", trial.integrator),
+            format!("step = {}", trial.step),
+        ]
+    }
+}
+
+impl Verdict {
+    fn order_in_words(&self, assessment: &Assessment) -> String {
+        let (method, nominal) = (assessment.integrator, assessment.order);
+        match self.order {
+            Order::Rounding => "not measured: the runs differ by rounding alone".to_owned(),
+            Order::Unknown => "not measured: the runs part at once, and the error is a guess".to_owned(),
+            Order::Nominal { measured } => {
+                format!("{measured:.1} measured, as `{method}` has it: the estimate is good")
+            }
+            Order::Other { measured } if measured > f64::from(nominal) => {
+                format!("{measured:.1} measured, more than the {nominal} of `{method}`: the motion is an easy one")
+            }
+            Order::Other { measured } => format!(
+                "{measured:.1} measured, less than the {nominal} of `{method}`: {}",
+                match self.neighbours {
+                    Parting::Chaotic { .. } => "in chaos, the estimate is a rough one",
+                    _ => "impacts or a coarse step do this, and the estimate is a rough one",
+                }
+            ),
+            Order::None { measured } => format!(
+                "{measured:.1} measured: a smaller step does not bring the run nearer to the truth, so nobody knows its error"
+            ),
+        }
+    }
+}
+
+/// When a trial broke down.
+fn broke_down(trial: &Trial) -> String {
+    match trial.ended.as_ref().and_then(|ended| ended.after) {
+        Some(after) => format!("breaks down after {} s", digits(after, 3)),
+        None => "breaks down at once".to_owned(),
+    }
+}
+
+/// How much farther neighbours are apart at the end.
+fn apart(growth: f64) -> String {
+    match growth {
+        growth if growth < 2.0 => "neighbours stay together".to_owned(),
+        growth => format!(
+            "neighbours that begin {APART:e} of the size apart end {} times as far apart",
+            digits(growth, 2)
+        ),
+    }
+}
+
+fn momenta(verdict: &Verdict) -> String {
+    let said = |conserved: Conserved| match conserved {
+        Conserved::Still => "none".to_owned(),
+        Conserved::Changed => "changed from outside".to_owned(),
+        Conserved::Kept { drift } if drift < 1e-9 => format!("kept to {}", percent(drift)),
+        Conserved::Kept { drift } => format!("drifts by {}", percent(drift)),
+    };
+    let [linear, angular] = [verdict.linear_momentum, verdict.angular_momentum].map(said);
+    if linear == angular { format!("linear and angular: {linear}") } else { format!("linear: {linear}; angular: {angular}") }
+}
+
+fn until(trusted: Trusted) -> String {
+    match trusted {
+        Trusted { to_the_end: true, .. } => "to the end".to_owned(),
+        Trusted { until: Some(time), frame, .. } => format!("until t = {} s, frame {frame}", digits(time, 4)),
+        Trusted { until: None, .. } => "not even the first frame after the start".to_owned(),
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "two digits of it are shown")]
+fn ratio(one: u64, two: u64) -> f64 {
+    one as f64 / two.max(1) as f64
+}
+
+fn part(of: f64, whole: f64) -> f64 {
+    if whole > 0.0 { of / whole } else { 0.0 }
+}
+
+fn line(out: &mut String, about: &str, what: &str) {
+    // A text cannot fail to grow.
+    let _ = writeln!(out, "{about:<10}{what}");
+}
+
+/// Columns, the first of texts and the others of numbers.
+fn table<const N: usize>(out: &mut String, rows: &[[String; N]]) {
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    for row in rows {
+        let mut text = INDENT.to_owned();
+        for (column, cell) in row.iter().enumerate() {
+            let width = width(column);
+            let _ = match column {
+                0 => write!(text, "{cell:<width$}"),
+                _ if column + 1 == N && row[column].chars().all(char::is_alphabetic) => write!(text, "  {cell}"),
+                _ => write!(text, "  {cell:>width$}"),
+            };
+        }
+        let _ = writeln!(out, "{}", text.trim_end());
+    }
+}
+
+fn percent(part: f64) -> String {
+    let percent = part * 100.0;
+    if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", digits(percent, 2)) }
+}
+
+/// A number to so many digits.
+pub(super) fn digits(number: f64, digits: usize) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
+    let rounded: f64 = format!("{number:.*e}", digits - 1).parse().unwrap_or(number);
+    if (1e-4..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
