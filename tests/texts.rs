@@ -4,11 +4,14 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use jabuka::Scene;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::dynamics::Method;
 use jabuka::explain::Explanation;
+use jabuka::report::plot::{Picture, png, svg};
+use jabuka::report::{Assessment, assess};
 use jabuka::scene::expression::{Formula, Function, Program, Scope};
 use jabuka::scene::grammar::SCENE;
 use jabuka::scene::sdl::{Where, files, refusals};
@@ -18,7 +21,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions that take a text and are tried here, as `file: name`.
-const TRIED: [&str; 33] = [
+const TRIED: [&str; 35] = [
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
     "diagnostic/mod.rs: error",
@@ -32,6 +35,8 @@ const TRIED: [&str; 33] = [
     "diagnostic/visible.rs: visible_lines",
     "dynamics/integrator/mod.rs: by_name",
     "explain.rs: of",
+    "report/plot/mod.rs: of",
+    "report/text.rs: to_text",
     "scene/color.rs: parse",
     "scene/expression/function.rs: named",
     "scene/expression/parser.rs: parse",
@@ -133,6 +138,12 @@ fn texts() -> impl Strategy<Value = String> {
     prop_oneof![".{0,80}", "(?s).{0,40}", prop::collection::vec(word, 0..14).prop_map(|words| words.concat())]
 }
 
+/// That of a small scene.
+static ASSESSMENT: LazyLock<Assessment> = LazyLock::new(|| {
+    let text = "simulation.duration = 0.2\n[body.a]\nshape.sphere.radius = 1\nvelocity = [1, 0, 0]\n";
+    assess(&Scene::parse(text).unwrap(), 1e-3, &mut |_, _| true).unwrap()
+});
+
 proptest! {
     #[test]
     fn no_text_stops_a_public_function(text in texts(), other in texts()) {
@@ -171,6 +182,11 @@ proptest! {
         let report = Report { sources, diagnostics: said };
         let _ = (report.to_text(false), report.to_text(true), report.to_json(), report.fixed(id));
         let _ = Report::of_error(Code::CannotRead, &text).to_text(false);
+
+        let picture = Picture::of(&ASSESSMENT, &text).unwrap();
+        let svg = svg(&picture);
+        prop_assert!(ASSESSMENT.to_text(&text).starts_with(&text) && svg.ends_with("</svg>\n"));
+        let _ = png(&picture).unwrap();
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };

@@ -94,7 +94,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             Phase::Trying => ("trying", STEPS),
         };
         progress.phase(what);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is a part of few steps")]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is a part of few steps"
+        )]
         let now = before + (part * STEPS as f64) as usize;
         while done < now {
             progress.step();

@@ -95,8 +95,7 @@ pub(super) fn compare(
     together(&mut tracks, scene, watch, &mut |moments| found.see(measured, &mut seen, moments))?;
     let size = |found: &[DVec3; 2]| (found[1] - found[0]).length();
     found.size = seen.boxes.iter().flatten().last().map_or(0.0, size);
-    found.drift_at_half =
-        if seen.kinetic[1] > 0.0 { seen.energy_at_half / seen.kinetic[1] } else { 0.0 };
+    found.drift_at_half = if seen.kinetic[1] > 0.0 { seen.energy_at_half / seen.kinetic[1] } else { 0.0 };
     found.steps = [0, 1, 2].map(|track| tracks[track].steps());
     let mut ended = tracks.into_iter().map(|track| track.ended);
     found.ended = std::array::from_fn(|_| ended.next().flatten());

@@ -46,11 +46,7 @@ impl Measured {
     }
 
     /// A body of two moments, by its number among those that are compared; none where it is away.
-    pub(super) fn pair<'s>(
-        &self,
-        body: usize,
-        moments: [&'s Snapshot; 2],
-    ) -> Option<[&'s BodySnapshot; 2]> {
+    pub(super) fn pair<'s>(&self, body: usize, moments: [&'s Snapshot; 2]) -> Option<[&'s BodySnapshot; 2]> {
         let id = *self.bodies.get(body)?;
         let [one, two] = moments.map(|moment| moment.body(id));
         Some([one?, two?])

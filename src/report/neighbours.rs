@@ -154,8 +154,7 @@ fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
     let end = seen.last().map_or(0.0, |last| last.0);
     let (mut integral, mut sum, mut late) = (0.0, 0.0, 0.0);
     for pair in seen.windows(2) {
-        let ([(before, from), (now, to)], middle) =
-            ([pair[0], pair[1]], f64::midpoint(pair[0].0, pair[1].0));
+        let ([(before, from), (now, to)], middle) = ([pair[0], pair[1]], f64::midpoint(pair[0].0, pair[1].0));
         integral += (to - from) * middle;
         let part = 2.0 * integral / now * (now - before);
         sum += part;
@@ -204,7 +203,10 @@ mod tests {
         let torn = |t: f64| if t < 5.0 { 1.0 } else { libm::exp(60.0 * (t - 5.0)) };
         let Parting::Sudden { time } = of(torn) else { panic!("{:?}", of(torn)) };
         assert!((time - 5.28).abs() < 0.05, "{time}");
-        assert!(matches!(of(|t| if t < 5.0 { 1.0 } else { 1e5 }), Parting::Unclear { .. } | Parting::Chaotic { .. }));
+        assert!(matches!(
+            of(|t| if t < 5.0 { 1.0 } else { 1e5 }),
+            Parting::Unclear { .. } | Parting::Chaotic { .. }
+        ));
     }
 
     #[test]

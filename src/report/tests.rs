@@ -64,7 +64,8 @@ fn the_estimated_error_is_the_true_one_within_a_factor_of_two() {
         let step = if method == "euler-cromer" { 0.002 } else { 0.02 };
         (oscillator(method, step), on_circle as fn(f64) -> DVec3)
     });
-    let orbits = ["velocity-verlet", "rk4", "yoshida4"].map(|method| (kepler(method, 0.004), on_ellipse as _));
+    let orbits =
+        ["velocity-verlet", "rk4", "yoshida4"].map(|method| (kepler(method, 0.004), on_ellipse as _));
     for (scene, truth) in oscillators.into_iter().chain(orbits) {
         let (_, verdict) = assessed(&scene, 1e-3);
         let (found, true_one) = (verdict.error, true_error(&scene, 1, truth));
@@ -110,7 +111,9 @@ fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
          [joint.top.rod]\nbetween = [[0, 0, 0], 'upper']\n[joint.bottom.rod]\nbetween = ['upper', 'lower']\n",
     );
     let (assessment, verdict) = assessed(&pendulum, 1e-3);
-    let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else { panic!("{:?}", verdict.neighbours) };
+    let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else {
+        panic!("{:?}", verdict.neighbours)
+    };
     // Of the order of the period of a small swing, 2 s, over 2π.
     assert!((0.1..2.0).contains(&lyapunov_time), "{lyapunov_time}");
     assert!(assessment.untried.iter().any(|untried| untried.integrator == "yoshida4"));

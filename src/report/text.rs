@@ -70,7 +70,11 @@ impl Assessment {
             _ => "at most about",
         };
         let size = digits(verdict.size, 3);
-        line(out, "error", &format!("a point is off by {about} {error} m, {part} of the size of the scene ({size} m)"));
+        line(
+            out,
+            "error",
+            &format!("a point is off by {about} {error} m, {part} of the size of the scene ({size} m)"),
+        );
     }
 
     fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
@@ -82,7 +86,11 @@ impl Assessment {
             [
                 body.body.clone(),
                 format!("{} m", digits(body.place, 2)),
-                if is_seen(body.place) && body.way > 0.0 { percent(body.place / body.way) } else { "-".to_owned() },
+                if is_seen(body.place) && body.way > 0.0 {
+                    percent(body.place / body.way)
+                } else {
+                    "-".to_owned()
+                },
                 format!("{}°", digits(body.orientation, 2)),
                 format!("{} s", digits(body.time, 4)),
             ]
@@ -103,10 +111,9 @@ impl Assessment {
                 "unpredictable: neighbours that begin {APART:e} of the size apart are torn apart by t = {} s",
                 digits(time, 3)
             ),
-            Parting::Unclear { growth } => format!(
-                "perhaps chaotic: {}; a longer run would tell",
-                apart(growth)
-            ),
+            Parting::Unclear { growth } => {
+                format!("perhaps chaotic: {}; a longer run would tell", apart(growth))
+            }
             Parting::Chaotic { lyapunov_time, doubling_time } => {
                 let start = format!(
                     "chaotic: a small difference doubles every {} s (Lyapunov time {} s)",
@@ -139,8 +146,9 @@ impl Assessment {
         let least = self.accuracy * verdict.size;
         let wanted = percent(self.accuracy);
         line(out, "tried", &format!("to be right to {wanted} of the size, {} m:", digits(least, 2)));
-        let mut rows =
-            vec![["integrator", "step", "steps", "force evaluations", "error", "drift", ""].map(str::to_owned)];
+        let mut rows = vec![
+            ["integrator", "step", "steps", "force evaluations", "error", "drift", ""].map(str::to_owned),
+        ];
         rows.extend(self.trials.iter().enumerate().map(|(place, trial)| {
             [
                 trial.integrator.to_owned(),
@@ -174,8 +182,7 @@ impl Assessment {
         let Some(best) = self.recommended.map(|place| &self.trials[place]) else {
             let why = match verdict.neighbours {
                 Parting::Chaotic { .. } | Parting::Sudden { .. } => {
-                    "nothing that was tried reaches this to the end: differences grow so fast that ten times the \
-                     accuracy buys little time"
+                    "nothing that was tried reaches this to the end: small differences grow too fast"
                 }
                 _ if matches!(verdict.order, Order::None { .. }) => {
                     "nothing that was tried reaches this: small steps change the course of the run"
@@ -192,8 +199,12 @@ impl Assessment {
             return;
         }
         let why = match (reached, saved) {
-            (true, saved) => format!("the run reaches this; so does the following, {} times as fast:", digits(saved, 2)),
-            (false, saved) if saved >= 1.5 => format!("write this, which is {} times as fast:", digits(saved, 2)),
+            (true, saved) => {
+                format!("the run reaches this; so does the following, {} times as fast:", digits(saved, 2))
+            }
+            (false, saved) if saved >= 1.5 => {
+                format!("write this, which is {} times as fast:", digits(saved, 2))
+            }
             (false, saved) if saved <= 0.67 => {
                 format!("write this, which takes {} times as long:", digits(1.0 / saved, 2))
             }
@@ -230,7 +241,9 @@ impl Verdict {
                 format!("{measured:.1} measured, as `{method}` has it: the estimate is good")
             }
             Order::Other { measured } if measured > f64::from(nominal) => {
-                format!("{measured:.1} measured, more than the {nominal} of `{method}`: the motion is an easy one")
+                format!(
+                    "{measured:.1} measured, more than the {nominal} of `{method}`: the motion is an easy one"
+                )
             }
             Order::Other { measured } => format!(
                 "{measured:.1} measured, less than the {nominal} of `{method}`: {}",
@@ -240,7 +253,7 @@ impl Verdict {
                 }
             ),
             Order::None { measured } => format!(
-                "{measured:.1} measured: a smaller step does not bring the run nearer to the truth, so nobody knows its error"
+                "{measured:.1} measured: smaller steps do not bring the run nearer to the truth, so its error is not known"
             ),
         }
     }
@@ -273,7 +286,11 @@ fn momenta(verdict: &Verdict) -> String {
         Conserved::Kept { drift } => format!("drifts by {}", percent(drift)),
     };
     let [linear, angular] = [verdict.linear_momentum, verdict.angular_momentum].map(said);
-    if linear == angular { format!("linear and angular: {linear}") } else { format!("linear: {linear}; angular: {angular}") }
+    if linear == angular {
+        format!("linear and angular: {linear}")
+    } else {
+        format!("linear: {linear}; angular: {angular}")
+    }
 }
 
 fn until(trusted: Trusted) -> String {
@@ -307,7 +324,9 @@ fn table<const N: usize>(out: &mut String, rows: &[[String; N]]) {
             let width = width(column);
             let _ = match column {
                 0 => write!(text, "{cell:<width$}"),
-                _ if column + 1 == N && row[column].chars().all(char::is_alphabetic) => write!(text, "  {cell}"),
+                _ if column + 1 == N && row[column].chars().all(char::is_alphabetic) => {
+                    write!(text, "  {cell}")
+                }
                 _ => write!(text, "  {cell:>width$}"),
             };
         }

@@ -69,8 +69,9 @@ fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     let own = scene.simulation.method;
     let others = || METHODS.iter().filter(|method| !std::ptr::eq(*method, own) && method.order > 1);
     let tried = std::iter::once(own).chain(others().filter(|method| refused(scene, method).is_none()));
-    let untried = others()
-        .filter_map(|method| Some(Untried { integrator: method.name, why: refused(scene, method)?.to_owned() }));
+    let untried = others().filter_map(|method| {
+        Some(Untried { integrator: method.name, why: refused(scene, method)?.to_owned() })
+    });
     (tried.collect(), untried.collect())
 }
 
@@ -191,7 +192,8 @@ impl Goal<'_> {
         match (coarsest_good, from.error) {
             (Some(good), Some(error)) => {
                 let coarser = nice(steps * by_order(error).max(0.1));
-                let is_new = coarser < good.steps_per_frame && finest_failed.is_none_or(|failed| coarser > failed);
+                let is_new =
+                    coarser < good.steps_per_frame && finest_failed.is_none_or(|failed| coarser > failed);
                 is_new.then_some(coarser)
             }
             (_, Some(error)) => {
@@ -210,8 +212,7 @@ impl Goal<'_> {
         let settings = [setting, setting.finer(2)];
         let scenes = settings.map(|setting| setting.applied(scene, self.own));
         let frames = scene.simulation.frames().max(1) as f64;
-        let mut tracks =
-            [0, 1].map(|track| Track::new(&scenes[track], settings[track].cost(scene) / frames));
+        let mut tracks = [0, 1].map(|track| Track::new(&scenes[track], settings[track].cost(scene) / frames));
         let (mut most, mut kinetic, mut energy, mut around) = (0.0_f64, 0.0_f64, 0.0_f64, None);
         together(&mut tracks, scene, watch, &mut |moments| {
             let [coarse, fine] = moments else { return };
@@ -259,7 +260,11 @@ pub(super) fn cheapest(trials: &[Trial]) -> Option<usize> {
 }
 
 /// The least of 1, 2, 4, 5, 8, 10, 20, 40 … that is not below a number.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number that is too large saturates")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a number that is too large saturates"
+)]
 fn nice(number: f64) -> u32 {
     let mut power = 1.0;
     loop {

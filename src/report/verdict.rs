@@ -153,8 +153,8 @@ impl Order {
         const SAME: f64 = 0.35;
         let far = |moment: &&Moment| moment.off.is_some_and(|off| off <= NEAR * compared.size);
         let near = compared.moments.iter().skip(1).take_while(far).filter_map(|moment| moment.squares);
-        let (count, [coarse, fine]) =
-            near.fold((0.0, [0.0; 2]), |(n, sum), squares| (n + 1.0, [sum[0] + squares[0], sum[1] + squares[1]]));
+        let (count, [coarse, fine]) = near
+            .fold((0.0, [0.0; 2]), |(n, sum), squares| (n + 1.0, [sum[0] + squares[0], sum[1] + squares[1]]));
         let rounding = ROUNDING * compared.size;
         if count < 2.0 {
             return Order::Unknown;
@@ -198,8 +198,13 @@ impl Verdict {
             .map(|(&id, off)| {
                 let body = scene.bodies[id].name.to_string();
                 let orientation = (factor * off.most.angle).to_degrees().min(180.0);
-                let error =
-                    BodyError { body, place: factor * off.most.place, time: off.time, way: off.way, orientation };
+                let error = BodyError {
+                    body,
+                    place: factor * off.most.place,
+                    time: off.time,
+                    way: off.way,
+                    orientation,
+                };
                 (factor * off.most.point, error)
             })
             .collect();
@@ -273,8 +278,7 @@ fn conserved(compared: &Compared, kind: usize) -> Conserved {
     let largest = |run: usize, moments: &mut dyn Iterator<Item = &Moment>| {
         moments.map(|moment| moment.changed[run][kind]).fold(0.0, f64::max)
     };
-    let [of_run, of_half] =
-        [0, 1].map(|run| largest(run, &mut compared.moments.iter().take_while(near)));
+    let [of_run, of_half] = [0, 1].map(|run| largest(run, &mut compared.moments.iter().take_while(near)));
     if of_run > SMALL * most && of_half > 0.75 * of_run {
         return Conserved::Changed;
     }

@@ -24,7 +24,8 @@ impl Axis {
     /// Around all values and zero, a little wider than these.
     pub(super) fn around<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
         let finite = values.filter(|value| value.is_finite());
-        let (min, max) = finite.fold((0.0_f64, 0.0_f64), |(min, max), value| (min.min(*value), max.max(*value)));
+        let (min, max) =
+            finite.fold((0.0_f64, 0.0_f64), |(min, max), value| (min.min(*value), max.max(*value)));
         match max - min {
             0.0 => Axis::linear(-1.0, 1.0),
             range => Axis::linear(min - 0.05 * range, max + 0.05 * range),
@@ -55,7 +56,9 @@ impl Axis {
         if self.is_logarithmic {
             let every = (range / TICKS).ceil().max(1.0);
             let first = (self.min / every).ceil() * every;
-            return steps(first, every, self.max).map(|power| (libm::exp10(power), format!("1e{power}"))).collect();
+            return steps(first, every, self.max)
+                .map(|power| (libm::exp10(power), format!("1e{power}")))
+                .collect();
         }
         let power = libm::exp10(libm::log10(range / TICKS).floor());
         let every = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
@@ -85,7 +88,10 @@ mod tests {
         assert_eq!(names(&Axis::linear(0.0, 9e8)), ["0", "2e8", "4e8", "6e8", "8e8"]);
         assert_eq!(names(&Axis::around([0.0, -0.19].iter())), ["-0.15", "-0.1", "-0.05", "0"]);
         assert_eq!(names(&Axis::around([0.0].iter())), ["-1", "-0.5", "0", "0.5", "1"]);
-        assert_eq!(names(&Axis::logarithmic([3e-9, 0.0, 0.5].iter())), ["1e-8", "1e-6", "1e-4", "1e-2", "1e0"]);
+        assert_eq!(
+            names(&Axis::logarithmic([3e-9, 0.0, 0.5].iter())),
+            ["1e-8", "1e-6", "1e-4", "1e-2", "1e0"]
+        );
         assert_eq!(names(&Axis::logarithmic([].iter())), ["1e-3", "1e-2", "1e-1", "1e0"]);
     }
 

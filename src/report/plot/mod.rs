@@ -43,9 +43,19 @@ enum Anchor {
 /// What a picture consists of. Places are in pixels, from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
-    Line { points: Vec<[f64; 2]>, width: f64, color: Rgb },
+    Line {
+        points: Vec<[f64; 2]>,
+        width: f64,
+        color: Rgb,
+    },
     /// `at` is the middle of its height.
-    Text { at: [f64; 2], text: String, anchor: Anchor, large: bool, color: Rgb },
+    Text {
+        at: [f64; 2],
+        text: String,
+        anchor: Anchor,
+        large: bool,
+        color: Rgb,
+    },
 }
 
 /// A picture that is not drawn yet.
@@ -68,7 +78,7 @@ struct Panel<'a> {
 }
 
 impl Picture {
-    /// The picture of an assessment; none where nothing is integrated.
+    /// The picture of an assessment, under a title; none where nothing is integrated.
     pub fn of(assessment: &Assessment, title: &str) -> Option<Picture> {
         let verdict = assessment.verdict.as_ref()?;
         let panels = panels(assessment, verdict);
@@ -133,10 +143,11 @@ impl Picture {
         }
         let points = panel.times.iter().zip(&panel.values);
         // Zero has no place on a logarithmic axis.
-        let points = points.filter(|(_, value)| value.is_finite() && (!panel.is_logarithmic || **value > 0.0));
+        let points =
+            points.filter(|(_, value)| value.is_finite() && (!panel.is_logarithmic || **value > 0.0));
         let points = points.map(|(time, value)| [self.across(times, *time), y(*value).clamp(top, bottom)]);
-        let points = thinned(points.collect());
-        self.line(points, 2.0, panel.color);
+        let points: Vec<[f64; 2]> = points.collect();
+        self.line(thinned(&points), 2.0, panel.color);
     }
 }
 
@@ -184,9 +195,9 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
 }
 
 /// A curve without the points that nobody can see: of those within a pixel's width, the first, the highest, the lowest and the last.
-fn thinned(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
-    let mut rest = &points[..];
+    let mut rest = points;
     while let Some(first) = rest.first() {
         let count = rest.partition_point(|point| point[0] < first[0] + 1.0).max(1);
         let (here, later) = rest.split_at(count);
@@ -211,7 +222,7 @@ mod tests {
         let points: Vec<[f64; 2]> = (0..10_000)
             .map(|k| [f64::from(k) * 0.01, if k == 5_003 { 9.0 } else { f64::from(k % 7) }])
             .collect();
-        let kept = thinned(points.clone());
+        let kept = thinned(&points);
         assert!(kept.len() <= 4 * 101, "{}", kept.len());
         assert!(kept.contains(&points[5_003]) && kept.contains(&points[0]) && kept.contains(&points[9_999]));
         assert!(kept.is_sorted_by(|a, b| a[0] <= b[0]));

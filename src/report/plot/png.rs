@@ -8,14 +8,20 @@ use super::{Anchor, GROUND, Item, Picture, Rgb};
 ///
 /// # Errors
 /// Where it cannot be encoded.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a picture is some thousand pixels high")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a picture is some thousand pixels high"
+)]
 pub fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let (width, height) = (picture.width.ceil() as usize, picture.height.ceil() as usize);
     let mut canvas = Canvas { width, height, rgb: GROUND.repeat(width * height) };
     for item in &picture.items {
         match item {
             Item::Line { points, width, color } => canvas.line(points, *width, *color),
-            Item::Text { at, text, anchor, large, color } => canvas.text(*at, text, (*anchor, *large), *color),
+            Item::Text { at, text, anchor, large, color } => {
+                canvas.text(*at, text, (*anchor, *large), *color);
+            }
         }
     }
     let mut bytes = Vec::new();
@@ -45,28 +51,41 @@ struct Canvas {
 impl Canvas {
     /// Draws a polyline: a pixel is covered by how near its middle is to the nearest piece.
     fn line(&mut self, points: &[[f64; 2]], width: f64, color: Rgb) {
-        let mut covered = vec![0.0_f32; self.width * self.height];
+        let reach = width / 2.0 + 1.0;
+        let bound = |axis: usize, end: usize| {
+            let places = points.iter().map(|point| point[axis]);
+            let (min, max) = places.fold((f64::MAX, 0.0_f64), |(min, max), at| (min.min(at), max.max(at)));
+            let begin = ((min - reach).max(0.0) as usize).min(end);
+            begin..((max + reach).ceil() as usize + 1).clamp(begin, end)
+        };
+        let (columns, rows) = (bound(0, self.width), bound(1, self.height));
+        let mut covered = vec![0.0_f32; columns.len() * rows.len()];
         for pair in points.windows(2) {
             let [[ax, ay], [bx, by]] = [pair[0], pair[1]];
-            let reach = width / 2.0 + 1.0;
             let across = (ax.min(bx) - reach).max(0.0) as usize..=(ax.max(bx) + reach).max(0.0) as usize;
             let down = (ay.min(by) - reach).max(0.0) as usize..=(ay.max(by) + reach).max(0.0) as usize;
             let (dx, dy) = (bx - ax, by - ay);
             let length = (dx * dx + dy * dy).max(1e-12);
-            for y in down.filter(|y| *y < self.height) {
-                for x in across.clone().filter(|x| *x < self.width) {
+            for y in down.filter(|y| rows.contains(y)) {
+                for x in across.clone().filter(|x| columns.contains(x)) {
                     let (px, py) = (x as f64 + 0.5 - ax, y as f64 + 0.5 - ay);
                     let along = ((px * dx + py * dy) / length).clamp(0.0, 1.0);
                     let (ox, oy) = (px - along * dx, py - along * dy);
                     let part = (width / 2.0 + 0.5 - (ox * ox + oy * oy).sqrt()).clamp(0.0, 1.0) as f32;
-                    let here = &mut covered[y * self.width + x];
+                    let here = &mut covered[(y - rows.start) * columns.len() + x - columns.start];
                     *here = here.max(part);
                 }
             }
         }
-        for (pixel, part) in self.rgb.as_chunks_mut::<3>().0.iter_mut().zip(&covered) {
-            if *part > 0.0 {
-                mix(pixel, color, (part * 255.0).round() as u8);
+        if columns.is_empty() {
+            return;
+        }
+        for (y, parts) in rows.zip(covered.chunks(columns.len())) {
+            let row = &mut self.rgb[3 * (y * self.width + columns.start)..];
+            for (pixel, part) in row.as_chunks_mut::<3>().0.iter_mut().zip(parts) {
+                if *part > 0.0 {
+                    mix(pixel, color, (part * 255.0).round() as u8);
+                }
             }
         }
     }
@@ -90,7 +109,8 @@ impl Canvas {
             for (row, parts) in glyph.rows().enumerate() {
                 for (column, part) in parts.iter().enumerate() {
                     let (x, y) = (left + column as i64, top + row as i64);
-                    let is_within = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
+                    let is_within =
+                        (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
                     if is_within && *part > 0 {
                         let start = 3 * (y as usize * self.width + x as usize);
                         if let Some(pixel) = self.rgb[start..].first_chunk_mut::<3>() {
