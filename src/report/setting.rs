@@ -4,7 +4,8 @@ use crate::dynamics::{Method, World};
 use crate::scene::{ContactLaw, Scene};
 use crate::simulate::{evaluations, world};
 
-/// A method and its step.
+/// A method and its step. A method with a tolerance in place of a step needs its tolerance here, and a tenth of it wherever others
+/// halve their step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     pub(super) method: &'static Method,

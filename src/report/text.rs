@@ -282,6 +282,7 @@ fn momenta(verdict: &Verdict) -> String {
     let said = |conserved: Conserved| match conserved {
         Conserved::Still => "none".to_owned(),
         Conserved::Changed => "changed from outside".to_owned(),
+        Conserved::Kept { drift } if drift < 1e-12 => "kept to rounding".to_owned(),
         Conserved::Kept { drift } if drift < 1e-9 => format!("kept to {}", percent(drift)),
         Conserved::Kept { drift } => format!("drifts by {}", percent(drift)),
     };
