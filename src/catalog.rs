@@ -2,7 +2,7 @@
 //!
 //! The names come from the tables that scenes are checked with. A new category is one line in [`CATEGORIES`].
 
-use crate::dynamics::METHODS;
+use crate::dynamics::Method;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
@@ -40,7 +40,7 @@ pub static CATEGORIES: &[Category] = &[
 ];
 
 fn integrators() -> Vec<(&'static str, String)> {
-    METHODS.iter().map(|method| (method.name, method.summary.to_owned())).collect()
+    Method::all().map(|method| (method.name, method.summary.to_owned())).collect()
 }
 
 fn contacts() -> Vec<(&'static str, String)> {

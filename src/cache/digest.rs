@@ -24,7 +24,9 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
     let simulation = &scene.simulation;
     let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
-    writeln!(text, "{duration:?} {rate:?} {step:?} {} {:?}", simulation.method.name, simulation.gravity)?;
+    let tolerance = simulation.method.adaptive.then_some(simulation.tolerance);
+    writeln!(text, "{duration:?} {rate:?} {step:?} {tolerance:?}")?;
+    writeln!(text, "{} {:?}", simulation.method.name, simulation.gravity)?;
     let contacts = simulation.contacts;
     writeln!(text, "{contacts:?} {:?} {:?}", contacts.and(scene.ground_that_stops()), scene.pairs)?;
     for body in &scene.bodies {

@@ -44,7 +44,7 @@ pub(super) fn summary(
         "{folder}: {scripts} of {frames} frames{others}\n\
          bodies    {bodies}\n\
          {particles}\
-         timestep  {step} s, {steps} a frame, by {method}\n\
+         timestep  {steps}, by {method}\n\
          {drift}\
          {contacts}\
          {unit}\
@@ -57,8 +57,13 @@ pub(super) fn summary(
         scripts = written.scripts,
         bodies = scene.bodies.len(),
         particles = particles(scene),
-        step = short(survey.timestep),
-        steps = survey.steps_per_frame,
+        steps = if scene.simulation.method.adaptive {
+            format!("as the tolerance of {} asks for", short(scene.simulation.tolerance))
+        } else if scene.simulation.method.ahead.is_some() {
+            format!("{} s", short(scene.simulation.step))
+        } else {
+            format!("{} s, {} a frame", short(survey.timestep), survey.steps_per_frame)
+        },
         method = scene.simulation.method.name,
         drift = drift(survey.drift),
         contacts = survey

@@ -21,6 +21,7 @@
 //! | many small bodies that a source sends out | [`ParticleSource`], [`Cloud`] |
 //! | all of it together, with a clock | [`World`] |
 //! | many bodies in contact, at fixed steps | [`TimeStepping`] |
+//! | few bodies, by methods that choose their steps | [`Method::ahead`], its [`Accuracy`] |
 //! | what the rest of the program sees of it | [`Dynamics`] |
 //!
 //! # Tutorial
@@ -71,6 +72,7 @@
 //! assert_eq!(again.state(), world.state());
 //! ```
 
+mod ahead;
 mod anchor;
 mod body;
 mod constraint;
@@ -93,6 +95,7 @@ mod system;
 mod track;
 mod world;
 
+pub use ahead::Accuracy;
 pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
 pub use constraint::*;
@@ -100,7 +103,7 @@ pub use contact::{ContactSnapshot, Contacts, Impact, Meeting, Surface};
 pub use effort::Effort;
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
-pub use integrator::{DenseOutput, Integrator, METHODS, Method, Step};
+pub use integrator::{AHEAD, DenseOutput, Integrator, METHODS, Method, Step, TakeOver};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Kinematics, Motion};

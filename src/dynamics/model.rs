@@ -9,8 +9,8 @@ use glam::{DQuat, DVec3};
 
 use self::away::Away;
 use super::{
-    Accounts, Breakdown, Constraint, Effort, Force, Kinematics, Loads, Moment, Motion, RigidBody, Shape,
-    State,
+    Accounts, Breakdown, Constraint, Effort, Force, Gravitation, Kinematics, Loads, Moment, Motion,
+    RigidBody, Shape, State,
 };
 
 /// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
@@ -117,6 +117,21 @@ impl Model {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
     }
 
+    /// Whether something can change the angular momentum of a body.
+    pub(super) fn turns_bodies(&self) -> bool {
+        !self.torqued.is_empty() || self.forces.iter().any(|force| force.turns_bodies())
+    }
+
+    /// Newton's gravitation, if it is among the forces.
+    pub(super) fn gravitation(&self) -> Option<&Gravitation> {
+        self.forces.iter().find_map(|force| force.gravitation())
+    }
+
+    /// Whether the motion of some body that is there is given.
+    pub(super) fn has_guided(&self) -> bool {
+        self.guided().next().is_some()
+    }
+
     /// Whether no body is moved by forces, be it there or not.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()
@@ -166,7 +181,7 @@ impl Model {
 
     /// Why a run cannot go on, where a force without a finite value is behind it.
     pub(super) fn cause(&self, breakdown: Breakdown) -> Breakdown {
-        let Breakdown::Diverged { .. } = breakdown else { return breakdown };
+        let (Breakdown::Diverged { .. } | Breakdown::Stalled { .. }) = breakdown else { return breakdown };
         let undefined = |(force, it): (usize, &Arc<dyn Force>)| it.undefined().map(|at| (force, at));
         match self.forces.iter().enumerate().find_map(undefined) {
             Some((force, at)) => Breakdown::Undefined { force, at },

@@ -73,6 +73,13 @@ pub enum Breakdown {
         /// How deep they are within each other, m.
         depth: f64,
     },
+    /// No step is short enough for a body.
+    Stalled {
+        /// The body.
+        body: BodyId,
+        /// The time, s.
+        time: f64,
+    },
     /// Impacts follow each other without end.
     Jammed {
         /// The bodies of the last impact.
@@ -146,6 +153,9 @@ impl std::fmt::Display for Breakdown {
             Breakdown::Overlapping { bodies: [a, b], time, depth } => {
                 let (a, b) = (a.index(), b.index());
                 write!(f, "at t = {time} s bodies {a} and {b} are {depth:.3e} m within each other")
+            }
+            Breakdown::Stalled { body, time } => {
+                write!(f, "at t = {time} s no step is short enough for body {}", body.index())
             }
             Breakdown::Jammed { bodies: [a, b], time } => {
                 let (a, b) = (a.index(), b.index());

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::EmitError;
-use crate::simulate::{Broken, Diverged, SimulateError, Stuck, Undefined};
+use crate::simulate::{Broken, Diverged, SimulateError, Stalled, Stuck, Undefined};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -36,6 +36,8 @@ pub enum OutputError {
     Broken(Broken),
     /// A contact cannot be computed.
     Stuck(Box<Stuck>),
+    /// No step is short enough for a body.
+    Stalled(Box<Stalled>),
     /// The recording of the run could not be written or read.
     Recording(String),
     /// A script cannot be written.
@@ -60,6 +62,7 @@ impl OutputError {
             OutputError::Broken(_) => Code::BrokenJoint,
             OutputError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
             OutputError::Stuck(_) => Code::Jammed,
+            OutputError::Stalled(_) => Code::Stalled,
             OutputError::Recording(_) => Code::NoRecording,
             OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
             OutputError::Emit(_) => Code::CannotEmit,
@@ -83,6 +86,11 @@ impl OutputError {
             && let (Some(span), sources) = &undefined.place
         {
             let diagnostic = diagnostic.at(*span, undefined.why.2.clone());
+            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
+        }
+        if let OutputError::Stalled(stalled) = self {
+            let (span, sources) = &stalled.place;
+            let diagnostic = span.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, ""));
             return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
         }
         if let OutputError::Stuck(stuck) = self {
@@ -110,6 +118,10 @@ impl OutputError {
             ),
             OutputError::Stuck(_) => Some(
                 "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
+            ),
+            OutputError::Stalled(_) => Some(
+                "two point-like bodies may meet there: give `gravitation` or `coulomb` a `softening`, move them, or end the scene before that \
+                 time: `--set simulation.duration=…`",
             ),
             OutputError::Recording(_) => Some(
                 "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
@@ -160,6 +172,7 @@ impl fmt::Display for OutputError {
             OutputError::Undefined(error) => error.fmt(f),
             OutputError::Broken(error) => error.fmt(f),
             OutputError::Stuck(error) => error.fmt(f),
+            OutputError::Stalled(error) => error.fmt(f),
             OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
             OutputError::Emit(error) => error.fmt(f),
         }
@@ -175,6 +188,7 @@ impl From<SimulateError> for OutputError {
             SimulateError::Undefined(error) => OutputError::Undefined(error),
             SimulateError::Broken(error) => OutputError::Broken(error),
             SimulateError::Stuck(error) => OutputError::Stuck(error),
+            SimulateError::Stalled(error) => OutputError::Stalled(error),
             SimulateError::Recording(message) => OutputError::Recording(message),
         }
     }

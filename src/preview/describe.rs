@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::run::{Outcome, Simulation};
-use crate::dynamics::{METHODS, Shape};
+use crate::dynamics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, of_look, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
@@ -155,7 +155,7 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
         step: simulation.step,
         frames: simulation.frames(),
         frame_rate: simulation.frame_rate,
-        methods: METHODS.iter().map(|m| Method { name: m.name, summary: m.summary }).collect(),
+        methods: dynamics::Method::all().map(|m| Method { name: m.name, summary: m.summary }).collect(),
         size: [scene.output.width, scene.output.height],
         preset: scene.environment.preset.name(),
         sky: match scene.environment.sky {

@@ -15,8 +15,10 @@ pub struct Simulation {
     pub duration: f64,
     /// Frames per second.
     pub frame_rate: f64,
-    /// The longest timestep allowed, s.
+    /// The longest timestep allowed, s; infinite where the method chooses its own.
     pub step: f64,
+    /// The error that a step of an adaptive method may have.
+    pub tolerance: f64,
     /// The method that advances the world.
     pub method: &'static Method,
     /// The acceleration of every body that can move, m/s².

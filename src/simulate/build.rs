@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use crate::dynamics::{
-    BodyId, Contacts, Dynamics, Effort, Link, LinkKind, RigidBody, Shape, TimeStepping, UniformGravity, World,
+    Accuracy, BodyId, Contacts, Dynamics, Effort, Link, LinkKind, RigidBody, Shape, TimeStepping,
+    UniformGravity, World,
 };
 use crate::scene::{Body, ContactLaw, Joint, JointKind, Scene};
 
@@ -23,7 +24,13 @@ pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     }
     let mut world = world(scene);
     world.watch(effort);
-    Box::new(world)
+    match scene.simulation.method.ahead {
+        Some(ahead) if !is_given(scene) => {
+            let accuracy = Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.end() };
+            ahead(world, accuracy)
+        }
+        _ => Box::new(world),
+    }
 }
 
 /// A joint as time stepping has it; the check has refused all others.
@@ -63,8 +70,7 @@ fn free_world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
     // What is given at every time needs no steps to get there.
-    let is_given = scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some());
-    world.set_step(if is_given { f64::INFINITY } else { scene.simulation.step });
+    world.set_step(if is_given(scene) { f64::INFINITY } else { scene.simulation.step });
     world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
     world.add_shapes(scene.bodies.iter().map(|body| body.shape.clone()));
@@ -74,6 +80,11 @@ fn free_world(scene: &Scene) -> World {
     scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
     scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
     world
+}
+
+/// Whether no body is moved by forces.
+fn is_given(scene: &Scene) -> bool {
+    scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some())
 }
 
 /// The ground is a plane like any other: a body of the world that the scene does not have.

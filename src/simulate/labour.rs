@@ -26,7 +26,8 @@ impl Labour {
     pub fn of(scene: &Scene) -> Labour {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
-        if pairs == 0 {
+        // How many steps there will be between two frames is not known of a method whose steps know nothing of frames.
+        if pairs == 0 || scene.simulation.method.ahead.is_some() {
             return Labour::default();
         }
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));

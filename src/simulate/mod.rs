@@ -88,6 +88,8 @@ pub enum SimulateError {
     Broken(Broken),
     /// A contact cannot be computed.
     Stuck(Box<Stuck>),
+    /// No step is short enough for a body.
+    Stalled(Box<Stalled>),
     /// Its recording cannot be written or read.
     Recording(String),
 }
@@ -156,6 +158,24 @@ impl std::fmt::Display for Undefined {
 
 impl std::error::Error for Undefined {}
 
+/// That a method that chooses its own steps found none short enough.
+#[derive(Clone, Debug)]
+pub struct Stalled {
+    /// The name of the body whose motion changes too fast.
+    pub body: String,
+    /// The time, s.
+    pub time: f64,
+    /// Where the scene says its name, and the texts of the scene.
+    pub place: (Option<diagnostic::Span>, Sources),
+}
+
+impl PartialEq for Stalled {
+    /// The texts do not count.
+    fn eq(&self, other: &Stalled) -> bool {
+        (&self.body, self.time) == (&other.body, other.time)
+    }
+}
+
 /// That a joint cannot be kept.
 #[derive(Clone, Debug)]
 pub struct Broken {
@@ -222,6 +242,12 @@ impl SimulateError {
             Breakdown::Jammed { bodies, time } => {
                 SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, None)))
             }
+            Breakdown::Stalled { body, time } => {
+                let span = scene.places.bodies.get(body.index()).copied();
+                let place = (span, scene.warnings.sources.clone());
+                let body = scene.bodies[body.index()].name.to_string();
+                SimulateError::Stalled(Box::new(Stalled { body, time, place }))
+            }
             Breakdown::Broken { constraint, time, missing } => {
                 let joint = scene.joints[constraint].name.clone();
                 let span = scene.places.joints.get(constraint).copied();
@@ -239,6 +265,15 @@ impl std::fmt::Display for Diverged {
 }
 
 impl std::error::Error for Diverged {}
+
+impl std::fmt::Display for Stalled {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Stalled { body, time, .. } = self;
+        write!(f, "the run cannot go on: at t = {time} s no step is short enough for `{body}`")
+    }
+}
+
+impl std::error::Error for Stalled {}
 
 impl std::fmt::Display for Broken {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -276,6 +311,7 @@ impl std::fmt::Display for SimulateError {
             SimulateError::Undefined(error) => error.fmt(f),
             SimulateError::Broken(error) => error.fmt(f),
             SimulateError::Stuck(error) => error.fmt(f),
+            SimulateError::Stalled(error) => error.fmt(f),
             SimulateError::Recording(message) => f.write_str(message),
         }
     }

@@ -145,7 +145,16 @@ fn an_editor_completes_keys_and_values_and_says_what_they_mean() {
     ]);
     let has = |offer: &Offer, label: &str| offer.labels.iter().any(|l| l == label);
     assert!(has(&key, "velocity") && has(&key, "fixed") && !has(&key, "integrator"), "{:?}", key.labels);
-    let methods = ["euler-cromer", "explicit-euler", "velocity-verlet", "rk4", "yoshida4"];
+    let methods = [
+        "euler-cromer",
+        "explicit-euler",
+        "velocity-verlet",
+        "rk4",
+        "yoshida4",
+        "dop853",
+        "gauss-radau",
+        "wisdom-holman",
+    ];
     assert_eq!(integrator.labels, methods.map(|method| format!("\"{method}\"")));
     // The library; what the scene itself declares, no schema knows.
     assert!(has(&material, "\"brass\"") && has(&material, "\"marble\""), "{:?}", material.labels);

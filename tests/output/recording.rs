@@ -24,8 +24,10 @@ static COUNTED: Method = Method {
     order: 1,
     symplectic: true,
     constraints: true,
+    adaptive: false,
     summary: "",
     create: || Box::new(Counted::new()),
+    ahead: None,
 };
 
 struct Counted(Box<dyn Integrator>);

@@ -38,6 +38,10 @@ impl Force for ConstantForce {
         self.torque != DVec3::ZERO
     }
 
+    fn turns_bodies(&self) -> bool {
+        self.torque != DVec3::ZERO
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let mut potential = 0.0;
         for body in &self.bodies {

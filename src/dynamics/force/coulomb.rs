@@ -46,6 +46,10 @@ impl Force for Coulomb {
         false
     }
 
+    fn turns_bodies(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         self.of(moment).potential(moment)
     }

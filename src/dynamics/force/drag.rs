@@ -36,6 +36,10 @@ impl Force for Drag {
         }
     }
 
+    fn turns_bodies(&self) -> bool {
+        false
+    }
+
     fn potential(&self, _: &Moment) -> f64 {
         0.0
     }

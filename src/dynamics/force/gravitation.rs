@@ -66,6 +66,14 @@ impl Force for Gravitation {
         false
     }
 
+    fn turns_bodies(&self) -> bool {
+        false
+    }
+
+    fn gravitation(&self) -> Option<&Gravitation> {
+        Some(self)
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         match self.opening_angle {
             Some(angle) => self.by_tree(angle, moment).potential(moment),

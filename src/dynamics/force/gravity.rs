@@ -26,6 +26,10 @@ impl Force for UniformGravity {
         false
     }
 
+    fn turns_bodies(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let model = moment.model;
         let mut potential = 0.0;

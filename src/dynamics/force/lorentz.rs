@@ -28,6 +28,10 @@ impl Force for Lorentz {
         }
     }
 
+    fn turns_bodies(&self) -> bool {
+        false
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         let model = moment.model;
         let movable = self.bodies.iter().map(|body| body.index()).filter(|&i| model.movable()[i]);

@@ -68,6 +68,16 @@ pub trait Force: Send + Sync {
         true
     }
 
+    /// Whether it can turn bodies, or depends on how they are turned.
+    fn turns_bodies(&self) -> bool {
+        true
+    }
+
+    /// It itself, if it is Newton's: for a method that moves bodies along their orbits.
+    fn gravitation(&self) -> Option<&Gravitation> {
+        None
+    }
+
     /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
     fn pairs(&self) -> u64 {
         0

@@ -7,6 +7,8 @@ use super::{Loads, Moment};
 
 /// The bodies in one tile: two tiles and their sums fit into the first-level cache, and lie on the stack.
 const TILE: usize = 128;
+/// So few bodies need no tiles: to make one takes as long as all their pairs.
+const FEW: usize = 16;
 /// As many interactions side by side as give the compiler something to vectorise.
 const LANES: usize = 4;
 
@@ -46,6 +48,9 @@ pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
 impl Pairs<'_> {
     /// Adds the forces on all bodies.
     pub(super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
+        if self.against.is_none() && self.bodies.len() <= FEW {
+            return self.apply_to_few(moment, loads);
+        }
         let softening = self.softening * self.softening;
         self.each_pair_of_tiles(moment, |first, second, last| {
             match second {
@@ -59,6 +64,29 @@ impl Pairs<'_> {
                 first.add_to(loads, self.constant);
             }
         });
+    }
+
+    /// The same for few bodies: the same sums in the same order.
+    fn apply_to_few(&self, moment: &Moment, loads: &mut Loads) {
+        let (bodies, places) = (moment.model.present(self.bodies), moment.state.location.as_slice());
+        let softening = self.softening * self.softening;
+        let mut pulls = [DVec3::ZERO; FEW];
+        for (j, there) in bodies.iter().map(|body| body.index()).enumerate().skip(1) {
+            let (at, strength) = (places[there], self.strength[there]);
+            let mut back = DVec3::ZERO;
+            for (pull, here) in pulls[..j].iter_mut().zip(bodies.iter().map(|body| body.index())) {
+                let d = places[here] - at;
+                let square = d.length_squared() + softening;
+                let weight = 1.0 / (square * square.sqrt());
+                *pull += (strength * weight) * d;
+                back -= (self.strength[here] * weight) * d;
+            }
+            pulls[j] = back;
+        }
+        moment.model.effort().add(bodies.len() * bodies.len().saturating_sub(1) / 2);
+        for (body, pull) in bodies.iter().zip(pulls) {
+            loads.force[body.index()] += self.constant * self.strength[body.index()] * pull;
+        }
     }
 
     /// The potential of all pairs of which at least one body can move.

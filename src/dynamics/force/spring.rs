@@ -115,6 +115,10 @@ impl Force for Spring {
         self.damping != 0.0
     }
 
+    fn turns_bodies(&self) -> bool {
+        self.between.iter().any(|end| !end.is_centre())
+    }
+
     fn potential(&self, moment: &Moment) -> f64 {
         if !self.is_whole(moment) {
             return 0.0;

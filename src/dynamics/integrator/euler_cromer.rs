@@ -12,8 +12,10 @@ pub(super) const METHOD: Method = Method {
     order: 1,
     symplectic: true,
     constraints: true,
+    adaptive: false,
     summary: "first order, symplectic: cheap, and the energy error stays bounded",
     create: || Box::new(EulerCromer::default()),
+    ahead: None,
 };
 
 #[derive(Clone, Default)]

@@ -12,8 +12,10 @@ pub(super) const METHOD: Method = Method {
     order: 1,
     symplectic: false,
     constraints: true,
+    adaptive: false,
     summary: "first order: gains energy without bound, for comparison only",
     create: || Box::new(ExplicitEuler::default()),
+    ahead: None,
 };
 
 #[derive(Clone, Default)]

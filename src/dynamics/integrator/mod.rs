@@ -14,10 +14,10 @@ mod velocities;
 mod velocity_verlet;
 mod yoshida4;
 
-use super::{State, System};
+use super::{Accuracy, Dynamics, State, System, World, ahead};
 
 pub use dense::{DenseOutput, Step};
-pub(super) use rotation::free as turn_freely;
+pub(super) use rotation::{free as turn_freely, rate as orientation_rate};
 pub(super) use splitting::drift_body;
 
 /// A method of integration. It advances a state; time belongs to the [`World`](super::World).
@@ -46,6 +46,9 @@ impl Clone for Box<dyn Integrator> {
     }
 }
 
+/// What takes over a world, and advances it.
+pub type TakeOver = fn(World, Accuracy) -> Box<dyn Dynamics>;
+
 /// An entry of the table of methods.
 #[derive(Debug)]
 pub struct Method {
@@ -57,21 +60,40 @@ pub struct Method {
     pub symplectic: bool,
     /// Whether it can keep constraints; a scene with joints is refused where it cannot.
     pub constraints: bool,
+    /// Whether it chooses its steps by their error, and a scene says `tolerance` and not `step`.
+    pub adaptive: bool,
     /// One line for a list of methods.
     pub summary: &'static str,
-    /// Makes a new integrator.
+    /// Makes a new integrator, which makes steps of a given length.
     pub create: fn() -> Box<dyn Integrator>,
+    /// Takes over a world, to advance it by steps that know nothing of frames; none for a method whose steps divide the time between two
+    /// frames.
+    pub ahead: Option<TakeOver>,
 }
 
-/// All methods; the first is the default.
+/// The methods whose steps divide the time between two frames; the first is the default.
 pub static METHODS: &[Method] =
     &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
+/// The methods whose steps know nothing of frames.
+pub static AHEAD: &[Method] = &[ahead::DOP853, ahead::GAUSS_RADAU, ahead::WISDOM_HOLMAN];
+
 impl Method {
+    /// All methods.
+    pub fn all() -> impl Iterator<Item = &'static Method> {
+        METHODS.iter().chain(AHEAD)
+    }
+
     /// The method of this name.
     #[must_use]
     pub fn by_name(name: &str) -> Option<&'static Method> {
-        METHODS.iter().find(|method| method.name == name)
+        Method::all().find(|method| method.name == name)
+    }
+
+    /// Whether it is for planets about a heavy body alone, which no force but gravitation moves.
+    #[must_use]
+    pub fn is_of_planets(&self) -> bool {
+        self.name == ahead::WISDOM_HOLMAN.name
     }
 }
 
@@ -81,7 +103,7 @@ mod tests {
 
     #[test]
     fn every_method_is_found_by_its_own_name() {
-        for method in METHODS {
+        for method in Method::all() {
             let found = Method::by_name(method.name).unwrap();
             assert!(std::ptr::eq(found, method), "{} is there twice", method.name);
         }

@@ -11,8 +11,10 @@ pub(super) const METHOD: Method = Method {
     order: 4,
     symplectic: false,
     constraints: true,
+    adaptive: false,
     summary: "fourth order: accurate over short times, loses energy slowly over long ones",
     create: || Box::new(Rk4::default()),
+    ahead: None,
 };
 
 #[derive(Clone, Default)]

@@ -6,7 +6,7 @@ use super::super::model::is_isotropic;
 
 /// The rate of change of an orientation that turns at `angular_velocity` (world axes, rad/s): q' = ½ ω q, with ω as
 /// a quaternion without real part.
-pub(super) fn rate(orientation: DQuat, angular_velocity: DVec3) -> DQuat {
+pub(in crate::dynamics) fn rate(orientation: DQuat, angular_velocity: DVec3) -> DQuat {
     let half = 0.5 * angular_velocity;
     DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * orientation
 }

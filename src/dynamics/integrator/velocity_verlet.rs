@@ -14,8 +14,10 @@ pub(super) const METHOD: Method = Method {
     order: 2,
     symplectic: true,
     constraints: true,
+    adaptive: false,
     summary: "second order, symplectic: one evaluation of forces a step",
     create: || Box::new(VelocityVerlet::default()),
+    ahead: None,
 };
 
 #[derive(Clone, Default)]

@@ -13,8 +13,10 @@ pub(super) const METHOD: Method = Method {
     order: 4,
     symplectic: true,
     constraints: false,
+    adaptive: false,
     summary: "fourth order, symplectic: for long and precise motion without joints and impacts",
     create: || Box::new(Yoshida4::default()),
+    ahead: None,
 };
 
 /// 1 / (2 − ∛2): the length of the first and the third step. The second one is as long as is missing to 1.

@@ -89,12 +89,24 @@ impl Reader<'_, '_> {
             glow: view.number("glow").unwrap_or_default(),
             streak: view.number("streak").unwrap_or_default(),
         };
+        self.can_be_advanced();
         self.not_too_many(&emitter);
         self.not_too_early(&emitter);
         if emitter.collides.is_some() {
             self.can_collide(&emitter);
         }
         emitter
+    }
+
+    /// Particles make the steps of the bodies, which must be of equal length.
+    fn can_be_advanced(&mut self) {
+        let method = self.simulation.method;
+        if method.ahead.is_some() {
+            let message = format!("the integrator `{}` moves no particles", method.name);
+            let error = Diagnostic::error(Code::BadEmitter, message).at(self.span, "");
+            let help = "take another one: `simulation.integrator = \"rk4\"`";
+            self.context.diagnostics.push(error.help(help));
+        }
     }
 
     /// The surface of its particles, if bodies stop them.

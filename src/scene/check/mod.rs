@@ -19,6 +19,7 @@ mod look;
 mod material;
 mod mesh;
 mod motion;
+mod planets;
 mod povray;
 mod presence;
 mod sdl;
@@ -292,6 +293,7 @@ fn build(
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let (simulation, counts) = simulation::read(&root.table("simulation"), needs_steps(&root));
+    simulation::check(&root.table("simulation"), &simulation, context);
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);
     let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);
@@ -302,6 +304,7 @@ fn build(
     counts::check(&root, counts, &bodies, &forces, context);
     // A force that is wrong may be the one that needs them.
     if !context.forces_are_wrong {
+        planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);
     }
     let mut environment = look::environment(&root, &bodies);

@@ -1,8 +1,11 @@
 //! `[simulation]`.
 
+use super::Context;
 use super::contact;
 use super::counts::Counts;
+use super::habits::is_file;
 use super::view::View;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
@@ -12,7 +15,8 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let mut simulation = Simulation {
         duration: view.number("duration").unwrap_or_default(),
         frame_rate: view.number("frame_rate").unwrap_or_default(),
-        step: view.number("step").unwrap_or_default(),
+        step: if method.adaptive { f64::INFINITY } else { view.number("step").unwrap_or_default() },
+        tolerance: view.number("tolerance").unwrap_or_default(),
         method,
         gravity: view.vector("gravity").unwrap_or_default(),
         contacts: contact::law(view),
@@ -24,4 +28,35 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
         simulation.duration = 0.0;
     }
     (simulation, counts)
+}
+
+/// Says where a key is not one of this method: `step` of an adaptive one, `tolerance` of any other. A method that takes the place of the scene's,
+/// as `--set` does, may leave a key without use.
+pub(super) fn check(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) {
+    let method = simulation.method;
+    let (wrong, right, value) =
+        if method.adaptive { ("step", "tolerance", "1e-9") } else { ("tolerance", "step", "0.001") };
+    let Some(span) = view.key_span(wrong) else { return };
+    if view.span("integrator").is_some_and(|span| !is_file(span.source, context)) {
+        return;
+    }
+    let (message, help) = if method.adaptive {
+        (
+            format!("the integrator `{}` chooses its own steps", method.name),
+            format!("say how exact they are: `{right} = {value}`, or leave the line out"),
+        )
+    } else {
+        let adaptive: Vec<String> = Method::all()
+            .filter(|method| method.adaptive)
+            .map(|method| format!("`{}`", method.name))
+            .collect();
+        (
+            format!("the integrator `{}` makes steps of equal length", method.name),
+            format!(
+                "say how long they are: `{right} = {value}`; {} choose them by `{wrong}`",
+                adaptive.join(" and ")
+            ),
+        )
+    };
+    context.diagnostics.push(Diagnostic::error(Code::BadIntegrator, message).at(span, "").help(help));
 }

@@ -18,7 +18,7 @@ use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::showing;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
-use crate::dynamics::METHODS;
+use crate::dynamics::{METHODS, Method};
 use crate::scene::sdl::Where;
 use crate::scene::{ContactLaw, Finish, Layout, MATERIALS, Preset};
 
@@ -29,7 +29,7 @@ pub(super) const VECTOR: Kind = Numbers(3, Bound::Any);
 pub(super) const AXIS: Kind = Direction(3);
 
 fn integrators() -> Vec<&'static str> {
-    METHODS.iter().map(|method| method.name).collect()
+    Method::all().map(|method| method.name).collect()
 }
 
 fn contact_laws() -> Vec<&'static str> {
@@ -171,11 +171,20 @@ static SIMULATION: TableSpec = TableSpec {
         Key::new(
             "step",
             POSITIVE,
-            "The longest timestep; the real one divides the time between frames evenly",
+            "The longest timestep; the real one divides the time between frames evenly. Adaptive integrators choose their own, and take \
+             `tolerance` in its place",
         )
         .unit("s")
         .default_fraction(1.0, 240.0)
         .also(&["dt", "timestep", "time_step", "delta"]),
+        Key::new(
+            "tolerance",
+            POSITIVE,
+            "The error that a step of an adaptive integrator may have: of `dop853`, by the size of places and velocities; of `gauss-radau`, the ε \
+             of IAS15",
+        )
+        .default_number(1e-9)
+        .also(&["tol", "rtol", "atol", "accuracy", "epsilon"]),
         Key::new("integrator", Choice(integrators), "The method that advances the world")
             .default_word(METHODS[0].name)
             .also(&["method", "solver"]),

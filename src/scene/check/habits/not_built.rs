@@ -38,13 +38,6 @@ static NOT_BUILT: &[NotBuilt] = &[
         can_go: true,
     },
     NotBuilt {
-        of: "the simulation",
-        words: &["tolerance", "tol", "rtol", "atol", "adaptive"],
-        help: "no integrator chooses its own steps yet: `step` is the longest one; leave the line out",
-        comes_with: "tolerance",
-        can_go: true,
-    },
-    NotBuilt {
         of: "a joint",
         words: &["universal", "cylindrical", "screw", "spring", "motor", "belt"],
         help: "there are `ball`, `hinge`, `slider`, `fixed`, `rod`, `rope`, `pulley` and `gear`; springs are forces, \

@@ -2,8 +2,11 @@
 
 /// A word that is meant by another one, if it is one of those that there are.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
-    const OTHERS: [(&str, &[&str]); 18] = [
-        ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4", "rk45", "ode45", "dopri5"]),
+    const OTHERS: [(&str, &[&str]); 21] = [
+        ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4"]),
+        ("dop853", &["rk45", "ode45", "dopri5", "dopri", "rk8", "dormand-prince", "adaptive", "lsoda"]),
+        ("gauss-radau", &["ias15", "radau", "gauss-radau-15", "everhart", "radau15", "ra15"]),
+        ("wisdom-holman", &["wh", "whfast", "wisdom-holmann", "wisdomholman", "mvs"]),
         ("velocity-verlet", &["verlet", "leapfrog", "leap-frog", "stormer-verlet", "vv", "kdk"]),
         ("yoshida4", &["yoshida", "yoshida-4", "forest-ruth", "symplectic4", "symplectic-4"]),
         ("euler-cromer", &["euler", "symplectic", "symplectic-euler", "semi-implicit-euler", "cromer"]),

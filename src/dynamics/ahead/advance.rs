@@ -1,0 +1,119 @@
+//! How time goes on: steps of the method's own, births and deaths between them, and looks within them.
+
+use super::super::{Breakdown, Snapshot};
+use super::{Ahead, Field, Scales, Stepper, Time};
+
+impl<S: Stepper> Ahead<S> {
+    /// Advances to time `t` in steps that end at each birth and death.
+    pub(super) fn advance_by_events(
+        &mut self,
+        t: f64,
+        moments: &[f64],
+        see: &mut dyn FnMut(Snapshot),
+    ) -> Result<(), Breakdown> {
+        let mut left = moments;
+        while self.time < t {
+            let due = self.calendar.depart(self.time);
+            self.change(&due);
+            let stop = self.calendar.next().map_or(t, |next| next.min(t));
+            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
+            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
+            left = later;
+            for &moment in before {
+                self.go_to(moment)?;
+                see(self.peek()?);
+            }
+            self.go_to(stop)?;
+            let due = self.calendar.arrive(self.time);
+            self.change(&due);
+            self.ledger.close(&self.model, self.time, &self.state);
+            for _ in here {
+                see(self.peek()?);
+            }
+        }
+        Ok(())
+    }
+
+    /// The present moment, which leaves no trace in the books.
+    fn peek(&mut self) -> Result<Snapshot, Breakdown> {
+        let balance = self.ledger.peek(&self.model, self.time, &self.state);
+        self.picture(balance).checked()
+    }
+
+    /// Lets bodies come and go.
+    fn change(&mut self, due: &[(usize, bool)]) {
+        if !due.is_empty() {
+            self.ledger.open(&self.model, self.time, &self.state);
+            self.model.let_come_and_go(due, &mut self.state);
+            self.is_begun = false;
+        }
+    }
+
+    /// Puts the bodies where they are at time `t`, which is at or after the one asked for before, and not beyond the next birth or death.
+    fn go_to(&mut self, t: f64) -> Result<(), Breakdown> {
+        if !self.is_begun {
+            self.begin();
+        }
+        while self.now.0.until(t) > 0.0 {
+            self.make_step(t)?;
+        }
+        self.time = t;
+        self.look();
+        Ok(())
+    }
+
+    /// Hands the bodies over to the method.
+    fn begin(&mut self) {
+        self.is_begun = true;
+        self.ledger.close(&self.model, self.time, &self.state);
+        self.model.place(self.time, &mut self.state);
+        self.bodies.sort(&self.model, &self.state);
+        self.stage.clone_from(&self.state);
+        self.model.evaluate(self.time, &self.stage, &mut self.loads);
+        self.scales = Scales::of(&self.bodies, &self.model, &self.stage, &self.loads);
+        self.now.0 = Time::at(self.time);
+        let Ahead { model, bodies, scales, stage, loads, now, .. } = self;
+        now.1.begin(&mut Field { model, bodies, scales, stage, loads }, now.0);
+    }
+
+    /// Makes one step. `wanted` is the time that has to be reached, s.
+    fn make_step(&mut self, wanted: f64) -> Result<(), Breakdown> {
+        let stop = self.stop();
+        let Ahead { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
+        let longest = now.until(stop);
+        if method.proposal().min(longest) >= now.until(wanted) {
+            // It will be looked into.
+            before.0 = *now;
+            before.1.clone_from(method);
+        }
+        let field = &mut Field { model, bodies, scales, stage, loads };
+        let time = now.seconds();
+        let step = method.step(field, *now, longest);
+        let step = step.map_err(|body| Breakdown::Stalled { body, time })?;
+        *now = if step >= longest { Time::at(stop) } else { now.after(step) };
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// The time at which the next step has to end, s.
+    fn stop(&mut self) -> f64 {
+        let now = self.now.0.seconds();
+        let next = self.calendar.next().unwrap_or(f64::INFINITY);
+        let end = if now < self.end { self.end } else { now + self.end.abs().max(1.0) };
+        next.min(end)
+    }
+
+    /// Finds the bodies at the time that has been asked for, which is within the step that was made last.
+    fn look(&mut self) {
+        let Ahead { model, bodies, scales, stage, loads, now, before, branch, state, time, .. } = self;
+        let field = &mut Field { model, bodies, scales, stage, loads };
+        if now.0.until(*time) == 0.0 {
+            now.1.write(field, state);
+        } else {
+            branch.clone_from(&before.1);
+            branch.step_by(field, before.0, before.0.until(*time));
+            branch.write(field, state);
+        }
+        model.place(*time, state);
+    }
+}

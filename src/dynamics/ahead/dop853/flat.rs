@@ -1,0 +1,133 @@
+//! All that changes as one list of numbers: the places of all bodies that move, their velocities, for each body that turns its orientation and
+//! its angular momentum, and the work that has been done.
+
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+
+use super::super::super::State;
+use super::super::bodies::Field;
+
+/// The numbers of a body that turns.
+const OF_TURN: usize = 7;
+
+/// Where things stand in the list: velocities, turns, and the work.
+fn places(field: &Field<'_>) -> [usize; 3] {
+    let (moving, turning) = (field.bodies.moving.len(), field.bodies.turning.len());
+    [3 * moving, 6 * moving, 6 * moving + OF_TURN * turning]
+}
+
+/// Reads the list from the field's stage.
+pub(super) fn read(field: &Field<'_>, values: &mut Vec<f64>) {
+    let (bodies, stage) = (field.bodies, &*field.stage);
+    values.clear();
+    values.extend(bodies.moving.iter().flat_map(|&i| stage.location[i].to_array()));
+    values.extend(bodies.moving.iter().flat_map(|&i| stage.velocity[i].to_array()));
+    for &i in &bodies.turning {
+        values.extend(stage.orientation[i].to_array());
+        values.extend(stage.angular_momentum[i].to_array());
+    }
+    if bodies.works {
+        values.push(stage.accounts.work);
+    }
+}
+
+/// Writes the list to a state.
+pub(super) fn write(field: &Field<'_>, values: &[f64], state: &mut State) {
+    let [velocities, turns, work] = places(field);
+    let bodies = field.bodies;
+    for ((&i, at), velocity) in
+        bodies.moving.iter().zip(triples(&values[..velocities])).zip(triples(&values[velocities..turns]))
+    {
+        state.location[i] = at;
+        state.velocity[i] = velocity;
+    }
+    for (&i, turn) in bodies.turning.iter().zip(values[turns..work].as_chunks::<OF_TURN>().0) {
+        let [x, y, z, w, momentum @ ..] = *turn;
+        state.orientation[i] = DQuat::from_xyzw(x, y, z, w).normalize();
+        state.angular_momentum[i] = momentum.into();
+    }
+    if bodies.works {
+        state.accounts.work = values[work];
+    }
+}
+
+fn triples(values: &[f64]) -> impl Iterator<Item = DVec3> {
+    values.as_chunks::<3>().0.iter().map(|&triple| triple.into())
+}
+
+/// Brings orientations back to unit length.
+pub(super) fn normalize(field: &Field<'_>, values: &mut [f64]) {
+    let [_, turns, work] = places(field);
+    for turn in values[turns..work].as_chunks_mut::<OF_TURN>().0 {
+        let [x, y, z, w, ..] = *turn;
+        turn[..4].copy_from_slice(&DQuat::from_xyzw(x, y, z, w).normalize().to_array());
+    }
+}
+
+/// The slope of a list at time `t`, s.
+pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &mut [f64]) {
+    let [velocities, turns, work] = places(field);
+    {
+        let bodies = field.bodies;
+        let stage = &mut *field.stage;
+        for (&i, at) in bodies.moving.iter().zip(triples(&values[..velocities])) {
+            stage.location[i] = at;
+        }
+        for (&i, velocity) in bodies.moving.iter().zip(triples(&values[velocities..turns])) {
+            stage.velocity[i] = velocity;
+        }
+        for (&i, turn) in bodies.turning.iter().zip(values[turns..work].as_chunks::<OF_TURN>().0) {
+            let [x, y, z, w, momentum @ ..] = *turn;
+            stage.orientation[i] = DQuat::from_xyzw(x, y, z, w).normalize();
+            stage.angular_momentum[i] = momentum.into();
+        }
+    }
+    field.evaluate(t);
+    slope[..velocities].copy_from_slice(&values[velocities..turns]);
+    for (&i, slope) in field.bodies.moving.iter().zip(slope[velocities..turns].as_chunks_mut::<3>().0) {
+        *slope = field.acceleration(i).to_array();
+    }
+    for (&i, slope) in field.bodies.turning.iter().zip(slope[turns..work].as_chunks_mut::<OF_TURN>().0) {
+        slope[..4].copy_from_slice(&field.turning(i).to_array());
+        slope[4..].copy_from_slice(&field.loads.torque[i].to_array());
+    }
+    if field.bodies.works {
+        slope[work] = field.loads.power.work;
+    }
+}
+
+/// Shows each body with the ranges of its numbers, and how large these are before and after a step; at the end, the work as if it were a
+/// body's.
+pub(super) fn each_body(
+    field: &Field<'_>,
+    before: &[f64],
+    after: &[f64],
+    mut see: impl FnMut(usize, [(Range<usize>, f64); 2]),
+) {
+    let [velocities, turns, work] = places(field);
+    let scales = field.scales;
+    let largest = |range: Range<usize>, least: f64| {
+        let square = |values: &[f64]| values[range.clone()].iter().map(|value| value * value).sum::<f64>();
+        square(before).max(square(after)).sqrt().max(least).max(f64::MIN_POSITIVE)
+    };
+    let mut energy = 0.0;
+    for (k, &i) in field.bodies.moving.iter().enumerate() {
+        let at = 3 * k..3 * k + 3;
+        let velocity = velocities + 3 * k..velocities + 3 * k + 3;
+        let (length, speed) = (largest(at.clone(), scales.length), largest(velocity.clone(), scales.speed));
+        energy += field.model.mass()[i] * speed * speed;
+        see(i, [(at, length), (velocity, speed)]);
+    }
+    for (k, &i) in field.bodies.turning.iter().enumerate() {
+        let start = turns + OF_TURN * k;
+        let momentum = start + 4..start + OF_TURN;
+        let usual = field.model.inertia()[i].max_element() * scales.speed / scales.length;
+        let size = largest(momentum.clone(), if usual.is_finite() { usual } else { 0.0 });
+        see(i, [(start..start + 4, 1.0), (momentum, size)]);
+    }
+    if field.bodies.works {
+        let size = largest(work..work + 1, energy);
+        see(0, [(work..work + 1, size), (0..0, 1.0)]);
+    }
+}

@@ -1,0 +1,221 @@
+//! The method of Dormand and Prince of order 8, which chooses its steps by estimates of orders 5 and 3.
+
+mod coefficients;
+mod flat;
+
+use super::super::BodyId;
+use super::super::State;
+use super::bodies::Field;
+use super::stepper::{Stepper, is_too_short};
+use super::time::Time;
+use coefficients::{
+    END, ERROR_3, ERROR_5, STAGE_2, STAGE_3, STAGE_4, STAGE_5, STAGE_6, STAGE_7, STAGE_8, STAGE_9, STAGE_10,
+    STAGE_11, STAGE_12, TIMES, Weight,
+};
+
+/// A step is made shorter than the error allows, so that it is seldom made in vain.
+const SAFETY: f64 = 0.9;
+/// A step is at least so many times as long as the one before, and at most.
+const SHRINKS: f64 = 1.0 / 3.0;
+const GROWS: f64 = 6.0;
+
+/// Twelve stages a step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential Equations I*, 2nd edition (1993), II.10;
+/// the choice of steps: II.4.
+///
+/// The error of a step is allowed to be `tolerance` of each body's distance from the origin, speed and so on; where these are small, of the size of
+/// the whole motion ([`Scales`](super::bodies::Scales)). A body with a large error is not hidden by many with small ones: the largest counts.
+#[derive(Default)]
+pub(super) struct Dop853 {
+    tolerance: f64,
+    /// All that changes: places, velocities, orientations with angular momenta, work.
+    values: Vec<f64>,
+    /// The slopes of the stages; the first is that of the values.
+    slopes: [Vec<f64>; 12],
+    /// Room for a stage.
+    stage: Vec<f64>,
+    /// How long the next step is, s.
+    proposal: f64,
+    /// Since when bodies turn evenly that nothing turns, s.
+    elapsed: f64,
+}
+
+impl Dop853 {
+    pub(super) fn new(tolerance: f64) -> Dop853 {
+        Dop853 { tolerance, ..Dop853::default() }
+    }
+
+    /// Finds the values a step later, and leaves them in the room for a stage. The slope at the end is not known yet.
+    fn try_step(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
+        self.find_slope(field, now, h, 1, STAGE_2);
+        self.find_slope(field, now, h, 2, STAGE_3);
+        self.find_slope(field, now, h, 3, STAGE_4);
+        self.find_slope(field, now, h, 4, STAGE_5);
+        self.find_slope(field, now, h, 5, STAGE_6);
+        self.find_slope(field, now, h, 6, STAGE_7);
+        self.find_slope(field, now, h, 7, STAGE_8);
+        self.find_slope(field, now, h, 8, STAGE_9);
+        self.find_slope(field, now, h, 9, STAGE_10);
+        self.find_slope(field, now, h, 10, STAGE_11);
+        self.find_slope(field, now, h, 11, STAGE_12);
+        self.follow(h, END);
+    }
+
+    /// The slope of one stage, which follows from those before.
+    fn find_slope<const N: usize>(
+        &mut self,
+        field: &mut Field<'_>,
+        now: Time,
+        h: f64,
+        number: usize,
+        weights: [Weight; N],
+    ) {
+        self.follow(h, weights);
+        flat::find_slope(field, now.seconds() + TIMES[number] * h, &self.stage, &mut self.slopes[number]);
+    }
+
+    /// Goes along slopes, from the values to the stage.
+    fn follow<const N: usize>(&mut self, h: f64, weights: [Weight; N]) {
+        let Dop853 { values, slopes, stage, .. } = self;
+        let slopes = weights.map(|(number, _)| &slopes[number][..values.len()]);
+        for (i, (stage, value)) in stage.iter_mut().zip(values).enumerate() {
+            let mut sum = 0.0;
+            for (slope, (_, weight)) in slopes.iter().zip(weights) {
+                sum += weight * slope[i];
+            }
+            *stage = *value + h * sum;
+        }
+    }
+
+    /// The error of the step to the stage by what is allowed, and the body that has it: at most 1 is allowed.
+    fn error(&self, field: &Field<'_>, h: f64) -> (f64, BodyId) {
+        let Dop853 { values, slopes, stage, tolerance, .. } = self;
+        let sum = |weights: &[Weight], i: usize| -> f64 {
+            weights.iter().map(|(number, weight)| weight * slopes[*number][i]).sum()
+        };
+        let mut worst = (0.0, BodyId::new(0));
+        flat::each_body(field, values, stage, |body, parts| {
+            let (mut of_5, mut of_3, mut count) = (0.0, 0.0, 0.0);
+            for (range, scale) in parts {
+                for i in range {
+                    let (five, three) = (sum(&ERROR_5, i) / scale, sum(&ERROR_3, i) / scale);
+                    of_5 += five * five;
+                    of_3 += three * three;
+                    count += 1.0;
+                }
+            }
+            let both = (of_5 + 0.01 * of_3) * count;
+            let error = if both > 0.0 { h * of_5 / (both.sqrt() * tolerance) } else { both };
+            if error > worst.0 || error.is_nan() && !f64::is_nan(worst.0) {
+                worst = (error, BodyId::new(body));
+            }
+        });
+        worst
+    }
+
+    /// Takes the stage as what is.
+    fn accept(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
+        std::mem::swap(&mut self.values, &mut self.stage);
+        flat::normalize(field, &mut self.values);
+        flat::find_slope(field, now.after(h).seconds(), &self.values, &mut self.slopes[0]);
+        self.elapsed += h;
+    }
+
+    /// A length for the first step. Source: Hairer, Nørsett & Wanner, II.4.
+    fn first_step(&mut self, field: &mut Field<'_>, now: Time) -> f64 {
+        // Both in units of what is allowed; a value is about one by the tolerance.
+        let rate = self.largest(field, |dop, i| dop.slopes[0][i]);
+        if rate == 0.0 {
+            return f64::INFINITY;
+        }
+        let guess = 0.01 / (self.tolerance * rate);
+        self.follow(guess, [(0, 1.0)]);
+        flat::find_slope(field, now.after(guess).seconds(), &self.stage, &mut self.slopes[1]);
+        let bend = self.largest(field, |dop, i| dop.slopes[1][i] - dop.slopes[0][i]) / guess;
+        let steepest = bend.max(rate * rate * self.tolerance);
+        (100.0 * guess).min(eighth_root(0.01 / (steepest * self.tolerance)).min(100.0) * guess)
+    }
+
+    /// The largest of some quantity, in units of what is allowed.
+    fn largest(&self, field: &Field<'_>, of: impl Fn(&Dop853, usize) -> f64) -> f64 {
+        let mut largest: f64 = 0.0;
+        flat::each_body(field, &self.values, &self.values, |_, parts| {
+            for (range, scale) in parts {
+                let most = range.map(|i| of(self, i).abs()).fold(0.0, f64::max);
+                largest = largest.max(if most == 0.0 { 0.0 } else { most / (scale * self.tolerance) });
+            }
+        });
+        largest
+    }
+}
+
+fn eighth_root(x: f64) -> f64 {
+    x.sqrt().sqrt().sqrt()
+}
+
+impl Stepper for Dop853 {
+    fn begin(&mut self, field: &mut Field<'_>, now: Time) {
+        flat::read(field, &mut self.values);
+        let count = self.values.len();
+        self.slopes.iter_mut().chain([&mut self.stage]).for_each(|room| room.resize(count, 0.0));
+        self.elapsed = 0.0;
+        flat::find_slope(field, now.seconds(), &self.values, &mut self.slopes[0]);
+        self.proposal = self.first_step(field, now);
+    }
+
+    fn proposal(&self) -> f64 {
+        self.proposal
+    }
+
+    fn step(&mut self, field: &mut Field<'_>, now: Time, longest: f64) -> Result<f64, BodyId> {
+        let mut h = self.proposal.min(longest);
+        let mut most = GROWS;
+        loop {
+            self.try_step(field, now, h);
+            let (error, body) = self.error(field, h);
+            if error <= 1.0 {
+                self.accept(field, now, h);
+                let factor = SAFETY / eighth_root(error);
+                // Where the step was cut, more was allowed.
+                self.proposal = (h * factor.clamp(SHRINKS, most)).max(if most > 1.0 {
+                    h.min(self.proposal)
+                } else {
+                    0.0
+                });
+                return Ok(h);
+            }
+            most = 1.0;
+            let factor = if error.is_finite() { (SAFETY / eighth_root(error)).max(SHRINKS) } else { 0.1 };
+            h *= factor.min(SAFETY);
+            if is_too_short(h, now) {
+                return Err(body);
+            }
+        }
+    }
+
+    fn step_by(&mut self, field: &mut Field<'_>, now: Time, duration: f64) {
+        self.try_step(field, now, duration);
+        self.accept(field, now, duration);
+    }
+
+    fn write(&self, field: &Field<'_>, state: &mut State) {
+        flat::write(field, &self.values, state);
+        field.bodies.spin(field.model, self.elapsed, state);
+    }
+}
+
+// By hand, since stages need not be copied, and room that is there can be used again.
+impl Clone for Dop853 {
+    fn clone(&self) -> Self {
+        let mut clone = Dop853::default();
+        clone.clone_from(self);
+        clone
+    }
+
+    fn clone_from(&mut self, source: &Self) {
+        self.values.clone_from(&source.values);
+        self.slopes[0].clone_from(&source.slopes[0]);
+        let count = self.values.len();
+        self.slopes.iter_mut().chain([&mut self.stage]).for_each(|room| room.resize(count, 0.0));
+        (self.tolerance, self.proposal, self.elapsed) = (source.tolerance, source.proposal, source.elapsed);
+    }
+}

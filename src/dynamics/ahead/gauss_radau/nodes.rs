@@ -1,0 +1,127 @@
+//! The times at which forces are evaluated within a step, and the weights that follow from them.
+
+/// The nodes of Gauss–Radau quadrature with eight points, as parts of a step. Source: E. Everhart, in *Dynamics of Comets* (1985) 185,
+/// table 1.
+pub(super) const NODES: [f64; 8] = [
+    0.0,
+    0.056_262_560_536_922_15,
+    0.180_240_691_736_892_36,
+    0.352_624_717_113_169_6,
+    0.547_153_626_330_555_4,
+    0.734_210_177_215_410_5,
+    0.885_320_946_839_095_8,
+    0.977_520_613_561_287_5,
+];
+
+/// The coefficients of h, h², …, h⁷ in a slope.
+pub(super) const TERMS: usize = 7;
+
+/// Weights of the slope at the beginning and of the seven coefficients.
+pub(super) type Weights = [f64; TERMS + 1];
+
+/// By how much a value has grown at each node, and at the end of the step, for a step of 1: hᵏ/k.
+pub(super) const OF_VALUE: [Weights; 9] = weights(false);
+/// How far a place has moved by its changing velocity: hᵏ⁺¹/(k (k + 1)).
+pub(super) const OF_PLACE: [Weights; 9] = weights(true);
+
+const fn weights(of_place: bool) -> [Weights; 9] {
+    let mut all = [[0.0; TERMS + 1]; 9];
+    let mut node = 0;
+    while node < 9 {
+        let h = if node < 8 { NODES[node] } else { 1.0 };
+        let (mut k, mut power, mut number) = (0, h, 1.0);
+        while k <= TERMS {
+            all[node][k] = if of_place { power * h / (number * (number + 1.0)) } else { power / number };
+            power *= h;
+            number += 1.0;
+            k += 1;
+        }
+        node += 1;
+    }
+    all
+}
+
+/// 1 / (hₙ − hⱼ).
+pub(super) const PER_DISTANCE: [[f64; 8]; 8] = {
+    let mut all = [[0.0; 8]; 8];
+    let mut n = 1;
+    while n < 8 {
+        let mut j = 0;
+        while j < n {
+            all[n][j] = 1.0 / (NODES[n] - NODES[j]);
+            j += 1;
+        }
+        n += 1;
+    }
+    all
+};
+
+/// The coefficients of h (h − h₁) … (h − hₖ) by powers of h, from h on. Source: Everhart, equation 8.
+pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
+    let mut all = [[0.0; TERMS]; TERMS];
+    all[0][0] = 1.0;
+    let mut k = 1;
+    while k < TERMS {
+        let mut j = 0;
+        while j <= k {
+            let shifted = if j > 0 { all[k - 1][j - 1] } else { 0.0 };
+            all[k][j] = shifted - NODES[k] * all[k - 1][j];
+            j += 1;
+        }
+        k += 1;
+    }
+    all
+};
+
+/// The coefficients of powers of h by those products. Source: Everhart, equation 9.
+pub(super) const PRODUCTS: [[f64; TERMS]; TERMS] = {
+    let mut all = [[0.0; TERMS]; TERMS];
+    all[0][0] = 1.0;
+    let mut k = 1;
+    while k < TERMS {
+        let mut j = 0;
+        while j <= k {
+            let shifted = if j > 0 { all[k - 1][j - 1] } else { 0.0 };
+            all[k][j] = shifted + NODES[j + 1] * all[k - 1][j];
+            j += 1;
+        }
+        k += 1;
+    }
+    all
+};
+
+/// The binomial coefficients j + 1 over k + 1.
+pub(super) const BINOMIALS: [[f64; TERMS]; TERMS] = {
+    let mut all = [[0.0; TERMS]; TERMS];
+    let mut j = 0;
+    while j < TERMS {
+        let (mut k, mut value) = (0, (j + 1) as f64);
+        while k <= j {
+            all[j][k] = value;
+            value = value * ((j - k) as f64) / ((k + 2) as f64);
+            k += 1;
+        }
+        j += 1;
+    }
+    all
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The two tables are inverse to each other, and others are what a hand writes down.
+    #[test]
+    #[allow(clippy::needless_range_loop, reason = "matrices have two indices")]
+    fn powers_and_products_undo_each_other() {
+        for k in 0..TERMS {
+            for j in 0..TERMS {
+                let sum: f64 = (0..TERMS).map(|i| PRODUCTS[k][i] * POWERS[i][j]).sum();
+                assert!((sum - f64::from(u8::from(k == j))).abs() < 1e-14, "{k} {j}: {sum}");
+            }
+        }
+        assert_eq!(BINOMIALS[6], [7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0]);
+        assert_eq!(OF_VALUE[8][7], 1.0 / 8.0);
+        assert_eq!(OF_PLACE[8][7], 1.0 / 72.0);
+    }
+}

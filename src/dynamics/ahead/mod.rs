@@ -1,0 +1,153 @@
+//! Methods whose steps know nothing of frames: they choose them by the error, or by what keeps it bounded.
+//!
+//! A step ends where the motion is not smooth — at a birth, a death, at the end of the run — and nowhere else. A moment that somebody wants to
+//! see lies within a step; it is found by a branch: a copy of the bodies at the beginning of the step, which makes a shorter one to exactly that
+//! moment. It is as accurate as the run, and changes nothing of it: the run is the same, bit for bit, whatever is looked at.
+
+mod advance;
+mod bodies;
+mod dop853;
+mod fixed;
+mod gauss_radau;
+mod snapshot;
+mod stepper;
+#[cfg(test)]
+mod tests;
+mod time;
+mod wisdom_holman;
+
+use self::bodies::{Bodies, Field, Scales};
+use self::dop853::Dop853;
+use self::gauss_radau::GaussRadau;
+use self::stepper::Stepper;
+use self::time::Time;
+use self::wisdom_holman::WisdomHolman;
+use super::presence::Calendar;
+use super::world::Parts;
+use super::{Breakdown, Dynamics, EnergyLedger, Loads, Method, Model, Snapshot, State, World};
+
+use fixed::Fixed;
+
+/// How accurate a method is that chooses its own steps, and how long the run is.
+#[derive(Clone, Copy, Debug)]
+pub struct Accuracy {
+    /// The error that a step may have, by the size of the motion; each method says what that is.
+    pub tolerance: f64,
+    /// The time at which the run ends, s: no step goes beyond it, as long as nobody asks for more.
+    pub end: f64,
+}
+
+pub(super) const DOP853: Method = Method {
+    name: "dop853",
+    order: 8,
+    symplectic: false,
+    constraints: false,
+    adaptive: true,
+    summary: "order 8, adaptive (`tolerance`): for smooth motion of any kind, precise over short and medium times",
+    create: || Box::new(Fixed::new(Dop853::new(FOR_FIXED_STEPS))),
+    ahead: Some(|world, accuracy| take_over(world, Dop853::new(accuracy.tolerance), accuracy.end)),
+};
+
+pub(super) const GAUSS_RADAU: Method = Method {
+    name: "gauss-radau",
+    order: 15,
+    symplectic: false,
+    constraints: false,
+    adaptive: true,
+    summary: "order 15, adaptive (`tolerance`): orbits to the last digits, also through close encounters and over long times",
+    create: || Box::new(Fixed::new(GaussRadau::new(FOR_FIXED_STEPS))),
+    ahead: Some(|world, accuracy| take_over(world, GaussRadau::new(accuracy.tolerance), accuracy.end)),
+};
+
+pub(super) const WISDOM_HOLMAN: Method = Method {
+    name: "wisdom-holman",
+    order: 2,
+    symplectic: true,
+    constraints: false,
+    adaptive: false,
+    summary: "planets about one heavy body, symplectic, with a corrector: millions of years, but no close encounters",
+    create: || Box::new(Fixed::new(WisdomHolman::new(f64::INFINITY))),
+    ahead: Some(|world, accuracy| {
+        let parts = world.into_parts();
+        let method = WisdomHolman::new(parts.step);
+        Box::new(Ahead::new(parts, method, accuracy.end))
+    }),
+};
+
+/// The tolerance of a method whose steps are given: it says nothing then.
+const FOR_FIXED_STEPS: f64 = 1e-9;
+
+fn take_over(world: World, method: impl Stepper + 'static, end: f64) -> Box<dyn Dynamics> {
+    Box::new(Ahead::new(world.into_parts(), method, end))
+}
+
+/// Bodies that move under forces, advanced by a method that chooses its own steps.
+struct Ahead<S> {
+    model: Model,
+    /// The bodies at the time that has been asked for.
+    state: State,
+    ledger: EnergyLedger,
+    calendar: Calendar,
+    /// The time that has been asked for, s.
+    time: f64,
+    end: f64,
+    steps: u64,
+    /// Whether the method has the bodies; not at the start, and not after a birth or a death.
+    is_begun: bool,
+    /// The method at the end of the step that was made last, and at its beginning.
+    now: (Time, S),
+    before: (Time, S),
+    /// Room for a branch.
+    branch: S,
+    bodies: Bodies,
+    scales: Scales,
+    /// Room for the bodies at a stage, and for what acts on them.
+    stage: State,
+    loads: Loads,
+}
+
+impl<S: Stepper> Ahead<S> {
+    fn new(parts: Parts, stepper: S, end: f64) -> Ahead<S> {
+        let Parts { time, model, state, ledger, calendar, .. } = parts;
+        let now = (Time::at(time), stepper);
+        Ahead {
+            stage: state.clone(),
+            before: now.clone(),
+            branch: now.1.clone(),
+            now,
+            model,
+            state,
+            ledger,
+            calendar,
+            time,
+            end,
+            steps: 0,
+            is_begun: false,
+            bodies: Bodies::default(),
+            scales: Scales::default(),
+            loads: Loads::default(),
+        }
+    }
+}
+
+impl<S: Stepper> Dynamics for Ahead<S> {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown> {
+        if !(t > self.time && t.is_finite()) {
+            return Ok(());
+        }
+        self.advance_by_events(t, moments, see).map_err(|breakdown| self.model.cause(breakdown))
+    }
+
+    fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
+        let balance = self.ledger.measure(&self.model, self.time, &self.state);
+        self.picture(balance).checked().map_err(|breakdown| self.model.cause(breakdown))
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+}
