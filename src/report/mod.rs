@@ -54,8 +54,10 @@ pub struct Assessment {
     pub integrator: &'static str,
     /// Its order.
     pub order: u32,
-    /// The timestep, s.
-    pub timestep: f64,
+    /// The timestep, s; none where the method chooses it.
+    pub timestep: Option<f64>,
+    /// The tolerance by which it does.
+    pub tolerance: Option<f64>,
     /// The timesteps from one frame to the next.
     pub steps_per_frame: u32,
     /// How many bodies are moved by forces. Where there are none, nothing is integrated, and nothing else is known.
@@ -100,6 +102,7 @@ pub fn assess(
         integrator: own.method.name,
         order: own.method.order,
         timestep: own.timestep(scene),
+        tolerance: own.tolerance(),
         steps_per_frame: own.steps,
         bodies_moved: measured.bodies.len(),
         end: scene.simulation.end(),

@@ -1,33 +1,57 @@
 //! How a run is advanced: by which method, and how finely.
 
 use crate::dynamics::{Method, World};
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{ContactLaw, Scene, Simulation};
 use crate::simulate::{evaluations, world};
 
-/// A method and its step. A method with a tolerance in place of a step needs its tolerance here, and a tenth of it wherever others
-/// halve their step.
+/// The least tolerance that is tried: below it, rounding decides.
+const LEAST_TOLERANCE: f64 = 1e-13;
+
+/// A method and its step, or its tolerance where it chooses its steps by one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     pub(super) method: &'static Method,
-    /// The timesteps from one frame to the next.
+    /// The timesteps from one frame to the next. Of a method whose steps know nothing of frames, how many times as finely it is advanced as the
+    /// scene says.
     pub(super) steps: u32,
+    /// The step and the tolerance that such a method has in the scene.
+    step: f64,
+    tolerance: f64,
 }
 
 impl Setting {
     /// That of a scene.
     pub(super) fn of(scene: &Scene) -> Setting {
         let interval = 1.0 / scene.simulation.frame_rate;
-        Setting { method: scene.simulation.method, steps: world(scene).steps_within(interval) }
+        let method = scene.simulation.method;
+        let steps = if method.ahead.is_some() { 1 } else { world(scene).steps_within(interval) };
+        Setting::new(method, steps, scene)
     }
 
-    /// The same with so many times the steps.
+    /// That of a scene, with another method.
+    pub(super) fn new(method: &'static Method, steps: u32, scene: &Scene) -> Setting {
+        let Simulation { step, tolerance, .. } = scene.simulation;
+        Setting { method, steps, step, tolerance }
+    }
+
+    /// The same with so many times the steps. Of an adaptive method, a tenth of the tolerance stands for twice the steps.
     pub(super) fn finer(self, times: u32) -> Setting {
         Setting { steps: self.steps.saturating_mul(times), ..self }
     }
 
-    /// The timestep, s.
-    pub(super) fn timestep(self, scene: &Scene) -> f64 {
-        1.0 / scene.simulation.frame_rate / f64::from(self.steps)
+    /// The timestep, s; none where the method chooses it.
+    pub(super) fn timestep(self, scene: &Scene) -> Option<f64> {
+        match (self.method.adaptive, self.method.ahead) {
+            (true, _) => None,
+            (false, Some(_)) => Some(self.step / f64::from(self.steps)),
+            (false, None) => Some(1.0 / scene.simulation.frame_rate / f64::from(self.steps)),
+        }
+    }
+
+    /// The tolerance; none where the method has none.
+    pub(super) fn tolerance(self) -> Option<f64> {
+        let finer = self.tolerance / libm::pow(10.0, f64::from(self.steps.max(1).ilog2()));
+        self.method.adaptive.then(|| finer.max(LEAST_TOLERANCE.min(self.tolerance)))
     }
 
     /// A scene that is advanced so. What is its own setting changes nothing.
@@ -35,7 +59,8 @@ impl Setting {
         let mut scene = scene.clone();
         if !std::ptr::eq(self.method, own.method) || self.steps != own.steps {
             scene.simulation.method = self.method;
-            scene.simulation.step = self.timestep(&scene);
+            scene.simulation.step = self.timestep(&scene).unwrap_or(f64::INFINITY);
+            scene.simulation.tolerance = self.tolerance().unwrap_or(scene.simulation.tolerance);
         }
         scene
     }
@@ -48,15 +73,19 @@ impl Setting {
     }
 
     /// The step to write into a scene, s: the timestep with as few digits as give the same number of steps.
-    pub(super) fn written(self, scene: &Scene) -> f64 {
-        let step = self.timestep(scene);
+    /// None where the method chooses it.
+    pub(super) fn written(self, scene: &Scene) -> Option<f64> {
+        let step = self.timestep(scene)?;
+        if self.method.ahead.is_some() {
+            return Some(step);
+        }
         let interval = 1.0 / scene.simulation.frame_rate;
         let mut world = World::new();
         let mut is_enough = |rounded: &f64| {
             world.set_step(*rounded);
             world.steps_within(interval) == self.steps
         };
-        (2..=15).map(|digits| rounded_up(step, digits)).find(|step| is_enough(step)).unwrap_or(step)
+        Some((2..=15).map(|digits| rounded_up(step, digits)).find(|step| is_enough(step)).unwrap_or(step))
     }
 }
 
@@ -67,6 +96,8 @@ pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
         None
     } else if simulation.contacts == Some(ContactLaw::TimeStepping) {
         Some("time stepping has a method of its own")
+    } else if method.ahead.is_some() && !scene.emitters.is_empty() {
+        Some("it moves no particles")
     } else if method.constraints {
         None
     } else if simulation.contacts.is_some() {
@@ -103,15 +134,16 @@ mod tests {
         for rate in [25.0, 30.0, 24.0, 60.0, 3.0e-7] {
             let of = scene(&format!("frame_rate = {rate}, duration = {}", 10.0 / rate));
             for steps in [1, 2, 3, 7, 8, 10, 48, 1000] {
-                let setting = Setting { method: &METHODS[0], steps };
-                let step = setting.written(&of);
+                let setting = Setting::new(&METHODS[0], steps, &of);
+                let step = setting.written(&of).unwrap();
                 let again = scene(&format!("frame_rate = {rate}, duration = {}, step = {step}", 10.0 / rate));
                 assert_eq!(Setting::of(&again).steps, steps, "{rate} {step}");
             }
         }
-        let setting = Setting { method: &METHODS[0], steps: 8 };
-        assert_eq!(setting.written(&scene("frame_rate = 30")), 0.0042);
-        assert_eq!(setting.written(&scene("frame_rate = 25")), 0.005);
+        let scene_of = |rate| scene(&format!("frame_rate = {rate}"));
+        let setting = Setting::new(&METHODS[0], 8, &scene_of(30));
+        assert_eq!(setting.written(&scene_of(30)), Some(0.0042));
+        assert_eq!(setting.written(&scene_of(25)), Some(0.005));
     }
 
     #[test]
@@ -120,5 +152,15 @@ mod tests {
         let own = Setting::of(&scene);
         assert_eq!(own.applied(&scene, own).simulation.step, 0.0333);
         assert_eq!(Setting::of(&own.finer(2).applied(&scene, own)).steps, 2 * own.steps);
+    }
+
+    #[test]
+    fn an_adaptive_method_takes_a_tenth_of_its_tolerance_in_the_place_of_half_a_step() {
+        let scene = scene("integrator = 'dop853', tolerance = 1e-6, duration = 1");
+        let own = Setting::of(&scene);
+        assert_eq!((own.steps, own.timestep(&scene), own.tolerance()), (1, None, Some(1e-6)));
+        let finer = own.finer(4).applied(&scene, own);
+        assert!((finer.simulation.tolerance / 1e-8 - 1.0).abs() < 1e-12, "{}", finer.simulation.tolerance);
+        assert_eq!(finer.simulation.step, f64::INFINITY);
     }
 }

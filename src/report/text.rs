@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::neighbours::APART;
 use super::verdict::{Conserved, Order, Trusted, Verdict};
 use super::{Assessment, Parting, Trial, Untried};
+use crate::dynamics::Method;
 
 /// So many bodies are named.
 const NAMED: usize = 5;
@@ -15,12 +16,7 @@ const INDENT: &str = "          ";
 impl Assessment {
     /// All that is known, for people. The commands of its answers are about the scene of this name, as a shell takes it.
     pub fn to_text(&self, shown: &str) -> String {
-        let mut out = format!(
-            "{shown}: {}, timestep {} s, {} a frame\n",
-            self.integrator,
-            digits(self.timestep, 4),
-            self.steps_per_frame
-        );
+        let mut out = format!("{shown}: {}, {}\n", self.integrator, self.fineness());
         match &self.verdict {
             Some(verdict) => {
                 self.say_verdict(&mut out, verdict);
@@ -37,6 +33,18 @@ impl Assessment {
             line(&mut out, "particles", "their errors are not measured");
         }
         out
+    }
+
+    /// The tolerance, or the timestep and how many there are in a frame, where that is a whole number.
+    fn fineness(&self) -> String {
+        if let Some(tolerance) = self.tolerance {
+            return format!("tolerance {}", digits(tolerance, 3));
+        }
+        let step = digits(self.timestep.unwrap_or_default(), 4);
+        match Method::by_name(self.integrator) {
+            Some(Method { ahead: Some(_), .. }) => format!("timestep {step} s"),
+            _ => format!("timestep {step} s, {} a frame", self.steps_per_frame),
+        }
     }
 
     fn say_verdict(&self, out: &mut String, verdict: &Verdict) {
@@ -152,7 +160,10 @@ impl Assessment {
         rows.extend(self.trials.iter().enumerate().map(|(place, trial)| {
             [
                 trial.integrator.to_owned(),
-                format!("{} s", digits(trial.timestep, 4)),
+                match (trial.timestep, trial.tolerance) {
+                    (_, Some(tolerance)) => format!("by {}", digits(tolerance, 2)),
+                    (step, None) => format!("{} s", digits(step.unwrap_or_default(), 4)),
+                },
                 trial.steps.to_string(),
                 trial.evaluations.to_string(),
                 trial.error.map_or_else(|| broke_down(trial), |error| format!("{} m", digits(error, 2))),
@@ -226,7 +237,10 @@ impl Assessment {
         [
             "[simulation]".to_owned(),
             format!("integrator = \"{}\"", trial.integrator),
-            format!("step = {}", trial.step),
+            match (trial.step, trial.tolerance) {
+                (_, Some(tolerance)) => format!("tolerance = {}", digits(tolerance, 2)),
+                (step, None) => format!("step = {}", step.unwrap_or_default()),
+            },
         ]
     }
 }
@@ -236,6 +250,9 @@ impl Verdict {
         let (method, nominal) = (assessment.integrator, assessment.order);
         match self.order {
             Order::Rounding => "not measured: the runs differ by rounding alone".to_owned(),
+            Order::Adaptive => {
+                format!("`{method}` chooses its steps: the runs at smaller tolerances are the measure")
+            }
             Order::Unknown => "not measured: the runs part at once, and the error is a guess".to_owned(),
             Order::Nominal { measured } => {
                 format!("{measured:.1} measured, as `{method}` has it: the estimate is good")

@@ -8,7 +8,7 @@ use super::lockstep::{Ended, Track, Watch, together};
 use super::measure::{Measured, union};
 use super::setting::{Setting, refused};
 use super::verdict::Order;
-use crate::dynamics::{METHODS, Method};
+use crate::dynamics::Method;
 use crate::scene::Scene;
 use crate::simulate::evaluations;
 
@@ -17,10 +17,12 @@ use crate::simulate::evaluations;
 pub struct Trial {
     /// The name of the method.
     pub integrator: &'static str,
-    /// The step to write into the scene, s.
-    pub step: f64,
+    /// The step to write into the scene, s; none where the method chooses it.
+    pub step: Option<f64>,
     /// The timestep that this makes, s.
-    pub timestep: f64,
+    pub timestep: Option<f64>,
+    /// The tolerance to write into the scene, of a method that chooses its steps by it.
+    pub tolerance: Option<f64>,
     /// The timesteps from one frame to the next.
     pub steps_per_frame: u32,
     /// The timesteps of the run.
@@ -67,7 +69,8 @@ pub(super) fn factor(order: f64) -> f64 {
 /// The methods that a scene may be tried with, the scene's own first. Another one of first order is no cure.
 fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     let own = scene.simulation.method;
-    let others = || METHODS.iter().filter(|method| !std::ptr::eq(*method, own) && method.order > 1);
+    let of_use = |method: &&&Method| method.order > 1 && !method.is_of_planets();
+    let others = || Method::all().filter(|method| !std::ptr::eq(*method, own)).filter(|it| of_use(&it));
     let tried = std::iter::once(own).chain(others().filter(|method| refused(scene, method).is_none()));
     let untried = others().filter_map(|method| {
         Some(Untried { integrator: method.name, why: refused(scene, method)?.to_owned() })
@@ -134,7 +137,7 @@ impl Goal<'_> {
         }
         let place = |trial: &Trial| {
             let is_own = std::ptr::eq(trial.setting.method, self.own.method);
-            let place = METHODS.iter().position(|method| method.name == trial.integrator);
+            let place = Method::all().position(|method| method.name == trial.integrator);
             (!is_own, place, trial.steps_per_frame)
         };
         trials.tried.sort_by_key(place);
@@ -154,16 +157,18 @@ impl Goal<'_> {
         const TRIES: usize = 5;
         for _ in 0..TRIES {
             let Some(steps) = self.next_steps(method, &tried) else { return Ok((tried, None)) };
-            let setting = Setting { method, steps };
+            let setting = Setting::new(method, steps, self.scene);
             // The run, and the one at half its step.
             let cost = 3.0 * setting.cost(self.scene);
             if cost > *left {
                 let is_reached = tried.iter().any(|trial| self.reaches(trial));
                 let times = setting.cost(self.scene) / self.own.cost(self.scene);
-                let step = setting.written(self.scene);
-                let why = format!(
-                    "a step of {step} s was not tried, since it takes {times:.0} times as long as this run"
-                );
+                let finer = match (setting.written(self.scene), setting.tolerance()) {
+                    (Some(step), _) => format!("a step of {step} s"),
+                    (None, tolerance) => format!("a tolerance of {:e}", tolerance.unwrap_or_default()),
+                };
+                let why =
+                    format!("{finer} was not tried, since it takes {times:.0} times as long as this run");
                 return Ok((tried, (!is_reached && times >= 1.5).then_some(why)));
             }
             *left -= cost;
@@ -174,6 +179,12 @@ impl Goal<'_> {
 
     /// How many steps a frame are worth trying next; none: it is known how many it takes.
     fn next_steps(&self, method: &'static Method, tried: &[Trial]) -> Option<u32> {
+        if method.adaptive {
+            return match tried.last() {
+                None => Some(1),
+                Some(last) => (!self.reaches(last)).then_some(4 * last.steps_per_frame),
+            };
+        }
         let Some(last) = tried.last() else {
             // As many as take as long as the run.
             let each = evaluations(method).max(1) as f64 / evaluations(self.own.method).max(1) as f64;
@@ -232,7 +243,7 @@ impl Goal<'_> {
         })?;
         let factor = match std::ptr::eq(setting.method, self.own.method) {
             true => self.order.factor(setting.method),
-            false => factor(f64::from(setting.method.order)),
+            false => Order::Nominal { measured: f64::from(setting.method.order) }.factor(setting.method),
         };
         let steps = tracks[0].steps();
         let ended = tracks.into_iter().find_map(|track| track.ended);
@@ -240,6 +251,7 @@ impl Goal<'_> {
             integrator: setting.method.name,
             step: setting.written(scene),
             timestep: setting.timestep(scene),
+            tolerance: setting.tolerance(),
             steps_per_frame: setting.steps,
             steps,
             evaluations: steps * evaluations(setting.method),

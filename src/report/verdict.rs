@@ -107,6 +107,8 @@ pub enum Order {
         /// The order that was measured.
         measured: f64,
     },
+    /// The method chooses its steps, and the error falls with its tolerance.
+    Adaptive,
     /// The runs do not come nearer to each other as the step falls: nobody knows the error.
     None {
         /// The order that was measured.
@@ -165,6 +167,7 @@ impl Order {
         let (measured, nominal) = (0.5 * libm::log2(coarse / fine), f64::from(method.order));
         match measured {
             measured if measured < 0.4 => Order::None { measured },
+            _ if method.adaptive => Order::Adaptive,
             measured if (measured - nominal).abs() <= SAME => Order::Nominal { measured },
             measured => Order::Other { measured },
         }
@@ -173,6 +176,8 @@ impl Order {
     /// What the difference of two runs is to be multiplied with.
     pub(super) fn factor(self, method: &Method) -> f64 {
         match self {
+            // A tenth of the tolerance leaves about a tenth of the error.
+            _ if method.adaptive => 10.0 / 9.0,
             Order::Other { measured } => factor(measured.min(f64::from(method.order) + 4.0)),
             Order::None { .. } => factor(1.0),
             _ => factor(f64::from(method.order)),
@@ -249,8 +254,11 @@ impl Verdict {
             let ended = compared.ended[place].clone().or(compared.ended[place + 1].clone());
             Trial {
                 integrator: own.method.name,
-                step: if place == 0 { scene.simulation.step } else { setting.written(scene) },
+                step: setting
+                    .written(scene)
+                    .map(|step| if place == 0 { scene.simulation.step } else { step }),
                 timestep: setting.timestep(scene),
+                tolerance: setting.tolerance(),
                 steps_per_frame: setting.steps,
                 steps: compared.steps[place],
                 evaluations: compared.steps[place] * evaluations(own.method),

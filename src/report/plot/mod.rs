@@ -85,7 +85,13 @@ impl Picture {
         let count = f64::from(u8::try_from(panels.len()).unwrap_or(u8::MAX));
         let height = TOP + count * (HEIGHT + GAP) - GAP + 40.0;
         let mut picture = Picture { width: WIDTH, height, items: Vec::new() };
-        let method = format!("{}, step {} s", assessment.integrator, text::digits(assessment.timestep, 4));
+        let method = match (assessment.timestep, assessment.tolerance) {
+            (Some(step), _) => format!("{}, step {} s", assessment.integrator, text::digits(step, 4)),
+            (None, tolerance) => {
+                let tolerance = text::digits(tolerance.unwrap_or_default(), 3);
+                format!("{}, tolerance {tolerance}", assessment.integrator)
+            }
+        };
         picture.text([LEFT, 28.0], title.to_owned(), Anchor::Start, INK, true);
         picture.text([WIDTH - RIGHT, 28.0], method, Anchor::End, FAINT_INK, false);
         let times = Axis::linear(0.0, assessment.end);
