@@ -28,13 +28,22 @@ pub(super) struct Track<'a> {
     last: Option<f64>,
     /// What an interval between two frames takes, in evaluations of the forces.
     cost: f64,
+    /// The most timesteps that it may make, and whether it would have made more.
+    most: u64,
+    pub(super) is_long: bool,
 }
 
 impl<'a> Track<'a> {
     /// The run of a scene, which takes so many evaluations of the forces for each frame.
     pub(super) fn new(scene: &'a Scene, cost: f64) -> Track<'a> {
         let waiting = std::collections::VecDeque::new();
-        Track { snapshots: Snapshots::new(scene), waiting, ended: None, last: None, cost }
+        let snapshots = Snapshots::new(scene);
+        Track { snapshots, waiting, ended: None, last: None, cost, most: u64::MAX, is_long: false }
+    }
+
+    /// The same, which stops after about so many timesteps: of a method that chooses them, nobody knows how many there will be.
+    pub(super) fn of_at_most(self, steps: u64) -> Track<'a> {
+        Track { most: steps, ..self }
     }
 
     /// How many timesteps have been made.
@@ -44,7 +53,8 @@ impl<'a> Track<'a> {
 
     fn advance(&mut self, frames: usize) {
         for _ in 0..frames {
-            if self.ended.is_some() {
+            self.is_long |= self.steps() > self.most;
+            if self.ended.is_some() || self.is_long {
                 return;
             }
             match self.snapshots.next() {
@@ -70,7 +80,7 @@ pub(super) fn together(
     const ROOM: usize = 4096;
     let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;
-    while done < frames && tracks.iter().any(|track| track.ended.is_none()) {
+    while done < frames && tracks.iter().any(|track| track.ended.is_none() && !track.is_long) {
         let now = room.min(frames - done);
         tracks.par_iter_mut().for_each(|track| track.advance(now));
         for _ in 0..now {

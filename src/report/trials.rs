@@ -171,8 +171,13 @@ impl Goal<'_> {
                     format!("{finer} was not tried, since it takes {times:.0} times as long as this run");
                 return Ok((tried, (!is_reached && times >= 1.5).then_some(why)));
             }
-            *left -= cost;
-            tried.push(self.attempt(setting, watch)?);
+            let Some(trial) = self.attempt(setting, *left, watch)? else {
+                *left *= 0.5;
+                return Ok((tried, Some("it takes more steps than are tried here".to_owned())));
+            };
+            // How many steps an adaptive method makes is known afterwards.
+            *left -= cost.max(3.0 * trial.evaluations as f64 * f64::from(u8::from(method.adaptive)));
+            tried.push(trial);
         }
         Ok((tried, None))
     }
@@ -217,13 +222,21 @@ impl Goal<'_> {
         .filter(|steps| *steps < u32::MAX / 4)
     }
 
-    /// Makes a run and the same at half its step.
-    fn attempt(&self, setting: Setting, watch: &mut Watch<'_>) -> Result<Trial, Stopped> {
+    /// Makes a run and the same at half its step; none where an adaptive method takes more than half of the evaluations of the forces that are left.
+    fn attempt(&self, setting: Setting, left: f64, watch: &mut Watch<'_>) -> Result<Option<Trial>, Stopped> {
         let scene = self.scene;
         let settings = [setting, setting.finer(2)];
         let scenes = settings.map(|setting| setting.applied(scene, self.own));
         let frames = scene.simulation.frames().max(1) as f64;
-        let mut tracks = [0, 1].map(|track| Track::new(&scenes[track], settings[track].cost(scene) / frames));
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a number that is too large saturates"
+        )]
+        let most = (left / 4.0 / evaluations(setting.method).max(1) as f64) as u64;
+        let track = |track: usize| Track::new(&scenes[track], settings[track].cost(scene) / frames);
+        let mut tracks =
+            [0, 1].map(|it| if setting.method.adaptive { track(it).of_at_most(most) } else { track(it) });
         let (mut most, mut kinetic, mut energy, mut around) = (0.0_f64, 0.0_f64, 0.0_f64, None);
         together(&mut tracks, scene, watch, &mut |moments| {
             let [coarse, fine] = moments else { return };
@@ -245,9 +258,12 @@ impl Goal<'_> {
             true => self.order.factor(setting.method),
             false => Order::Nominal { measured: f64::from(setting.method.order) }.factor(setting.method),
         };
+        if tracks.iter().any(|track| track.is_long) {
+            return Ok(None);
+        }
         let steps = tracks[0].steps();
         let ended = tracks.into_iter().find_map(|track| track.ended);
-        Ok(Trial {
+        Ok(Some(Trial {
             integrator: setting.method.name,
             step: setting.written(scene),
             timestep: setting.timestep(scene),
@@ -261,7 +277,7 @@ impl Goal<'_> {
             ended,
             setting,
             size: around.map_or(0.0, |[min, max]| (max - min).length()),
-        })
+        }))
     }
 }
 
