@@ -1,6 +1,6 @@
 //! Checked scene → world → recording → frames.
 //!
-//! This is the only place where a [`Scene`] meets the [`dynamics`](crate::dynamics). A scene is simulated once; all that draws,
+//! This is the only place where a [`Scene`] meets the [`dynamics`]. A scene is simulated once; all that draws,
 //! measures or exports reads the recording.
 //!
 //! | what | where |
