@@ -26,6 +26,7 @@ mod stepper;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod triangles;
 mod way;
 
 pub use births::Births;
@@ -36,3 +37,4 @@ pub use origin::{Origin, Spot};
 pub use source::{Draw, ParticleSource};
 pub use stepper::Field;
 pub use surface::has_surface;
+pub use triangles::Triangles;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::surface;
+use super::{Triangles, surface};
 use crate::dynamics::Shape;
 use crate::random::Stream;
 
@@ -30,6 +30,8 @@ pub enum Origin {
     },
     /// The surface of a shape that [has one](super::has_surface).
     Surface(Shape),
+    /// The triangles of a mesh.
+    Triangles(Triangles),
 }
 
 /// A body that sends out particles, at one moment.
@@ -70,6 +72,7 @@ impl Origin {
                 (*centre + (part - 0.5) * *size, DVec3::Y)
             }
             Origin::Surface(shape) => surface::place(shape, random),
+            Origin::Triangles(triangles) => triangles.place(random),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::origin::within_disc;
 use crate::dynamics::{Shape, cone_base};
 use crate::random::Stream;
 
-/// Whether particles can come from the surface of a shape.
+/// Whether a shape has a surface in closed form, from which particles can come. That of a mesh is its [triangles](super::Triangles).
 #[must_use]
 pub fn has_surface(shape: &Shape) -> bool {
     matches!(

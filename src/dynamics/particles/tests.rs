@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 use crate::dynamics::{
-    BodyId, BodySnapshot, ConstantForce, Drag, Gravitation, METHODS, Method, Motion, RigidBody, Shape,
+    BodyId, BodySnapshot, ConstantForce, Drag, Gravitation, METHODS, Mesh, Method, Motion, RigidBody, Shape,
     UniformGravity, World,
 };
 use crate::random::Stream;
@@ -229,6 +229,33 @@ fn places_on_surfaces_are_as_likely_as_their_area() {
     is(&cone, 9.0 / 24.0 + 0.75 * 15.0 / 24.0, &|place| place.y < 1.0);
     // Outside of the middle circle is the share 1/2 + r/(πR).
     is(&Shape::Torus { radius: 3.0, tube_radius: 1.0 }, 0.5 + 1.0 / (3.0 * PI), &|place| across(place) > 3.0);
+}
+
+/// Of two triangles of 2 m² and 6 m², the larger gets three quarters; of a triangle, the part beyond half the way from a corner has
+/// three quarters as well.
+#[test]
+fn places_on_triangles_are_as_likely_as_their_area() {
+    const COUNT: u32 = 20_000;
+    let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, -6.0, 0.0]];
+    let vertices = corners.map(DVec3::from_array).to_vec();
+    let mesh = Mesh::surface("two", vertices, vec![[0, 1, 2], [0, 1, 3]]);
+    let triangles = Triangles::new(&mesh, 10.0);
+    let mut random = Stream::new(3, "triangles");
+    let places: Vec<_> = (0..COUNT).map(|_| triangles.place(&mut random)).collect();
+    let share = |counts: &dyn Fn(DVec3) -> bool| {
+        let found = places.iter().filter(|(place, _)| counts(*place)).count();
+        f64::from(u32::try_from(found).unwrap()) / f64::from(COUNT)
+    };
+    let deviations = 4.0 * 0.5 / f64::from(COUNT).sqrt();
+    assert!((share(&|place| place.y < 0.0) - 0.75).abs() < deviations);
+    assert!((share(&|place| place.x < 10.0) - 0.75).abs() < deviations);
+    for (place, normal) in places {
+        let upwards = if place.y > 0.0 { DVec3::Z } else { -DVec3::Z };
+        assert_eq!((place.z, normal), (0.0, upwards));
+        let within =
+            place.x >= 0.0 && place.x + place.y < 20.0 + 1e-9 && place.y > 3.0 * place.x - 60.0 - 1e-9;
+        assert!(within, "{place}");
+    }
 }
 
 #[test]

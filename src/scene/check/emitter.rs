@@ -8,7 +8,7 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, Surface, has_surface};
+use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, Shape, Surface, Triangles, has_surface};
 use crate::random::Stream;
 use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
@@ -259,10 +259,13 @@ impl Reader<'_, '_> {
         }
         if let Some(surface) = surface {
             let body = &self.bodies[surface];
+            if let Shape::Mesh { mesh, scale } = &body.shape {
+                return (Origin::Triangles(Triangles::new(mesh, *scale)), carrier);
+            }
             if !has_surface(&body.shape) {
                 let message = format!("particles cannot come from the surface of `{}`", body.name);
                 let error = Diagnostic::error(Code::BadEmitter, message);
-                let label = "only from a sphere, box, cylinder, capsule, cone or torus";
+                let label = "only from a sphere, box, cylinder, capsule, cone, torus or mesh";
                 let help = format!(
                     "`from = {{ point = [0, 0, 0], body = \"{}\" }}` lets them come from a point of it",
                     body.name

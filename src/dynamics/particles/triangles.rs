@@ -1,0 +1,50 @@
+//! Places on a surface of triangles, each as likely as its area is large.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::dynamics::Mesh;
+use crate::random::Stream;
+
+/// The triangles of a mesh, m, with the sums of their areas: the area up to each of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Triangles {
+    corners: Arc<[[DVec3; 3]]>,
+    sums: Arc<[f64]>,
+}
+
+impl Triangles {
+    /// Those of a mesh whose unit is `scale` metres long.
+    #[must_use]
+    pub fn new(mesh: &Mesh, scale: f64) -> Triangles {
+        let vertices = mesh.vertices();
+        let corners: Arc<[_]> = mesh
+            .triangles()
+            .iter()
+            .map(|triangle| triangle.map(|vertex| scale * vertices[vertex as usize]))
+            .collect();
+        let mut sum = 0.0;
+        let area = |&[a, b, c]: &[DVec3; 3]| {
+            sum += 0.5 * (b - a).cross(c - a).length();
+            sum
+        };
+        let sums = corners.iter().map(area).collect();
+        Triangles { corners, sums }
+    }
+
+    /// A place on them, and the normal there; the origin where there are none.
+    ///
+    /// The triangle is chosen by its area. The place in it is that of Osada, Funkhouser, Chazelle & Dobkin, *Shape
+    /// Distributions*, ACM Trans. Graph. 21 (2002) 807, section 4.2.
+    pub(super) fn place(&self, random: &mut Stream) -> (DVec3, DVec3) {
+        let chosen = random.uniform() * self.sums.last().copied().unwrap_or(0.0);
+        let number = self.sums.partition_point(|sum| *sum <= chosen);
+        let (root, part) = (random.uniform().sqrt(), random.uniform());
+        let Some([a, b, c]) = self.corners.get(number).or(self.corners.last()) else {
+            return (DVec3::ZERO, DVec3::Y);
+        };
+        let place = (1.0 - root) * a + root * ((1.0 - part) * b + part * c);
+        (place, (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Y))
+    }
+}
