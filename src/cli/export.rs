@@ -5,7 +5,9 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{ExportError, Exported, write_csv, write_events, write_glb, write_joints};
+use jabuka::export::{
+    ExportError, Exported, write_csv, write_events, write_glb, write_joints, write_particles,
+};
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
 use jabuka::simulate::{Recorded, Selection};
@@ -32,6 +34,9 @@ pub(super) struct Arguments {
     /// Write what the joints do, as a table: their forces and torques, and not where the bodies are
     #[arg(long)]
     joints: bool,
+    /// Write where the particles of emitters are, as a table, and not where the bodies are
+    #[arg(long, conflicts_with_all = ["joints", "events"])]
+    particles: bool,
     /// Write the impacts to FILE.csv, as a table: when and where, between which bodies, impulse and energy lost. `-o FILE.csv` may name the
     /// file as well
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
@@ -99,6 +104,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.joints && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
     }
+    if arguments.particles && matches!(format, Format::Glb) {
+        return Err(Failure::Usage("`--particles` makes a table, `.csv`".to_owned()));
+    }
+    if arguments.particles && scene.emitters.is_empty() {
+        return Err(Failure::Usage("this scene has no emitters, which send out particles".to_owned()));
+    }
     if arguments.events.is_some() && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--events` makes a table, `.csv`".to_owned()));
     }
@@ -132,7 +143,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::report(&report(error, output));
         Failure::Errors
     })?;
-    let left_out = if scene.emitters.is_empty() { "" } else { "; particles are left out" };
+    let left_out = match format {
+        _ if scene.emitters.is_empty() || arguments.particles => "",
+        Format::Csv if arguments.joints || arguments.events.is_some() => "",
+        Format::Csv => "; particles are left out: `--particles` makes a table of them",
+        Format::Glb => "; particles are left out: a model has no place for what comes and goes",
+    };
     say::result(&format!("{}: {text}{left_out}\n", visible_path(output)));
     run_arguments::broken_down(&run, &selection)
 }
@@ -148,6 +164,10 @@ fn table(
     if arguments.joints {
         let rows = whole(output, |file| write_joints(run, selection, file))?;
         return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));
+    }
+    if arguments.particles {
+        let rows = whole(output, |file| write_particles(run, selection, file))?;
+        return Ok(format!("{rows} rows, {times} times of {} emitters", scene.emitters.len()));
     }
     if arguments.events.is_some() {
         let rows = whole(output, |file| write_events(run, file))?;

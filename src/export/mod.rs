@@ -5,9 +5,11 @@ mod error;
 mod events;
 mod glb;
 mod joints;
+mod particles;
 
 pub use self::csv::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::events::{EVENT_HEADER, write_events};
 pub use self::glb::{Exported, write_glb};
 pub use self::joints::{JOINT_HEADER, write_joints};
+pub use self::particles::{PARTICLE_HEADER, write_particles};
