@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::nearest::{Nearest, between};
+use super::patch::Patch;
 use super::solid::{Pose, Solid};
 use crate::dynamics::shape::Shape;
 
@@ -34,6 +35,51 @@ impl Ball {
         let own = Pose { location: centre, orientation: DQuat::IDENTITY };
         let Nearest { gap, normal, on } = between(&self.solid.parts()[0], &own, &solid.parts()[part], pose);
         (gap, -normal, on[1])
+    }
+
+    /// How far the ball is from a triangle of a mesh, m, and the direction from there to the ball; none for other parts.
+    ///
+    /// [`nearest`](Ball::nearest) gives an infinite gap where a neighbour of the triangle is nearer. This is the gap there.
+    pub(in crate::dynamics) fn apart(
+        &self,
+        centre: DVec3,
+        solid: &Solid,
+        part: usize,
+        pose: &Pose,
+    ) -> Option<(f64, DVec3)> {
+        let corner = |patch: &Patch| match patch {
+            Patch::Point { at, .. } => Some(*at),
+            _ => None,
+        };
+        let features = &solid.parts()[part].features;
+        let corners: Vec<DVec3> = features.iter().filter_map(|feature| corner(&feature.patch)).collect();
+        let local = pose.local(centre);
+        let away = local - nearest_on_triangle(local, corners.try_into().ok()?);
+        let normal = pose.orientation * away.try_normalize()?;
+        Some((away.length() - self.radius, normal))
+    }
+}
+
+/// The point of a triangle that is nearest to a place. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+fn nearest_on_triangle(place: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    let (ab, ac) = (b - a, c - a);
+    let along = |corner: DVec3| [ab.dot(place - corner), ac.dot(place - corner)];
+    let [[d1, d2], [d3, d4], [d5, d6]] = [a, b, c].map(along);
+    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
+    if d1 <= 0.0 && d2 <= 0.0 {
+        a
+    } else if d3 >= 0.0 && d4 <= d3 {
+        b
+    } else if d6 >= 0.0 && d5 <= d6 {
+        c
+    } else if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        a + ab * (d1 / (d1 - d3))
+    } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        a + ac * (d2 / (d2 - d6))
+    } else if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)))
+    } else {
+        a + (ab * vb + ac * vc) / (va + vb + vc)
     }
 }
 

@@ -57,6 +57,13 @@ pub(super) struct Contact {
     is_pressed: bool,
 }
 
+impl Contact {
+    /// Whether the particle is so near that it touches, m.
+    fn touches(&self, snug: f64) -> bool {
+        !self.near.is_hidden && self.near.gap <= snug
+    }
+}
+
 impl Bouncer {
     pub(super) fn new(ball: Ball, surface: Surface, spare: Stepper) -> Bouncer {
         Bouncer { ball, surface, spare, targets: Vec::new(), seen: Vec::new() }
@@ -76,12 +83,12 @@ impl Bouncer {
                 return (leap.places[1], leap.velocities[1]);
             }
             let snug = SNUG * self.ball.radius();
-            if self.seen.iter().any(|it| it.near.gap <= snug && it.rate < -it.slow) {
+            if self.seen.iter().any(|it| it.touches(snug) && it.rate < -it.slow) {
                 leap.velocities[0] = self.strike(leap.velocities[0], snug);
                 self.again(&mut leap);
                 continue;
             }
-            let is_held = |it: &Contact| it.is_pressed && it.near.gap <= snug && it.rate <= it.slow;
+            let is_held = |it: &Contact| it.is_pressed && it.touches(snug) && it.rate <= it.slow;
             self.seen.sort_by_key(|it| (!is_held(it), scenery.is_still(&it.target)));
             let held = self.seen.iter().take_while(|it| is_held(it)).count();
             let (held, others) = self.seen.split_at(held);
@@ -145,7 +152,7 @@ impl Bouncer {
 
     /// The velocity after the impacts at all places that are touched.
     fn strike(&self, before: DVec3, snug: f64) -> DVec3 {
-        let struck = self.seen.iter().filter(|it| it.near.gap <= snug);
+        let struck = self.seen.iter().filter(|it| it.touches(snug));
         let mut struck: Vec<(&Contact, f64, DVec3)> = struck.map(|it| (it, 0.0, DVec3::ZERO)).collect();
         let mut velocity = before;
         for _ in 0..ROUNDS {
@@ -177,7 +184,10 @@ impl Bouncer {
         for advance in 0.. {
             let velocity = way.rate(time);
             let bend = way.bend + near.bend;
-            let mut safe = if near.gap <= touch {
+            let mut safe = if near.is_hidden && near.gap <= touch {
+                // It touches a neighbour. It may come over to this one.
+                PART * span
+            } else if near.gap <= touch {
                 let rate = near.normal.dot(velocity - near.velocity);
                 if rate < -contact.slight {
                     return Some(time);

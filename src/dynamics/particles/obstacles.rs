@@ -90,6 +90,8 @@ pub(super) struct Near {
     pub(super) coming: f64,
     /// A bound of how fast the rate of the gap changes by that motion, m/s².
     pub(super) bend: f64,
+    /// Whether it is a triangle of which a neighbour is nearer: then that one is touched.
+    pub(super) is_hidden: bool,
 }
 
 impl Standing {
@@ -226,10 +228,14 @@ impl Scenery {
     pub(super) fn seen(&self, ball: &Ball, target: &Target, place: DVec3, t: f64) -> Near {
         let standing = self.standing(target, t);
         let solid = self.solid(target);
-        let (gap, normal, _) = ball.nearest(place, solid, target.part, &standing.pose);
+        let (mut gap, mut normal, _) = ball.nearest(place, solid, target.part, &standing.pose);
+        let is_hidden = gap == f64::INFINITY;
+        if is_hidden && let Some(apart) = ball.apart(place, solid, target.part, &standing.pose) {
+            (gap, normal) = apart;
+        }
         let placed = &self.placed[target.placed];
         if placed.still.is_some() {
-            return Near { gap, normal, velocity: DVec3::ZERO, coming: 0.0, bend: 0.0 };
+            return Near { gap, normal, velocity: DVec3::ZERO, coming: 0.0, bend: 0.0, is_hidden };
         }
         let reach = solid.reach_of(target.part);
         // A half-space has no end: what comes near is about as far away as the particle.
@@ -237,7 +243,7 @@ impl Scenery {
         let speed = placed.turning;
         let coming = normal.dot(standing.spot.velocity) + speed * reach;
         let bend = placed.bend + speed * speed * reach + 2.0 * speed * standing.spot.velocity.length();
-        Near { gap, normal, velocity: standing.velocity(place), coming, bend }
+        Near { gap, normal, velocity: standing.velocity(place), coming, bend, is_hidden }
     }
 
     /// The same in the axes of the obstacle.
