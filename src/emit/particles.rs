@@ -11,7 +11,7 @@ use super::sdl::Style;
 use super::text;
 use crate::dynamics::Particle;
 use crate::picture::decimal_step;
-use crate::scene::{Color, Emitter, Scene};
+use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;
 
 /// So many groups show how particles change over their lives.
@@ -127,8 +127,7 @@ fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
         // A group has the look of the middle of its ages, and the first and the last one those of the ends.
         #[allow(clippy::cast_precision_loss, reason = "groups are few")]
         let age = if count == 1 { 0.0 } else { number as f64 / (count - 1) as f64 };
-        let channel = |i: usize| at_age(&emitter.colors, age, |color: &Color| color.0[i]);
-        let color = super::showing::color(Color([0, 1, 2].map(channel)), style);
+        let color = super::showing::color(emitter.color_at(age), style);
         let usage = if emitter.glow > 0.0 {
             let mut glow = String::new();
             Style { unit: 1.0, ..style }.length(&mut glow, emitter.glow);
@@ -140,22 +139,7 @@ fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
                 "  pigment {{ color srgb {color} }}\n  finish {{ ambient 0.2 diffuse 0.75 specular 0.3 roughness 0.02 }}\n}}\n"
             )
         };
-        Look { radius: emitter.radius * at_age(&emitter.sizes, age, |size| *size), usage }
+        Look { radius: emitter.radius_at(age), usage }
     };
     (0..count).map(look).collect()
-}
-
-/// What evenly spaced values from birth to death come to at an age from 0 to 1.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "values are few, and an age goes from 0 to 1"
-)]
-fn at_age<T>(values: &[T], age: f64, number: impl Fn(&T) -> f64) -> f64 {
-    let place = age * (values.len() - 1) as f64;
-    let before = (place as usize).min(values.len() - 1);
-    let after = (before + 1).min(values.len() - 1);
-    let (from, to) = (number(&values[before]), number(&values[after]));
-    from + (to - from) * (place - before as f64)
 }

@@ -37,6 +37,8 @@ pub(super) struct Description<'a> {
     bounds: Option<[[f64; 3]; 2]>,
     /// Whether there is more to be seen in a frame than where its bodies are.
     shows: bool,
+    /// Whether there are emitters.
+    particles: bool,
     /// What is known when the run is finished.
     stage: Option<Stage>,
 }
@@ -174,6 +176,7 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
         views: scene.views.iter().map(|view| view.name.as_str()).collect(),
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
+        particles: !scene.emitters.is_empty(),
         stage: outcome.map(|outcome| stage(run, outcome)),
     }
 }

@@ -5,7 +5,7 @@
 //! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
 //! | a run in the background, its frames on disk | `run` |
 //! | a panic in either, as an error on the page | `panicked` |
-//! | what the page is told of it | `describe`, `shown`, `samples` |
+//! | what the page is told of it | `describe`, `shown`, `swarms`, `samples` |
 //! | the server, who may ask it, and why there is no answer | `routes`, `access`, `failed` |
 //! | a frame by POV-Ray | `render` |
 //! | the page itself | `page`, and the files in the folder of that name |
@@ -22,6 +22,7 @@ mod run;
 mod samples;
 mod session;
 mod shown;
+mod swarms;
 mod watch;
 
 use std::io;

@@ -35,7 +35,7 @@ use super::page;
 use super::render::{Renderer, Wanted};
 use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
-use super::{describe, numbers, samples, shown};
+use super::{describe, numbers, samples, shown, swarms};
 
 /// What all answers are made from.
 #[derive(Clone)]
@@ -69,6 +69,7 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/runs/{id}/balance", get(balance))
         .route("/api/runs/{id}/series", get(series))
         .route("/api/runs/{id}/shown", get(what_is_shown))
+        .route("/api/runs/{id}/particles", get(particles))
         .route("/api/variants", post(variant))
         .route("/api/render", post(render))
         .route_layer(middleware::from_fn_with_state(server.clone(), with_token));
@@ -266,6 +267,15 @@ async fn what_is_shown(
         Ok(Json(shown).into_response())
     })
     .await
+}
+
+async fn particles(
+    State(server): State<Server>,
+    Path(id): Path<RunId>,
+    Query(frames): Query<Frames>,
+) -> Result<Response, Failed> {
+    let run = server.run(id)?;
+    blocking(move || Ok(binary(Body::from(swarms::frames(&run, frames.recorded(&run))?)))).await
 }
 
 async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> Result<Response, Failed> {

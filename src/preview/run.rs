@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::panicked::caught;
+use super::swarms;
 use crate::cache::{Cache, Spill};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::dynamics::Effort;
@@ -33,6 +34,7 @@ pub(super) struct Simulation {
     moments: Moments,
     cancelled: AtomicBool,
     past: Mutex<PastOfRun>,
+    pub(super) swarms: swarms::Kept,
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
@@ -91,6 +93,7 @@ impl Simulation {
             scene,
             cancelled: AtomicBool::new(false),
             past: Mutex::default(),
+            swarms: swarms::Kept::default(),
             outcome: OnceLock::new(),
         });
         let own = Arc::clone(&run);
@@ -171,9 +174,9 @@ impl Simulation {
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
         let run = Run::of(recorded).map_err(failed)?;
         let mut diagnostics = run.warnings();
-        if !scene.emitters.is_empty() {
-            let message = "this page does not show particles";
-            let help = "a rendered frame does: press `Render this`, or use `jabuka still`";
+        for (name, stride) in swarms::thinned(self) {
+            let message = format!("this page shows 1 of {stride} particles of `{name}`");
+            let help = "a rendered frame shows all: press `Render this`, or use `jabuka still`";
             diagnostics.push(Diagnostic::warning(Code::NotDrawn, message).help(help));
         }
         let warnings = Report { diagnostics, ..Report::default() };

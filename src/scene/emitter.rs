@@ -29,6 +29,18 @@ pub struct Emitter {
 }
 
 impl Emitter {
+    /// The color of a particle at an age from 0 (birth) to 1 (death).
+    #[must_use]
+    pub fn color_at(&self, age: f64) -> Color {
+        Color([0, 1, 2].map(|i| at_age(&self.colors, age, |color| color.0[i])))
+    }
+
+    /// The radius with which a particle is drawn at an age from 0 (birth) to 1 (death), m.
+    #[must_use]
+    pub fn radius_at(&self, age: f64) -> f64 {
+        self.radius * at_age(&self.sizes, age, |size| *size)
+    }
+
     /// The most particles that can be alive at once, as far as that is known before the run.
     #[must_use]
     pub fn most_alive(&self, duration: f64) -> f64 {
@@ -45,4 +57,19 @@ impl Emitter {
         let at_once = births.at_once as f64;
         at_once * ((time.min(births.end - births.start) / births.every).floor() + 1.0)
     }
+}
+
+/// What evenly spaced values from birth to death come to at an age from 0 to 1.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "values are few, and an age goes from 0 to 1"
+)]
+fn at_age<T>(values: &[T], age: f64, number: impl Fn(&T) -> f64) -> f64 {
+    let place = age * (values.len() - 1) as f64;
+    let before = (place as usize).min(values.len() - 1);
+    let after = (before + 1).min(values.len() - 1);
+    let (from, to) = (number(&values[before]), number(&values[after]));
+    from + (to - from) * (place - before as f64)
 }

@@ -11,7 +11,7 @@
 //! | all of its moments, to be read in any order | `recording`, `record` |
 //! | one frame after another, with what has been before | `frames`, `past`, `lag` |
 //! | one frame after another, and nothing else | `snapshots` |
-//! | the particles that emitters send out | `particles` |
+//! | the particles that emitters send out | `particles`, `swarms` |
 //! | what is seen while a shutter is open | `exposure` |
 //! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
 
@@ -36,6 +36,7 @@ mod simulation;
 mod snapshots;
 mod span;
 mod survey;
+mod swarms;
 #[cfg(test)]
 mod tests;
 mod vectors;
@@ -65,6 +66,7 @@ pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
 pub use survey::{ContactTotals, Corrected, Crossing, Survey, Surveyor, survey};
+pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 

@@ -81,6 +81,11 @@ impl Clouds {
         clouds
     }
 
+    /// For each emitter, which part of its particles is computed: every n-th.
+    pub(super) fn strides(&self) -> &[u64] {
+        &self.strides
+    }
+
     /// How many steps there are from one frame to the next.
     pub(super) fn steps(&self) -> u32 {
         self.steps

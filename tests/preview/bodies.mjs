@@ -54,6 +54,17 @@ await tests({
     }
   },
 
+  async a_particle_is_seen_while_it_lives({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    assert.equal(await page.evaluate(() => window.jabuka.problem), null);
+    for (const [frame, there] of [[0, false], [3, false], [4, true], [8, true], [9, false], [12, false], [6, true]]) {
+      await seek(page, frame);
+      const spot = await projected(page, [2, frame / 4 - 0.9, 0]);
+      assert.equal(isRed(await color(page, spot)), there, `frame ${frame}`);
+    }
+  },
+
   async a_click_beside_all_bodies_chooses_none_and_names_can_be_typed({ open }) {
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);

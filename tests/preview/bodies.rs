@@ -40,6 +40,33 @@ in_the_browser! { Scene::of(COMING), "bodies.mjs":
     a_body_is_seen_while_it_is_there,
 }
 
+/// A particle that is there from 1 s to 2 s, and moves up; the picture is seen from in front.
+const PARTICLE: &str = "
+    simulation = { duration = 3, frame_rate = 4 }
+    environment = 'blackboard'
+    [body.stays]
+    shape.sphere.radius = 1
+    location = [-2, 0, 0]
+    fixed = true
+    material = { color = 'red', finish = 'luminous' }
+    [emitter.one]
+    shape.sphere.radius = 1
+    from.point = [2, 0, 0]
+    burst = 1
+    start = 0.9
+    lifetime = 1.2
+    speed = 1
+    color = 'red'
+    glow = 1
+    [camera]
+    location = [0, 0, 12]
+    look_at = [0, 0, 0]
+    ";
+
+in_the_browser! { Scene::of(PARTICLE), "bodies.mjs":
+    a_particle_is_seen_while_it_lives,
+}
+
 /// What the page holds.
 #[derive(Deserialize)]
 struct Held {

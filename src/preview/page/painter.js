@@ -3,6 +3,7 @@
 import { add, axes as axesOf, isThere, length, lookAt, orthographic, product, sub, times, turned, unit } from "./math.js";
 import { FIRST_LAMP, surroundings } from "./surroundings.js";
 import { corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
+import { PARTICLE } from "./run.js";
 import * as shaders from "./shaders.js";
 
 const MOTIFS = { none: 0, ground: 0, checkered: 1, striped: 2, "beach-ball": 3 };
@@ -42,6 +43,7 @@ export class Painter {
     const { gl } = this;
     this.forms?.forEach((form) => form.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
     Object.keys(this.batches).forEach((name) => this.release(name));
+    this.scattered = undefined;
     this.forms = run.forms.map((form) => upload(gl, form));
     this.description = run.description;
     this.space = spaceOf(run.description);
@@ -76,6 +78,29 @@ export class Painter {
     const count = bodies.reduce((most, { pose }) => Math.max(most, pose + 1), 1);
     const total = made.reduce((sum, group) => sum + group.count * group.form.count, 0);
     this.batches[name] = { groups: made, poses: poseTexture(gl, count), total };
+  }
+
+  /** Takes the particles of a frame: balls that belong to no body, each with a color of its own. */
+  scatter(particles) {
+    if (this.scattered === particles) return;
+    this.scattered = particles;
+    this.release("particles");
+    const count = particles.length / PARTICLE;
+    if (!count) return;
+    const { gl } = this;
+    const { center, size } = this.space;
+    const numbers = new Float32Array(NUMBERS * count);
+    for (let i = 0; i < count; i++) {
+      const [x, y, z, , , , radius, r, g, b, shines] = particles.subarray(PARTICLE * i, PARTICLE * (i + 1));
+      const [far, color] = [radius / size, [r, g, b].map(linear)];
+      const place = [(x - center[0]) / size, (y - center[1]) / size, (z - center[2]) / size];
+      numbers.set([...place, 0, 0, 0, 1, far, far, far, ...color, 1, 1, 1, 1, 0, 0, 0.5, shines, 0, far], NUMBERS * i);
+    }
+    const shape = (this.facing ??= upload(gl, FACING));
+    const { vertices, buffer } = instances(gl, shape, numbers);
+    const group = { form: shape, kind: "BALLS", clear: false, vertices, buffer, count };
+    this.batches.particles = { groups: [group], poses: poseTexture(gl, 1), total: count * shape.count };
+    this.place("particles", () => [...center, 0, 0, 0, 1]);
   }
 
   release(name) {
@@ -134,6 +159,7 @@ export class Painter {
     this.drawSky(view, around);
     this.drawGround(planePose);
     this.drawBodies("run", [0, 0, 0, 0]);
+    this.drawBodies("particles", [0, 0, 0, 0]);
     this.drawBodies("ghosts", [0, 0, 0, 0]);
     this.drawLines(lines, view);
     this.drawBodies("other", [0.9, 0.6, 0.05, 0.55]);
@@ -163,11 +189,13 @@ export class Painter {
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadow.framebuffer);
     gl.viewport(0, 0, SHADOW, SHADOW);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.groups("run", "depth", (shader) => {
-      gl.useProgram(shader.program);
-      gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(shade));
-      gl.uniform3fv(shader.at("u_toward"), light);
-    });
+    for (const name of ["run", "particles"].filter((name) => this.batches[name])) {
+      this.groups(name, "depth", (shader) => {
+        gl.useProgram(shader.program);
+        gl.uniformMatrix4fv(shader.at("u_clip"), false, new Float32Array(shade));
+        gl.uniform3fv(shader.at("u_toward"), light);
+      });
+    }
   }
 
   set(shader, view, light, around, shaded) {
@@ -355,8 +383,12 @@ export function spaceOf({ stage, bounds }) {
   return { center: times(add(bounds[0], bounds[1]), 0.5), size: length(sub(bounds[1], bounds[0])) || 1 };
 }
 
+function linear(c) {
+  return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+}
+
 function instance(piece, material, pose, size, pale) {
-  const own = piece.color?.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  const own = piece.color?.map(linear);
   const plain = Boolean(own) || pale;
   const color = own ? [...own, 1] : pale ? [...material.pale, 1] : material.color;
   const second = [...(material.second ?? [1, 1, 1]), plain ? 0 : MOTIFS[material.motif]];

@@ -2,10 +2,12 @@
 
 import { arrow, axes, camera as cameraLines, link, Lines, trail } from "./lines.js";
 import { isThere, length, short, sub, unit } from "./math.js";
+import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
 /** All trails together have no more points. */
 const MOST_POINTS = 60_000;
+const NONE = new Float64Array();
 
 let before;
 
@@ -52,7 +54,8 @@ function draw() {
   if (!at) return;
   // A frame that stands still is drawn when all of it is there.
   const present = run.shownIn(frame, open.view);
-  if (!player.playing && run.hasShown && !present) return;
+  const particles = run.description.particles ? run.particlesIn(frame) : NONE;
+  if (!player.playing && ((run.hasShown && !present) || !particles)) return;
   // While it plays, what is not there yet is seen as it was last.
   if (present) open.shown = present;
   const shown = present ?? (open.shownOf === run.id ? open.shown : undefined);
@@ -69,7 +72,9 @@ function draw() {
   const camera = !present && shown ? shown.camera : sceneCamera(run, position);
   const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye));
   open.painter.place("run", at);
+  if (particles) open.painter.scatter(particles);
   const lines = new Lines();
+  streaks(lines, open.painter.scattered ?? NONE);
   drawLines(lines, run, shown, at, view);
   if (viewpoint.own && stage && !camera.width) outlineCamera(lines, camera, run.description.size);
   strobes(run, position, at);
@@ -99,6 +104,14 @@ function triads(run, shown, at) {
     return isThere(here) ? [{ location: here.slice(0, 3), turn: here.slice(3), length }] : [];
   });
   return [...bodies, ...(shown?.axes ?? [])];
+}
+
+/** The ways of particles that are drawn as streaks. */
+function streaks(lines, particles) {
+  for (let i = 0; i < particles.length; i += PARTICLE) {
+    const [x, y, z, a, b, c, radius, ...color] = particles.subarray(i, i + PARTICLE);
+    if (x !== a || y !== b || z !== c) lines.add([a, b, c], [x, y, z], 0, color.slice(0, 3), radius);
+  }
 }
 
 function drawLines(lines, run, shown, at, view) {

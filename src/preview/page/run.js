@@ -11,6 +11,11 @@ const PIECE = 2 << 20;
 const POSE = 7;
 /** So many frames ahead it is known what is seen in them. */
 const AHEAD = 30;
+/** The particles of so many frames are fetched at once; of no more bytes, some are kept. */
+const SWARMS = 10;
+const SWARM_BUDGET = 64 << 20;
+/** The numbers of a particle: its place, the end of its streak, its radius, its color, whether it shines. */
+export const PARTICLE = 11;
 const NOTHING = new Float64Array();
 
 export class Run {
@@ -24,6 +29,9 @@ export class Run {
     /** Pieces of frames, by their number; each has `frames` of them. */
     this.pieces = new Map();
     this.shown = new Map();
+    /** The particles of frames. */
+    this.swarms = new Map();
+    this.swarmBytes = 0;
     this.ghosts = [];
     this.progress = null;
     this.closed = false;
@@ -113,11 +121,17 @@ export class Run {
     return this.shown.get(`${view} ${frame}`);
   }
 
+  /** The particles of a frame, if there are any and they have been fetched. */
+  particlesIn(frame) {
+    return this.swarms.get(frame);
+  }
+
   /** Fetches a frame, with what is seen in it. */
   async ready(frame, view) {
     const recorded = this.progress?.recorded ?? 0;
     if (frame < recorded && !this.poses(frame)) await this.fetchPoses(Math.floor(frame / this.together), recorded);
     if (frame < recorded && this.hasShown && !this.shownIn(frame, view)) await this.fetchShown(frame, view, recorded);
+    if (frame < recorded && this.description.particles && !this.particlesIn(frame)) await this.fetchParticles(frame, recorded);
   }
 
   /** Fetches a frame, and then those after it, as long as there is room. */
@@ -145,13 +159,16 @@ export class Run {
       if (this.closed) return;
       const { frame, view } = this.wanted;
       const recorded = this.progress?.recorded ?? 0;
-      const unseen = this.hasShown ? this.unseen(frame, view, recorded) : undefined;
+      const unseen = this.hasShown ? this.firstWithout((next) => this.shownIn(next, view), frame, recorded) : undefined;
+      const empty = this.description.particles ? this.firstWithout((next) => this.particlesIn(next), frame, recorded) : undefined;
       if (frame < recorded && !this.poses(frame)) {
         // The first frame is fetched without those after it, so it is drawn sooner.
         const until = this.pieces.size ? recorded : frame + 1;
         await this.fetchPoses(Math.floor(frame / this.together), until);
       } else if (unseen !== undefined) {
         await this.fetchShown(unseen, view, recorded);
+      } else if (empty !== undefined) {
+        await this.fetchParticles(empty, recorded);
       } else {
         const next = this.next(frame, recorded);
         if (next === undefined) return;
@@ -161,10 +178,10 @@ export class Run {
     }
   }
 
-  /** The first of the next frames of which it is not known what is seen in them. */
-  unseen(frame, view, recorded) {
+  /** The first of the next frames of which something is not known yet. */
+  firstWithout(known, frame, recorded) {
     const end = Math.min(frame + AHEAD, recorded);
-    for (let next = frame; next < end; next++) if (!this.shownIn(next, view)) return next;
+    for (let next = frame; next < end; next++) if (!known(next)) return next;
     return undefined;
   }
 
@@ -209,6 +226,22 @@ export class Run {
     all.forEach((shown, i) => this.shown.set(`${view} ${frame + i}`, shown));
   }
 
+  async fetchParticles(frame, recorded) {
+    const to = Math.min(frame + SWARMS, recorded);
+    const numbers = new Float64Array(await binary(`/api/runs/${this.id}/particles`, { from: frame, to }));
+    if (this.swarmBytes > SWARM_BUDGET) {
+      this.swarms.clear();
+      this.swarmBytes = 0;
+    }
+    this.swarmBytes += numbers.byteLength;
+    let at = 0;
+    for (let next = frame; next < to && at < numbers.length; next++) {
+      const end = at + 1 + PARTICLE * numbers[at];
+      this.swarms.set(next, numbers.subarray(at + 1, end));
+      at = end;
+    }
+  }
+
   /** Energies and momenta over the run, with at most so many points: 13 numbers each. */
   async balance(points) {
     const every = Math.max(1, Math.ceil(this.frames / points));
@@ -225,6 +258,7 @@ export class Run {
     this.closed = true;
     this.pieces.clear();
     this.shown.clear();
+    this.swarms.clear();
   }
 }
 

@@ -1,0 +1,105 @@
+//! The particles of frames, as the page draws them: numbers, little-endian 64-bit.
+
+use std::io;
+use std::sync::{Mutex, PoisonError};
+
+use super::numbers::put;
+use super::run::Simulation;
+use crate::dynamics::Particle;
+use crate::scene::{Emitter, Scene};
+use crate::simulate::Swarms;
+
+/// All emitters together show about so many particles at once: the page draws them anew in each frame.
+const MOST: f64 = 10_000.0;
+
+/// What computes the particles of a run, once somebody asks for them.
+#[derive(Default)]
+pub(super) struct Kept(Mutex<Option<Swarms>>);
+
+/// At most so many particles of each emitter are shown at once.
+#[allow(clippy::cast_precision_loss, reason = "emitters are few")]
+fn most_of_each(scene: &Scene) -> f64 {
+    MOST / scene.emitters.len().max(1) as f64
+}
+
+/// The emitters of which only every so many-th particle is shown.
+pub(super) fn thinned(run: &Simulation) -> Vec<(String, u64)> {
+    let swarms = Swarms::thinned(&run.scene, run.recording(), most_of_each(&run.scene));
+    let names = run.scene.emitters.iter().map(|emitter| emitter.name.to_string());
+    names.zip(swarms.strides().iter().copied()).filter(|(_, stride)| *stride > 1).collect()
+}
+
+/// The particles of some frames. Of each frame: how many there are; and of each its place and where its streak ends, m; its radius, m; its
+/// color, sRGB; and whether it shines by itself. What has no streak has its end at its place.
+pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
+    let mut kept = run.swarms.0.lock().unwrap_or_else(PoisonError::into_inner);
+    let recording = run.recording();
+    let mut swarms = match kept.take() {
+        Some(swarms) if swarms.are_of(&recording) => swarms,
+        _ => Swarms::thinned(&run.scene, recording, most_of_each(&run.scene)),
+    };
+    let mut bytes = Vec::new();
+    for frame in frames {
+        let time = run.scene.simulation.time(frame);
+        let of_emitters = swarms.at(frame)?;
+        let mut numbers = vec![0.0];
+        for (emitter, swarm) in run.scene.emitters.iter().zip(&of_emitters) {
+            for particle in swarm.iter().filter(|particle| particle.location.is_finite()) {
+                numbers[0] += 1.0;
+                numbers.extend(seen(emitter, particle, time));
+            }
+        }
+        put(&mut bytes, &numbers);
+    }
+    *kept = Some(swarms);
+    Ok(bytes)
+}
+
+/// What a particle looks like at a time, s.
+fn seen(emitter: &Emitter, particle: &Particle, time: f64) -> impl Iterator<Item = f64> {
+    let age = if particle.dies.is_finite() { particle.age(time) } else { 0.0 };
+    let past = emitter.streak.min(time - particle.born).max(0.0);
+    let end = particle.location - past * particle.velocity;
+    let end = if end.is_finite() { end } else { particle.location };
+    let shines = if emitter.glow > 0.0 { 1.0 } else { 0.0 };
+    let places = particle.location.to_array().into_iter().chain(end.to_array());
+    places.chain([emitter.radius_at(age)]).chain(emitter.color_at(age).0).chain([shines])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::Scene;
+    use crate::cache::Cache;
+
+    /// Any order of frames gives the same particles, and a run with many shows every n-th.
+    #[test]
+    fn particles_are_where_they_are_in_any_order() {
+        let text = "simulation = { duration = 1, frame_rate = 10 }
+            [emitter.drops]\nshape.sphere.radius = 0.1\nrate = 10\nlifetime = 0.35\nspeed = 2\nsize = [1, 0]
+            color = ['red', 'blue']\nglow = 1\nstreak = 0.01
+            [emitter.crowd]\nshape.sphere.radius = 0.1\nrate = 1e5\nfrom.point = [9, 0, 0]\n";
+        let scene = Scene::parse(text).unwrap();
+        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        while run.outcome().is_none() {
+            std::thread::yield_now();
+        }
+        assert_eq!(thinned(&run), [("crowd".to_owned(), 20)]);
+        let numbers = |frame: usize| -> Vec<f64> {
+            let bytes = frames(&run, std::iter::once(frame)).unwrap();
+            bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect()
+        };
+        let (late, early) = (numbers(9), numbers(2));
+        assert_eq!((&numbers(9), &numbers(2)), (&late, &early));
+        // Four drops; and of 90,000 others, or one more, every twentieth.
+        assert!((4504.0..=4506.0).contains(&late[0]), "{}", late[0]);
+        assert_eq!(late[0], f64::from(u32::try_from(late.len() / 11).unwrap()));
+        // Born at 0.6 s, it is 0.3 s old of 0.35 s at 0.9 s; the last one is born just then.
+        let old = &late[1..12];
+        let part = 0.3 / 0.35;
+        let expected = [0.0, 0.6, 0.0, 0.0, 0.58, 0.0, 0.1 * (1.0 - part), 1.0 - part, 0.0, part, 1.0];
+        assert!(old.iter().zip(expected).all(|(found, is)| (found - is).abs() < 1e-9), "{old:?}");
+    }
+}

@@ -1,0 +1,54 @@
+//! The particles of recorded frames, in any order.
+
+use std::io;
+use std::sync::Arc;
+
+use super::particles::Clouds;
+use super::{Recording, Swarm};
+use crate::scene::Scene;
+
+/// The particles of the frames of a run that is recorded, or is being recorded. They follow from the bodies of the frames before, so frames
+/// one after another take the least time.
+pub struct Swarms {
+    clouds: Clouds,
+    recording: Arc<Recording>,
+    /// The frame that comes next.
+    next: usize,
+}
+
+impl Swarms {
+    /// Of each emitter, at most about so many particles at once: every n-th, always the same ones.
+    #[must_use]
+    pub fn thinned(scene: &Scene, recording: Arc<Recording>, most: f64) -> Swarms {
+        Swarms { clouds: Clouds::thinned(scene, most), recording, next: 0 }
+    }
+
+    /// For each emitter: every so many-th of its particles is there.
+    #[must_use]
+    pub fn strides(&self) -> &[u64] {
+        self.clouds.strides()
+    }
+
+    /// Whether they are those of a recording.
+    #[must_use]
+    pub fn are_of(&self, recording: &Arc<Recording>) -> bool {
+        Arc::ptr_eq(&self.recording, recording)
+    }
+
+    /// The particles of a frame, for each emitter in the order of the scene.
+    ///
+    /// # Errors
+    /// Where the frame is not recorded, or cannot be read.
+    pub fn at(&mut self, frame: usize) -> io::Result<Vec<Swarm>> {
+        if !self.clouds.go_on_to(frame, self.next) {
+            self.next = self.clouds.first_frame(frame);
+            self.clouds.begin_at(self.next);
+        }
+        let mut reader = self.recording.read();
+        while self.next <= frame {
+            self.clouds.note(&reader.seen(self.next)?);
+            self.next += 1;
+        }
+        Ok(self.clouds.now())
+    }
+}
