@@ -24,6 +24,7 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "contacts", place: "`contacts` of [simulation]", entries: contacts },
     Category { name: "shapes", place: "`shape` of [body.NAME]", entries: || variants(&["body", "shape"]) },
     Category { name: "forces", place: "[force.NAME]", entries: || variants(&["force"]) },
+    Category { name: "joints", place: "[joint.NAME]", entries: || variants(&["joint"]) },
     Category { name: "repeats", place: "`repeat` of [body.NAME]", entries: || variants(&["body", "repeat"]) },
     Category {
         name: "origins",

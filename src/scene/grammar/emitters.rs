@@ -123,7 +123,7 @@ static FROM: TableSpec = TableSpec {
         Key::new(
             "surface",
             Reference(Collection::Body),
-            "The surface of a body: a sphere, box, cylinder, capsule, cone or torus",
+            "The surface of a body: a sphere, box, cylinder, capsule, cone, torus, mesh or heightfield",
         )
         .also(&["surface_of", "mesh"]),
         Key::new(

@@ -100,6 +100,8 @@ machines of thousands of bodies can be simulated. All keys mean the same as in t
 | resting bodies | touch exactly | sink into each other by up to a percent of their thickness |
 | integrators | any that keeps joints | `euler-cromer` |
 | joints | all, exact to rounding | `ball`, `hinge`, `slider`, `fixed`, `rod`, `rope`; they give way a little |
+| forces and torques of joints, in labels, arrows and tables | yes | refused |
+| a motor with `angle` or `position` | exact, or with a `stiffness` | with a `stiffness` |
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
@@ -174,8 +176,8 @@ bodies nor on each other. They pass through bodies unless the emitter says `coll
   has at most 1,000 particles at once that collide; with `time-stepping`, as many as any other.
 - **Looks**: `color` and `size` go from birth to death in 32 steps. What glows casts no shadow; it does not light other things: that takes
   a `[light.NAME]`. Places are written to a hundredth of the radius.
-- **Many**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview, models and tables do
-  not show particles.
+- **Many**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview shows them. `jabuka export
+  SCENE -o FILE.csv --particles` writes a table of them. Models leave them out.
 ";
 
 /// What there is to say of formulas before their functions are listed.
@@ -272,6 +274,19 @@ Name the ends of a force or a joint with `i`, and it is repeated: `i` counts fro
 
 A copy has random numbers of its own, which another copy or another body does not change. Scattered copies are placed one
 after another, each at random until the ball around it overlaps none of those before it; other bodies are not looked at.
+
+A pyramid, or the pins of a bowling lane, have rows of 1, 2, 3, … copies. Copy `i` is in row `floor((sqrt(8*i + 1) - 1)/2)`:
+
+```toml
+[body.box]                        # box[0] at the top, box[1] and box[2] below it, and so on
+repeat = 55                       # 1 + 2 + … + 10
+shape.box.size = [0.4, 0.4, 0.4]
+location = [
+  \"0.42*(i - floor((sqrt(8*i + 1) - 1)/2)*(floor((sqrt(8*i + 1) - 1)/2) + 2)/2)\",
+  \"0.2 + 0.4*(9 - floor((sqrt(8*i + 1) - 1)/2))\",
+  0,
+]
+```
 
 ```toml
 [defaults.body]
