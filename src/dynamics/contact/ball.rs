@@ -52,9 +52,13 @@ impl Ball {
             _ => None,
         };
         let features = &solid.parts()[part].features;
-        let corners: Vec<DVec3> = features.iter().filter_map(|feature| corner(&feature.patch)).collect();
+        let mut corners = features.iter().filter_map(|feature| corner(&feature.patch));
+        let triangle = [corners.next()?, corners.next()?, corners.next()?];
+        if corners.next().is_some() {
+            return None;
+        }
         let local = pose.local(centre);
-        let away = local - nearest_on_triangle(local, corners.try_into().ok()?);
+        let away = local - nearest_on_triangle(local, triangle);
         let normal = pose.orientation * away.try_normalize()?;
         Some((away.length() - self.radius, normal))
     }
