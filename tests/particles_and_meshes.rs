@@ -135,6 +135,24 @@ fn a_ball_between_two_plates_becomes_faster() {
     }
 }
 
+/// A table of zeros would look like an answer.
+#[test]
+fn no_table_has_forces_of_joints_that_time_stepping_does_not_know() {
+    let text = "simulation = { duration = 0.1, contacts = 'time-stepping' }
+        [body.a]\nshape.sphere.radius = 0.1\nlocation = [0, 1, 0]
+        [joint.j.ball]\nbetween = [[0, 1, 0], 'a']\n";
+    let place = Place::new(&[("scene.toml", text)]);
+    let words = ["export", "scene.toml", "--joints", "-o", "j.csv"];
+    let output = jabuka().current_dir(place.0.path()).args(words).output().unwrap();
+    assert!(!output.status.success());
+    assert!(
+        stderr(&output).contains("time stepping does not know the forces of joints"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(!place.path("j.csv").exists());
+}
+
 #[test]
 fn a_table_has_the_particles_of_each_frame() {
     let text = "simulation = { duration = 0.2, frame_rate = 10 }

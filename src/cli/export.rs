@@ -10,6 +10,7 @@ use jabuka::export::{
 };
 use jabuka::output::OutputError;
 use jabuka::overwrite::Kept;
+use jabuka::scene::ContactLaw;
 use jabuka::simulate::{Recorded, Selection};
 
 use super::progress::Progress;
@@ -115,6 +116,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     if arguments.events.is_some() && scene.simulation.contacts.is_none() {
         let message = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
+        return Err(Failure::Usage(message.to_owned()));
+    }
+    if arguments.joints && scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
+        let message =
+            "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does";
         return Err(Failure::Usage(message.to_owned()));
     }
     if arguments.joints && scene.joints.is_empty() {
