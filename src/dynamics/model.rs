@@ -3,6 +3,7 @@
 mod away;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -338,6 +339,15 @@ impl Model {
         self.bear(state, loads);
     }
 
+    /// Sums up the forces on the bodies of a range alone, also on those that no load moves; torques and work stay as they are. False
+    /// where some force can only be evaluated for all bodies: then the loads mean nothing.
+    pub(super) fn sum_part(&self, bodies: Range<usize>, time: f64, state: &State, loads: &mut Loads) -> bool {
+        loads.force.resize(self.len(), DVec3::ZERO);
+        self.force.write_part(&mut loads.force, bodies.clone());
+        let moment = Moment { time, state, model: self };
+        self.forces.iter().all(|force| force.apply_to(bodies.clone(), &moment, loads))
+    }
+
     /// The sum of all forces and torques, also on bodies that no load moves.
     pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
         self.force.write(&mut loads.force, self.len());
@@ -447,5 +457,14 @@ impl<T: Nothing> Sparse<T> {
     fn write(&self, out: &mut Vec<T>, bodies: usize) {
         out.clone_from(&self.0);
         out.resize(bodies, T::NOTHING);
+    }
+
+    /// Writes the values of the bodies of a range.
+    fn write_part(&self, out: &mut [T], bodies: Range<usize>) {
+        let known = self.0.len().clamp(bodies.start, bodies.end);
+        out[known..bodies.end].fill(T::NOTHING);
+        if known > bodies.start {
+            out[bodies.start..known].copy_from_slice(&self.0[bodies.start..known]);
+        }
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::expression::{ExpressionError, LANES, Resolved, Wide, too_intricate};
 use crate::diagnostic::Span;
-use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined};
+use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
 /// What a formula of a force may ask for, those of a potential first.
 pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];
@@ -179,6 +179,11 @@ pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES
 /// Writes a quantity of some bodies.
 fn fill(slot: usize, bodies: &[BodyId], moment: &Moment, at_rest: bool, column: &mut [f64]) {
     let (state, model) = (moment.state, moment.model);
+    match (slot, in_a_row(bodies)) {
+        (0..3, Some(row)) => return copy(&state.location[row], slot, column),
+        (VX..SPEED, Some(row)) if !at_rest => return copy(&state.velocity[row], slot - VX, column),
+        _ => {}
+    }
     let each = column.iter_mut().zip(bodies.iter().map(|body| body.index()));
     match slot {
         TIME => column.fill(moment.time),
@@ -192,13 +197,23 @@ fn fill(slot: usize, bodies: &[BodyId], moment: &Moment, at_rest: bool, column: 
     }
 }
 
+/// Copies one component of vectors.
+fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
+    let each = column.iter_mut().zip(from);
+    match component {
+        0 => each.for_each(|(to, from)| *to = from.x),
+        1 => each.for_each(|(to, from)| *to = from.y),
+        _ => each.for_each(|(to, from)| *to = from.z),
+    }
+}
+
 impl ForceLaw for FormulaLaw {
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
         let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, at_rest, column);
         self.program.run(bodies.len(), fill, |[x, y, z]| {
-            for (lane, out) in out.iter_mut().enumerate() {
-                *out = DVec3::new(x.at(lane), y.at(lane), z.at(lane));
-            }
+            x.each(out, |out, value| out.x = value);
+            y.each(out, |out, value| out.y = value);
+            z.each(out, |out, value| out.z = value);
         });
     }
 

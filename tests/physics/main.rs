@@ -30,3 +30,4 @@ mod rotation;
 mod same_bits;
 mod scenes;
 mod springs;
+mod validation;

@@ -1,6 +1,7 @@
 //! A force by formulas.
 
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -86,12 +87,25 @@ impl Force for FormulaForce {
         let books = self.depends_on_motion();
         let mut power = 0.0;
         self.each_block(moment, |bodies, force, rest| {
-            for (lane, (body, force)) in bodies.iter().zip(force).enumerate() {
-                let i = body.index();
-                loads.force[i] += *force;
-                if books {
-                    let free = rest.map_or(*force, |rest| *force - rest[lane]);
-                    power += free.dot(moment.state.velocity[i]);
+            match (in_a_row(bodies), rest) {
+                // Most often: no body has to be looked up.
+                (Some(row), None) => {
+                    let all = loads.force[row.clone()].iter_mut().zip(force);
+                    all.for_each(|(sum, force)| *sum += *force);
+                    if books {
+                        let all = force.iter().zip(&moment.state.velocity[row]);
+                        all.for_each(|(force, velocity)| power += force.dot(*velocity));
+                    }
+                }
+                _ => {
+                    for (lane, (body, force)) in bodies.iter().zip(force).enumerate() {
+                        let i = body.index();
+                        loads.force[i] += *force;
+                        if books {
+                            let free = rest.map_or(*force, |rest| *force - rest[lane]);
+                            power += free.dot(moment.state.velocity[i]);
+                        }
+                    }
                 }
             }
         });
@@ -125,11 +139,23 @@ impl Force for FormulaForce {
     }
 }
 
+/// The numbers of bodies that follow each other without a gap.
+pub fn in_a_row(bodies: &[BodyId]) -> Option<Range<usize>> {
+    let first = bodies.first()?.index();
+    let is_row = bodies.iter().zip(first..).all(|(body, i)| body.index() == i);
+    is_row.then(|| first..first + bodies.len())
+}
+
 impl Failure {
     /// Notes the first of some bodies that has no force where it has a place and a velocity.
     fn look(&self, bodies: &[BodyId], force: &[DVec3], moment: &Moment) {
         // 0 · ∞ is not a number, and neither is a sum with one.
-        let is_finite = force.iter().map(|force| 0.0 * (force.x + force.y + force.z)).sum::<f64>() == 0.0;
+        // Four sums, so that none waits for the other.
+        let mut sums = [DVec3::ZERO; 4];
+        for forces in force.chunks(4) {
+            forces.iter().zip(&mut sums).for_each(|(force, sum)| *sum += 0.0 * *force);
+        }
+        let is_finite = sums.iter().all(|sum| *sum == DVec3::ZERO);
         if is_finite && !self.is_there.load(Ordering::Relaxed) {
             return;
         }

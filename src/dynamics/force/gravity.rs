@@ -1,5 +1,7 @@
 //! The same gravity everywhere, as near the surface of a planet.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::{Force, Loads, Moment};
@@ -13,9 +15,14 @@ pub struct UniformGravity {
 
 impl Force for UniformGravity {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        for (force, &mass) in loads.force.iter_mut().zip(moment.model.mass()) {
+        self.apply_to(0..loads.force.len(), moment, loads);
+    }
+
+    fn apply_to(&self, bodies: Range<usize>, moment: &Moment, loads: &mut Loads) -> bool {
+        for (force, &mass) in loads.force[bodies.clone()].iter_mut().zip(&moment.model.mass()[bodies]) {
             *force += mass * self.acceleration;
         }
+        true
     }
 
     fn is_local(&self) -> bool {

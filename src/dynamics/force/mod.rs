@@ -21,13 +21,15 @@ pub use constant::ConstantForce;
 pub use coulomb::Coulomb;
 pub use dipoles::Dipoles;
 pub use drag::Drag;
-pub use formula::{FORCE_BLOCK, ForceLaw, FormulaForce, Undefined};
+pub use formula::{FORCE_BLOCK, ForceLaw, FormulaForce, Undefined, in_a_row};
 pub use gravitation::Gravitation;
 pub use gravity::UniformGravity;
 pub use j2::J2;
 pub use lennard_jones::LennardJones;
 pub use lorentz::Lorentz;
 pub use spring::Spring;
+
+use std::ops::Range;
 
 use super::{Loads, Model, State};
 
@@ -56,6 +58,12 @@ pub trait Force: Send + Sync {
     ///
     /// The share of a body that does not move is left out where it is a constant.
     fn potential(&self, moment: &Moment) -> f64;
+
+    /// Adds the forces on the bodies of a range alone, as [`apply`](Self::apply) does for all; only a force that is
+    /// [local](Self::is_local) can. The default does nothing and answers false: such a force is always evaluated as a whole.
+    fn apply_to(&self, _bodies: Range<usize>, _moment: &Moment, _loads: &mut Loads) -> bool {
+        false
+    }
 
     /// Whether what it does to a body depends on no other body, and has a potential: bodies that do not meet can then be advanced one
     /// after another.

@@ -10,6 +10,7 @@ mod rk4;
 mod rotation;
 mod runge_kutta;
 mod splitting;
+mod straight;
 mod velocities;
 mod velocity_verlet;
 mod yoshida4;

@@ -3,6 +3,7 @@
 //! The picture is a list of lines and texts in pixels, from which an SVG and a PNG are made alike.
 
 mod axis;
+mod chart;
 mod png;
 mod svg;
 
@@ -10,6 +11,7 @@ use super::verdict::{Curves, Verdict};
 use super::{Assessment, Parting, text};
 use axis::Axis;
 
+pub use chart::{Chart, Curve};
 pub use png::png;
 pub use svg::svg;
 

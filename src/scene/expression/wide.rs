@@ -60,6 +60,15 @@ pub(in crate::scene) enum Output<'a> {
 }
 
 impl Output<'_> {
+    /// Shows the value in each lane.
+    #[inline]
+    pub(in crate::scene) fn each<T>(&self, lanes: &mut [T], mut set: impl FnMut(&mut T, f64)) {
+        match self {
+            Output::Each(values) => lanes.iter_mut().zip(*values).for_each(|(lane, value)| set(lane, *value)),
+            Output::Constant(value) => lanes.iter_mut().for_each(|lane| set(lane, *value)),
+        }
+    }
+
     /// The value in a lane.
     #[inline]
     pub(in crate::scene) fn at(&self, lane: usize) -> f64 {

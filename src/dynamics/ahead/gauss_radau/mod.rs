@@ -17,6 +17,9 @@ const CHANGES: f64 = 0.25;
 const MOST_ROUNDS: usize = 12;
 /// They are known when the last coefficient changes by no more than this part of a slope.
 const KNOWN: f64 = 1e-16;
+/// What is left by rounding of slopes is less than this part of them. A larger change may well grow from one round to the next, and become
+/// less in those that follow.
+const ROUNDING: f64 = 1e-12;
 /// What changes by no more than this part within a step does so by rounding.
 const NOISE: f64 = 1e-15;
 /// So much longer than the step before, nothing is known of a step.
@@ -64,8 +67,8 @@ impl GaussRadau {
             self.visit::<5>(field, now, dt);
             self.visit::<6>(field, now, dt);
             let change = self.visit::<7>(field, now, dt);
-            // What does not become less any more is rounding.
-            if change < KNOWN || round > 1 && change >= before {
+            // What is small and does not become less any more is rounding.
+            if change < KNOWN || round > 1 && change < ROUNDING && change >= before {
                 break;
             }
             before = change;

@@ -1,0 +1,191 @@
+//! Runge–Kutta steps of bodies that nothing can turn: these cost nothing but their way.
+
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+
+use super::super::{Accounts, Loads, Model, State, System};
+use super::rotation;
+
+/// Where each body moves by itself, so many are advanced together: their numbers stay in the nearest cache.
+const BLOCK: usize = 128;
+
+/// A stage of a method in which a stage follows from the one before alone.
+#[derive(Clone, Copy)]
+pub(super) struct Stage {
+    /// Its time, s.
+    pub(super) time: f64,
+    /// How much its slope counts in the step.
+    pub(super) weight: f64,
+    /// How far its slope leads from the beginning of the step to the next stage, s.
+    pub(super) next: f64,
+}
+
+/// Room for a step. Its bits are those that [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow) give.
+#[derive(Clone, Default)]
+pub(super) struct Straight {
+    stage: State,
+    loads: Loads,
+    /// The weighted slopes of the stages so far, of the bodies of a block.
+    location: Vec<DVec3>,
+    velocity: Vec<DVec3>,
+    power: Accounts,
+}
+
+impl Straight {
+    /// Whether nothing can turn a body, or guide or hold one.
+    pub(super) fn suits(system: &System<'_>) -> bool {
+        let model = system.model();
+        !model.turns_bodies() && !model.has_guided() && !system.is_constrained()
+    }
+
+    /// Advances `state` by `dt`.
+    pub(super) fn advance(&mut self, system: &System<'_>, stages: &[Stage], dt: f64, state: &mut State) {
+        let (model, count) = (system.model(), state.len());
+        if self.stage.len() != count {
+            self.stage.clone_from(state);
+        }
+        self.turn(model, stages, dt, state);
+        let by_blocks = model.is_local() && model.sum_part(0..0, 0.0, state, &mut self.loads);
+        let size = if by_blocks { BLOCK } else { count.max(1) };
+        for start in (0..count).step_by(size) {
+            let block = start..(start + size).min(count);
+            self.location.clear();
+            self.location.resize(block.len(), DVec3::ZERO);
+            self.velocity.clone_from(&self.location);
+            self.power = Accounts::default();
+            for (number, stage) in stages.iter().enumerate() {
+                let here = if number == 0 { &*state } else { &self.stage };
+                if by_blocks {
+                    model.sum_part(block.clone(), stage.time, here, &mut self.loads);
+                } else {
+                    model.evaluate(stage.time, here, &mut self.loads);
+                    self.power.add(stage.weight, self.loads.power);
+                }
+                self.go_on(model, block.clone(), stage, number == 0, state);
+            }
+            for (i, lane) in block.zip(0..) {
+                state.location[i] += dt * self.location[lane];
+                state.velocity[i] += dt * self.velocity[lane];
+            }
+            state.accounts.add(dt, self.power);
+        }
+    }
+
+    /// Adds the slopes of a stage, and goes to the next one.
+    #[inline]
+    fn go_on(&mut self, model: &Model, block: Range<usize>, stage: &Stage, is_first: bool, state: &State) {
+        let Stage { weight, next, .. } = *stage;
+        let force = &self.loads.force[block.clone()];
+        let inverse_mass = &model.inverse_mass()[block.clone()];
+        let (begin, moving) = (&state.location[block.clone()], &state.velocity[block.clone()]);
+        let (places, velocities) =
+            (&mut self.stage.location[block.clone()], &mut self.stage.velocity[block.clone()]);
+        let (ways, changes) = (&mut self.location[..], &mut self.velocity[..]);
+        for i in 0..block.len() {
+            let velocity = if is_first { moving[i] } else { velocities[i] };
+            let acceleration = force[i] * inverse_mass[i];
+            ways[i] += weight * velocity;
+            changes[i] += weight * acceleration;
+            // A sum that begins with zero: it has no negative zero.
+            places[i] = begin[i] + next * (DVec3::ZERO + velocity);
+            velocities[i] = moving[i] + next * (DVec3::ZERO + acceleration);
+        }
+    }
+
+    /// Turns the bodies that turn, each on its own: its angular momentum stays the same.
+    fn turn(&mut self, model: &Model, stages: &[Stage], dt: f64, state: &mut State) {
+        let nothing = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        let advanced = |from: DQuat, rate: DQuat, time: f64| {
+            if rate.length_squared() == 0.0 { from } else { (from + rate * time).normalize() }
+        };
+        let here = &mut self.stage;
+        for i in 0..state.len() {
+            if state.angular_momentum[i] == DVec3::ZERO {
+                continue;
+            }
+            here.angular_momentum[i] = state.angular_momentum[i];
+            here.orientation[i] = state.orientation[i];
+            let mut sum = nothing;
+            for stage in stages {
+                let rate = rotation::rate(here.orientation[i], model.angular_velocity(i, here));
+                sum += rate * stage.weight;
+                here.orientation[i] = advanced(state.orientation[i], nothing + rate * 1.0, stage.next);
+            }
+            state.orientation[i] = advanced(state.orientation[i], sum, dt);
+            // As by a torque of zero, which leaves no negative zero.
+            state.angular_momentum[i] += DVec3::ZERO;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{BodyId, Gravitation, RigidBody, Shape, UniformGravity, World};
+    use super::super::Method;
+    use super::*;
+
+    /// What can turn bodies, but does nothing.
+    struct Idle;
+
+    impl super::super::super::Force for Idle {
+        fn apply(&self, _: &super::super::super::Moment, _: &mut Loads) {}
+
+        fn potential(&self, _: &super::super::super::Moment) -> f64 {
+            0.0
+        }
+    }
+
+    fn world(attract: bool, idle: bool) -> World {
+        let mut world = World::new();
+        world.set_integrator(Method::by_name("rk4").unwrap());
+        for i in 0..300 {
+            let part = f64::from(i);
+            let mut body = RigidBody::new(&Shape::Sphere { radius: 0.1 }, 1.0 + part)
+                .with_location(DVec3::new(part, -0.5 * part, 0.01 * part * part))
+                .with_velocity(DVec3::new(1.0 / (1.0 + part), -0.3, 0.0))
+                .with_fixed(i % 7 == 0);
+            if i % 3 == 0 {
+                let inertia = DVec3::new(1.0, 2.0, 2.5);
+                body = body.with_inertia(inertia).with_angular_velocity(DVec3::new(0.3, part, -0.2));
+            }
+            if i % 5 == 0 {
+                body = body.with_force(DVec3::new(0.1, part, 0.0));
+            }
+            world.add(body);
+        }
+        world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -9.81, 0.3) });
+        if attract {
+            let bodies = (0..20).map(BodyId::new).collect();
+            world.add_force(Gravitation {
+                bodies,
+                against: None,
+                constant: 0.7,
+                softening: 0.1,
+                opening_angle: None,
+            });
+        }
+        if idle {
+            world.add_force(Idle);
+        }
+        world
+    }
+
+    /// The whole way and the short one, for bodies that move by themselves and for those that attract each other.
+    #[test]
+    fn bodies_that_nothing_turns_have_the_same_bits_as_all_others() {
+        for attract in [false, true] {
+            let [short, long] = [false, true].map(|idle| {
+                let mut world = world(attract, idle);
+                (0..20).for_each(|_| world.step(0.013));
+                world.state().clone()
+            });
+            assert_eq!(short, long);
+            let bits = |state: &State| {
+                let places = state.location.iter().chain(&state.velocity).flat_map(DVec3::to_array);
+                places.map(f64::to_bits).collect::<Vec<_>>()
+            };
+            assert_eq!(bits(&short), bits(&long));
+        }
+    }
+}

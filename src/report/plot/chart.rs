@@ -1,0 +1,148 @@
+//! Charts of several curves with logarithmic axes: errors over what they cost.
+
+use super::axis::Axis;
+use super::{Anchor, FAINT_INK, GRID, INK, Picture, Rgb};
+
+/// The colors of curves, which are told apart also by eyes that do not see red and green. Source: M. Okabe & K. Ito, *Color Universal Design*
+/// (2008), with yellow made darker.
+const COLORS: [Rgb; 8] = [
+    [0, 0, 0],
+    [230, 159, 0],
+    [86, 180, 233],
+    [0, 158, 115],
+    [178, 160, 20],
+    [0, 114, 178],
+    [213, 94, 0],
+    [204, 121, 167],
+];
+
+const WIDTH: f64 = 1100.0;
+const TOP: f64 = 92.0;
+const LEFT: f64 = 90.0;
+const GAP: [f64; 2] = [100.0, 96.0];
+const SIZE: [f64; 2] = [430.0, 330.0];
+/// Charts stand side by side in rows of so many.
+const COLUMNS: usize = 2;
+/// The width of a letter, and of the piece of a curve before a name.
+const LETTER: f64 = 9.0;
+const SAMPLE: f64 = 26.0;
+
+/// A curve through points: what it has cost, and the error.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Its name. Curves of the same name have the same color in all charts.
+    pub name: String,
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Curves over common axes, both logarithmic.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// What it shows.
+    pub title: String,
+    /// What is counted from left to right, and from below upwards.
+    pub axes: [String; 2],
+    /// The curves.
+    pub curves: Vec<Curve>,
+}
+
+impl Picture {
+    /// Charts side by side under a title, with the names of the curves.
+    #[must_use]
+    pub fn of_charts(title: &str, charts: &[Chart]) -> Picture {
+        let rows = f64::from(u8::try_from(charts.len().div_ceil(COLUMNS)).unwrap_or(u8::MAX));
+        let height = TOP + rows * (SIZE[1] + GAP[1]);
+        let mut picture = Picture { width: WIDTH, height, items: Vec::new() };
+        let mut names: Vec<&str> = Vec::new();
+        for curve in charts.iter().flat_map(|chart| &chart.curves) {
+            if !names.contains(&curve.name.as_str()) {
+                names.push(&curve.name);
+            }
+        }
+        picture.text([LEFT, 26.0], title.to_owned(), Anchor::Start, INK, true);
+        let [mut x, mut y] = [LEFT, 52.0];
+        for (name, color) in names.iter().zip(COLORS.iter().cycle()) {
+            let width = SAMPLE + 22.0 + LETTER * f64::from(u8::try_from(name.len()).unwrap_or(u8::MAX));
+            if x + width > WIDTH {
+                [x, y] = [LEFT, y + 22.0];
+            }
+            picture.line(vec![[x, y], [x + SAMPLE, y]], 3.0, *color);
+            picture.text([x + SAMPLE + 7.0, y], (*name).to_owned(), Anchor::Start, INK, false);
+            x += width;
+        }
+        let mut corner = [LEFT, TOP + 26.0];
+        for (place, chart) in charts.iter().enumerate() {
+            picture.chart(chart, corner, &names);
+            corner[0] += SIZE[0] + GAP[0];
+            if place % COLUMNS == COLUMNS - 1 {
+                corner = [LEFT, corner[1] + SIZE[1] + GAP[1]];
+            }
+        }
+        picture
+    }
+
+    fn chart(&mut self, chart: &Chart, [left, top]: [f64; 2], names: &[&str]) {
+        let points = || chart.curves.iter().flat_map(|curve| &curve.points);
+        let across = Axis::logarithmic(points().map(|[x, _]| x));
+        let up = Axis::logarithmic(points().map(|[_, y]| y));
+        let [right, bottom] = [left + SIZE[0], top + SIZE[1]];
+        let x = |value: f64| left + across.part(value) * SIZE[0];
+        let y = |value: f64| bottom - up.part(value) * SIZE[1];
+        self.text([left, top - 18.0], chart.title.clone(), Anchor::Start, INK, false);
+        for (value, label) in up.ticks() {
+            self.rule(vec![[left, y(value)], [right, y(value)]], GRID);
+            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_INK, false);
+        }
+        for (value, label) in across.ticks() {
+            self.rule(vec![[x(value), top], [x(value), bottom]], GRID);
+            self.text([x(value), bottom + 16.0], label, Anchor::Middle, FAINT_INK, false);
+        }
+        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_INK);
+        let [below, beside] = &chart.axes;
+        self.text([right, bottom + 40.0], format!("{beside}, over {below}"), Anchor::End, FAINT_INK, false);
+        for curve in &chart.curves {
+            let number = names.iter().position(|name| *name == curve.name).unwrap_or_default();
+            let color = COLORS[number % COLORS.len()];
+            let points: Vec<[f64; 2]> = curve.points.iter().map(|point| [x(point[0]), y(point[1])]).collect();
+            for [x, y] in &points {
+                self.line(vec![[x - 3.0, *y], [x + 3.0, *y]], 6.0, color);
+            }
+            self.line(points, 2.0, color);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Item, svg};
+    use super::*;
+
+    fn chart(name: &str) -> Chart {
+        let curve = Curve { name: name.to_owned(), points: vec![[1.0, 1.0], [10.0, 1e-4], [100.0, 1e-8]] };
+        let axes = ["cost", "error"].map(str::to_owned);
+        Chart { title: "Fall < rise".to_owned(), axes, curves: vec![curve] }
+    }
+
+    #[test]
+    fn curves_of_a_name_have_one_color_and_stay_within_their_axes() {
+        let picture = Picture::of_charts("Three", &[chart("one"), chart("two"), chart("one")]);
+        let curves: Vec<_> = picture
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                Item::Line { points, color, .. } if points.len() == 3 && *color != FAINT_INK => {
+                    Some((points.clone(), *color))
+                }
+                _ => None,
+            })
+            .collect();
+        assert_eq!(curves.len(), 3);
+        assert!(curves[0].1 == curves[2].1 && curves[0].1 != curves[1].1);
+        // A power law is straight.
+        let points = &curves[0].0;
+        assert!((points[0][1] + points[2][1] - 2.0 * points[1][1]).abs() < 1e-9);
+        assert_eq!((points[0], points[2][0] - points[0][0]), ([LEFT, TOP + 26.0], SIZE[0]));
+        assert!(svg(&picture).contains("Fall &lt; rise"));
+    }
+}
