@@ -437,3 +437,17 @@ fn what_a_file_does_not_say_is_as_the_body_says() {
     let warned = scene.warnings.to_text(false);
     assert!(warned.contains("`location` of `ring[0]` has no effect"), "{warned}");
 }
+
+/// A step of a picosecond would make 10¹⁸ of them.
+#[test]
+fn motion_that_is_given_takes_no_steps_and_none_of_their_limits() {
+    for method in ["integrator = 'rk4'\nstep = 1e-12", "integrator = 'gauss-radau'", "integrator = 'dop853'"]
+    {
+        let frames = frames(&format!(
+            "[simulation]\nduration = 1e6\nframe_rate = 1e-4\n{method}\n[body.a]\nshape.sphere.radius = 1
+            motion.formula.location = ['sqrt(t)', 0, 0]"
+        ));
+        assert_eq!(frames.len(), 101);
+        assert_eq!(frames[100].bodies[0].location, DVec3::X * 1000.0, "{method}");
+    }
+}

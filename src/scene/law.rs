@@ -1,11 +1,12 @@
 //! Forces by formulas of where a body is, how it moves, and what it is.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::expression::{ExpressionError, LANES, Resolved, Wide, too_intricate};
+use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intricate};
 use crate::diagnostic::Span;
 use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
@@ -176,12 +177,18 @@ pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES
     quantities(at.location, at.velocity, mass, charge, at.time)
 }
 
-/// Writes a quantity of some bodies.
-fn fill(slot: usize, bodies: &[BodyId], moment: &Moment, at_rest: bool, column: &mut [f64]) {
+/// Writes a quantity of some bodies; `row`: their numbers, where these are without a gap.
+fn fill(
+    slot: usize,
+    (bodies, row): (&[BodyId], Option<&Range<usize>>),
+    moment: &Moment,
+    at_rest: bool,
+    column: &mut [f64],
+) {
     let (state, model) = (moment.state, moment.model);
-    match (slot, in_a_row(bodies)) {
-        (0..3, Some(row)) => return copy(&state.location[row], slot, column),
-        (VX..SPEED, Some(row)) if !at_rest => return copy(&state.velocity[row], slot - VX, column),
+    match (slot, row) {
+        (0..3, Some(row)) => return copy(&state.location[row.clone()], slot, column),
+        (VX..SPEED, Some(row)) if !at_rest => return copy(&state.velocity[row.clone()], slot - VX, column),
         _ => {}
     }
     let each = column.iter_mut().zip(bodies.iter().map(|body| body.index()));
@@ -209,17 +216,21 @@ fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
 
 impl ForceLaw for FormulaLaw {
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
+        let row = in_a_row(bodies);
+        let bodies = (bodies, row.as_ref());
         let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, at_rest, column);
-        self.program.run(bodies.len(), fill, |[x, y, z]| {
-            x.each(out, |out, value| out.x = value);
-            y.each(out, |out, value| out.y = value);
-            z.each(out, |out, value| out.z = value);
+        let mut room = [[0.0; LANES]; 3];
+        self.program.run(out.len(), fill, |values: [Output<'_>; 3]| {
+            let [a, b, c] = &mut room;
+            let [x, y, z] = values;
+            let all = out.iter_mut().zip(x.column(a)).zip(y.column(b)).zip(z.column(c));
+            all.for_each(|(((out, x), y), z)| *out = DVec3::new(*x, *y, *z));
         });
     }
 
     fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]) {
         let Some(energy) = &self.energy else { return out.fill(0.0) };
-        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, true, column);
+        let fill = |slot: usize, column: &mut [f64]| fill(slot, (bodies, None), moment, true, column);
         energy.run(bodies.len(), fill, |[value]| {
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = value.at(lane));
         });

@@ -65,7 +65,7 @@ pub(super) const WISDOM_HOLMAN: Method = Method {
     symplectic: true,
     constraints: false,
     adaptive: false,
-    summary: "planets about one heavy body, symplectic, with a corrector: millions of years, but no close encounters",
+    summary: "order 2, symplectic, with a corrector: planets about one heavy body for millions of years, without close encounters",
     create: || Box::new(Fixed::new(WisdomHolman::new(f64::INFINITY))),
     ahead: Some(|world, accuracy| {
         let parts = world.into_parts();

@@ -140,10 +140,12 @@ impl Force for FormulaForce {
 }
 
 /// The numbers of bodies that follow each other without a gap.
+#[inline]
 pub fn in_a_row(bodies: &[BodyId]) -> Option<Range<usize>> {
     let first = bodies.first()?.index();
-    let is_row = bodies.iter().zip(first..).all(|(body, i)| body.index() == i);
-    is_row.then(|| first..first + bodies.len())
+    // Without a way out in the middle: that is quicker.
+    let off = bodies.iter().zip(first..).fold(0, |off, (body, i)| off | body.index() ^ i);
+    (off == 0).then(|| first..first + bodies.len())
 }
 
 impl Failure {
@@ -152,9 +154,11 @@ impl Failure {
         // 0 · ∞ is not a number, and neither is a sum with one.
         // Four sums, so that none waits for the other.
         let mut sums = [DVec3::ZERO; 4];
-        for forces in force.chunks(4) {
-            forces.iter().zip(&mut sums).for_each(|(force, sum)| *sum += 0.0 * *force);
+        let (fours, others) = force.as_chunks::<4>();
+        for four in fours {
+            sums.iter_mut().zip(four).for_each(|(sum, force)| *sum += 0.0 * *force);
         }
+        others.iter().for_each(|force| sums[0] += 0.0 * *force);
         let is_finite = sums.iter().all(|sum| *sum == DVec3::ZERO);
         if is_finite && !self.is_there.load(Ordering::Relaxed) {
             return;

@@ -64,10 +64,11 @@ impl Straight {
                 }
                 self.go_on(model, block.clone(), stage, number == 0, state);
             }
-            for (i, lane) in block.zip(0..) {
-                state.location[i] += dt * self.location[lane];
-                state.velocity[i] += dt * self.velocity[lane];
-            }
+            let add = |values: &mut [DVec3], sums: &[DVec3]| {
+                values.iter_mut().zip(sums).for_each(|(value, sum)| *value += dt * *sum);
+            };
+            add(&mut state.location[block.clone()], &self.location);
+            add(&mut state.velocity[block], &self.velocity);
             state.accounts.add(dt, self.power);
         }
     }
@@ -76,20 +77,21 @@ impl Straight {
     #[inline]
     fn go_on(&mut self, model: &Model, block: Range<usize>, stage: &Stage, is_first: bool, state: &State) {
         let Stage { weight, next, .. } = *stage;
-        let force = &self.loads.force[block.clone()];
-        let inverse_mass = &model.inverse_mass()[block.clone()];
-        let (begin, moving) = (&state.location[block.clone()], &state.velocity[block.clone()]);
-        let (places, velocities) =
-            (&mut self.stage.location[block.clone()], &mut self.stage.velocity[block.clone()]);
-        let (ways, changes) = (&mut self.location[..], &mut self.velocity[..]);
-        for i in 0..block.len() {
-            let velocity = if is_first { moving[i] } else { velocities[i] };
-            let acceleration = force[i] * inverse_mass[i];
-            ways[i] += weight * velocity;
-            changes[i] += weight * acceleration;
+        let bodies = || block.clone();
+        if is_first {
+            self.stage.velocity[bodies()].copy_from_slice(&state.velocity[bodies()]);
+        }
+        let begin = state.location[bodies()].iter().zip(&state.velocity[bodies()]);
+        let loads = self.loads.force[bodies()].iter().zip(&model.inverse_mass()[bodies()]);
+        let here = self.stage.location[bodies()].iter_mut().zip(&mut self.stage.velocity[bodies()]);
+        let sums = self.location.iter_mut().zip(&mut self.velocity);
+        for (((begin, load), here), sum) in begin.zip(loads).zip(here).zip(sums) {
+            let (velocity, acceleration) = (*here.1, *load.0 * *load.1);
+            *sum.0 += weight * velocity;
+            *sum.1 += weight * acceleration;
             // A sum that begins with zero: it has no negative zero.
-            places[i] = begin[i] + next * (DVec3::ZERO + velocity);
-            velocities[i] = moving[i] + next * (DVec3::ZERO + acceleration);
+            *here.0 = *begin.0 + next * (DVec3::ZERO + velocity);
+            *here.1 = *begin.1 + next * (DVec3::ZERO + acceleration);
         }
     }
 

@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     symplectic: true,
     constraints: true,
     adaptive: false,
-    summary: "second order, symplectic: one evaluation of forces a step",
+    summary: "second order, symplectic, one evaluation of forces a step: for long motion, also with joints and impacts",
     create: || Box::new(VelocityVerlet::default()),
     ahead: None,
 };

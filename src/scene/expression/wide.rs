@@ -13,7 +13,7 @@ use super::resolve::{Resolved, Value};
 /// As many evaluations side by side as keep the columns of most formulas in the nearest cache.
 pub(in crate::scene) const LANES: usize = 64;
 
-type Column = [f64; LANES];
+pub(in crate::scene) type Column = [f64; LANES];
 
 thread_local! {
     /// The columns of the evaluation that is under way: nothing is allocated but the first time.
@@ -59,13 +59,15 @@ pub(in crate::scene) enum Output<'a> {
     Constant(f64),
 }
 
-impl Output<'_> {
-    /// Shows the value in each lane.
-    #[inline]
-    pub(in crate::scene) fn each<T>(&self, lanes: &mut [T], mut set: impl FnMut(&mut T, f64)) {
+impl<'a> Output<'a> {
+    /// The values of all lanes. What is the same in all is written into `room`.
+    pub(in crate::scene) fn column(self, room: &'a mut Column) -> &'a [f64] {
         match self {
-            Output::Each(values) => lanes.iter_mut().zip(*values).for_each(|(lane, value)| set(lane, *value)),
-            Output::Constant(value) => lanes.iter_mut().for_each(|lane| set(lane, *value)),
+            Output::Each(values) => values,
+            Output::Constant(value) => {
+                room.fill(value);
+                room
+            }
         }
     }
 
