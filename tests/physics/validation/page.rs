@@ -181,8 +181,8 @@ the units of the problem, and of an angular velocity for the wing nut. Seconds a
 ";
 
 const TAIL: &str = "
-IAS15 is the method that `gauss-radau` is, WHFast that of `wisdom-holman`, DOP853 that of `dop853`. How long ours take is measured by
-`cargo bench --bench kepler` and `--bench planets`, on the machine where REBOUND runs, too.
+IAS15 is the method that `gauss-radau` is, WHFast that of `wisdom-holman`, DOP853 that of `dop853`. The benches `kepler` and
+`planets` measure how long ours take, on the machine where REBOUND runs, too.
 
 ## What is not here
 
