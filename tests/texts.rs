@@ -10,7 +10,7 @@ use jabuka::Scene;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::dynamics::Method;
 use jabuka::explain::Explanation;
-use jabuka::report::plot::{Picture, png, svg};
+use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
 use jabuka::scene::expression::{Formula, Function, Program, Scope};
 use jabuka::scene::grammar::SCENE;
@@ -21,7 +21,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions that take a text and are tried here, as `file: name`.
-const TRIED: [&str; 35] = [
+const TRIED: [&str; 36] = [
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
     "diagnostic/mod.rs: error",
@@ -35,6 +35,7 @@ const TRIED: [&str; 35] = [
     "diagnostic/visible.rs: visible_lines",
     "dynamics/integrator/mod.rs: by_name",
     "explain.rs: of",
+    "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
     "scene/color.rs: parse",
@@ -183,6 +184,9 @@ proptest! {
         let _ = (report.to_text(false), report.to_text(true), report.to_json(), report.fixed(id));
         let _ = Report::of_error(Code::CannotRead, &text).to_text(false);
 
+        let curve = Curve { name: text.clone(), points: vec![[1.0, 1.0], [2.0, 0.5]] };
+        let axes = [text.clone(), text.clone()];
+        svg(&Picture::of_charts(&text, &[Chart { title: text.clone(), axes, curves: vec![curve] }]));
         let picture = Picture::of(&ASSESSMENT, &text).unwrap();
         let svg = svg(&picture);
         prop_assert!(ASSESSMENT.to_text(&text).starts_with(&text) && svg.ends_with("</svg>\n"));
