@@ -104,6 +104,8 @@ impl World {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use glam::DVec3;
 
     use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface};
@@ -152,5 +154,29 @@ mod tests {
                 (impacts[0].impulse.length() - 2.0 * (1.0 + restitution)).abs() < 1e-12 && impacts.len() == 1
             );
         }
+    }
+
+    /// Eight balls touch each other. A ninth one is very near, but belongs to another group: none moves. What advances the first group leaves it
+    /// alone: its motion would be lost, while its energy would be booked.
+    #[test]
+    fn what_is_advanced_by_time_stepping_leaves_other_groups_alone() {
+        let mut world = World::new();
+        let ball = Shape::Sphere { radius: 0.1 };
+        for i in 0..9 {
+            let gap = if i == 8 { 0.002 } else { 0.0 };
+            world.add(RigidBody::new(&ball, 2.0).with_location(DVec3::X * (0.2 * f64::from(i) + gap)));
+        }
+        world.add_shapes(vec![ball; 9]);
+        let surface = Surface { restitution: Some(0.5), friction: Some(0.5), rolling_friction: None };
+        world.collide(Contacts { surfaces: vec![Some(surface); 9], ..Contacts::default() });
+        let _ = world.snapshot();
+        let World { model, state, collider: Some(collider), .. } = &mut world else { panic!("no contacts") };
+        let dt = 1.0 / 240.0;
+        assert!(collider.join(model, state, &[0]));
+        let none = std::iter::empty();
+        let mut parting = collider.part(model, (state, state), dt, &[], none, &[]);
+        collider.focus(&mut parting.groups[0]);
+        collider.stay(model, state, dt);
+        assert_eq!(collider.crowded(), &BTreeSet::from_iter(0..8));
     }
 }

@@ -34,7 +34,11 @@ impl Collider {
             Some(known) => known.to_vec(),
             None => near(&self.contacts, &self.solids, &ways, (model, state)),
         };
-        pairs.retain(|pair| pair.bodies.iter().all(|&body| model.inverse_mass()[body] != 0.0));
+        // The bodies of another group are not advanced here.
+        let is_here =
+            |body: &usize| self.focus.as_ref().is_none_or(|focus| focus.bodies.binary_search(body).is_ok());
+        let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
+        pairs.retain(|pair| pair.bodies.iter().all(|body| is_here(body) && can_move(body)));
         loop {
             let is_in = |body: &usize| self.crowd.bodies.contains(body);
             // Of these pairs, one body is in the crowd; of the others, none is.
