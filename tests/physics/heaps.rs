@@ -91,6 +91,50 @@ fn what_is_poured_into_a_box_comes_to_rest() {
     }
 }
 
+/// Balls fall into a bin that is hardly wider than two of them, in long steps. Walls hold them by friction, and they wedge each other: nothing
+/// jams, and impacts take what the balls had when they came, but for what is still to come.
+#[test]
+fn a_narrow_bin_jams_nothing() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 3.2
+        frame_rate = 25
+        step = 0.02
+        integrator = "velocity-verlet"
+        gravity = [0, -9.81, 0]
+        contacts = "event-driven"
+        [defaults.body]
+        restitution = 0.3
+        friction = 0.2
+        [body.ball]
+        repeat = 40
+        start = "0.1*i"
+        shape.sphere.radius = 0.006
+        density = 7800
+        location = ["0.005*sin(7*i)", 0.5, 0]
+        velocity = [0, -1, 0]
+        [body.bin]
+        repeat = 2
+        shape.box.size = [0.003, 0.6, 0.014]
+        location = ["0.03*(i - 0.5)", 0.3, 0]
+        fixed = true
+        [body.glass]
+        repeat = 2
+        shape.box.size = [0.05, 0.6, 0.01]
+        location = [0, 0.3, "0.024*(i - 0.5)"]
+        friction = 0
+        fixed = true
+        "#,
+    );
+    assert_eq!(frames.len(), 81);
+    assert!(drift(&frames) < 1e-3, "{:e}", drift(&frames));
+    for pair in frames.windows(2) {
+        let [before, after] = [&pair[0], &pair[1]].map(|frame| frame.balance.accounts.impacts);
+        assert!(after < before + 1e-5, "{before} J, then {after} J");
+    }
+}
+
 /// A birth far away disturbs no heap: not one bit of what is held at rest changes.
 #[test]
 fn births_leave_what_is_at_rest_alone() {

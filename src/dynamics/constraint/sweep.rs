@@ -9,13 +9,16 @@ use super::anderson::Anderson;
 use super::friction::Grip;
 use super::jacobian::push;
 use super::solver::Solver;
-use super::{Direction, Law};
+use super::{Direction, Law, Row};
 
 /// So many sweeps are made at most.
 pub(super) const SWEEPS: usize = 100;
 
 /// Sweeps end when they change rates by less than this part of the largest one.
 const SETTLED: f64 = 1e-7;
+
+/// The same at impacts. The forces that follow see to what is left.
+const STRUCK: f64 = 1e-5;
 
 /// What the impulses are for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,31 +88,27 @@ impl Solver {
         self.rates_now()
     }
 
-    /// Friction stops slips at the end of a time, so that they are half as fast in its middle: writes that to the goals.
-    pub(in crate::dynamics) fn halve_slips(&self, goals: &mut [f64]) {
-        for grip in &self.grips {
-            for row in [grip.row, grip.row + 1] {
-                goals[row] = 0.5 * self.rate_of(row);
-            }
-        }
+    /// The rates that are wanted in the middle of a time, from those at its end, `goals`: the means of these and the present ones. So nothing is
+    /// wanted that cannot be: bodies could stop. What comes nearer faster than its goal has begun to do so within the time; it stops at once.
+    pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
+        let middle = |(row, &goal): (usize, &f64)| {
+            let middle = 0.5 * (goal + self.rate_of(row));
+            if self.laws[row] == Law::Stop { middle.max(goal) } else { middle }
+        };
+        goals.iter().enumerate().map(middle).collect()
     }
 
-    /// Lets friction stop at once what it would drive on: the place of contact has moved too far meanwhile.
-    pub(in crate::dynamics) fn check_slips(&self, goals: &mut [f64]) {
-        for grip in &self.grips {
-            let goal = grip.of(goals);
-            let slip = DVec2::new(self.rate_of(grip.row), self.rate_of(grip.row + 1));
-            if goal.dot(slip - goal) < 0.0 {
-                (goals[grip.row], goals[grip.row + 1]) = (0.0, 0.0);
+    /// The gaps of all rows as they have been measured last, m. Gaps of contacts below `closed` times the smaller body count as none.
+    pub(in crate::dynamics) fn gaps(&self, closed: f64) -> Vec<f64> {
+        let gap = |(row, law): (&Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
+        let mut gaps: Vec<f64> = self.rows.iter().zip(&self.laws).map(gap).collect();
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
+            if gaps[place.row] < closed * self.contacts[contact].size {
+                gaps[place.row] = 0.0;
             }
         }
-    }
-
-    /// The gaps of all rows as they have been measured last, m.
-    pub(in crate::dynamics) fn gaps(&self) -> Vec<f64> {
-        let gap =
-            |(row, law): (&super::Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
-        self.rows.iter().zip(&self.laws).map(gap).collect()
+        gaps
     }
 
     /// The contacts that pushed last, by their numbers. `joints` is the number of constraints before them.
@@ -146,7 +145,8 @@ impl Solver {
             self.forced = fastest;
         }
         // Rates far below those that forces change in a part of a step need not be exact.
-        let tolerance = SETTLED * fastest.max(self.forced);
+        let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
+        let tolerance = part * fastest.max(self.forced);
         if self.joints() == 0 {
             self.sweep_islands(goals, true, tolerance);
             if let Purpose::Forces(time) = purpose {

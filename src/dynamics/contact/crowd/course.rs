@@ -372,19 +372,18 @@ impl Crowd {
         solver.forget();
         // What comes nearer stops where it would touch at the end of the part.
         solver.prepare_sweeps(model, t, now);
-        let mut goals: Vec<f64> = solver.gaps().iter().map(|gap| -gap / part).collect();
+        let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
         model.sum(t, now, loads);
         let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
         self.impacts.extend(struck.impacts);
-        solver.halve_slips(&mut goals);
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
         model.place(t + 0.5 * part, now);
         model.sum(t + 0.5 * part, now, loads);
+        self.solver.prepare_sweeps(model, t + 0.5 * part, now);
+        let goals = self.solver.middle(&goals);
         self.kick(model, 0.5 * part, now, loads);
         let solver = &mut self.solver;
-        solver.prepare_sweeps(model, t + 0.5 * part, now);
-        solver.check_slips(&mut goals);
         solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
         for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
             now.velocity[i] = 2.0 * now.velocity[i] - velocity;
