@@ -3,6 +3,8 @@
 //! What bodies of one island do to each other does not concern another one, so each is swept only until it has settled. Rows lie one behind another in
 //! memory, in the order in which they are swept.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3};
 
 use super::super::sets::Sets;
@@ -15,19 +17,25 @@ use super::sweep::SWEEPS;
 struct Line {
     /// The number of the row in the solver.
     row: usize,
-    /// The members that it concerns.
-    members: [usize; 2],
-    /// Its direction for each of them: linear and angular.
-    along: [[DVec3; 2]; 2],
-    /// What a unit impulse does to each of them.
-    change: [[DVec3; 2]; 2],
+    /// Its terms.
+    terms: Range<usize>,
     /// How much a unit impulse changes its rate.
     weight: f64,
-    /// The part of its rate that does not come from velocities, and the rate that is wanted.
+    /// The part of its rate that does not come from velocities that change, and the rate that is wanted.
     bias: f64,
     goal: f64,
     /// The least impulse.
     least: f64,
+}
+
+/// A velocity, of a place or of a turn, that a row changes.
+struct Term {
+    /// Its number among all velocities.
+    velocity: usize,
+    /// How much of it is in the rate of the row.
+    along: DVec3,
+    /// What a unit impulse does to it.
+    change: DVec3,
 }
 
 /// Two rows of friction, which follow each other.
@@ -42,6 +50,7 @@ struct Pair {
 #[derive(Default)]
 struct Island {
     lines: Vec<Line>,
+    terms: Vec<Term>,
     impulses: Vec<f64>,
     normals: Vec<usize>,
     pairs: Vec<Pair>,
@@ -49,34 +58,22 @@ struct Island {
 
 impl Line {
     #[inline]
-    fn rate(&self, velocities: &[[DVec3; 2]]) -> f64 {
-        let of = |i: usize| {
-            let velocity = &velocities[self.members[i]];
-            self.along[i][0].dot(velocity[0]) + self.along[i][1].dot(velocity[1])
-        };
-        self.bias + of(0) + of(1)
+    fn rate(&self, terms: &[Term], velocities: &[DVec3]) -> f64 {
+        let terms = &terms[self.terms.clone()];
+        terms.iter().fold(self.bias, |rate, term| rate + term.along.dot(velocities[term.velocity]))
     }
 
     #[inline]
-    fn push(&self, impulse: f64, velocities: &mut [[DVec3; 2]]) {
-        for (&member, change) in self.members.iter().zip(&self.change) {
-            let velocity = &mut velocities[member];
-            velocity[0] += impulse * change[0];
-            velocity[1] += impulse * change[1];
+    fn push(&self, impulse: f64, terms: &[Term], velocities: &mut [DVec3]) {
+        for term in &terms[self.terms.clone()] {
+            velocities[term.velocity] += impulse * term.change;
         }
-    }
-
-    /// How much a unit impulse changes the rate of another row of the same members.
-    fn coupling(&self, other: &Line) -> f64 {
-        let of =
-            |i: usize| self.change[i][0].dot(other.along[i][0]) + self.change[i][1].dot(other.along[i][1]);
-        (of(0) + of(1)).abs()
     }
 }
 
 impl Island {
     /// One sweep over all normals, and then over all friction. Gives the largest change of a rate.
-    fn sweep(&mut self, velocities: &mut [[DVec3; 2]]) -> f64 {
+    fn sweep(&mut self, velocities: &mut [DVec3]) -> f64 {
         let mut change = 0.0_f64;
         for &normal in &self.normals {
             let line = &self.lines[normal];
@@ -84,10 +81,11 @@ impl Island {
                 continue;
             }
             let before = self.impulses[normal];
-            let next = (before - (line.rate(velocities) - line.goal) / line.weight).max(line.least);
+            let next =
+                (before - (line.rate(&self.terms, velocities) - line.goal) / line.weight).max(line.least);
             if next != before {
                 self.impulses[normal] = next;
-                line.push(next - before, velocities);
+                line.push(next - before, &self.terms, velocities);
                 change = change.max((next - before).abs() * line.weight);
             }
         }
@@ -98,18 +96,30 @@ impl Island {
                 continue;
             }
             let [u, w] = [&self.lines[pair.first], &self.lines[pair.first + 1]];
-            let slip = DVec2::new(u.rate(velocities) - u.goal, w.rate(velocities) - w.goal);
+            let slip = DVec2::new(
+                u.rate(&self.terms, velocities) - u.goal,
+                w.rate(&self.terms, velocities) - w.goal,
+            );
             let next = (before - slip / pair.weight).clamp_length_max(most);
             (self.impulses[pair.first], self.impulses[pair.first + 1]) = (next.x, next.y);
-            u.push(next.x - before.x, velocities);
-            w.push(next.y - before.y, velocities);
+            u.push(next.x - before.x, &self.terms, velocities);
+            w.push(next.y - before.y, &self.terms, velocities);
             change = change.max((next - before).length() * pair.weight);
         }
         change
     }
 
+    /// How much a unit impulse of one row changes the rate of another one of the same members.
+    fn coupling(&self, line: &Line, other: &Line) -> f64 {
+        let of = |term: &Term| {
+            let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);
+            same.map_or(0.0, |same| term.change.dot(same.along))
+        };
+        self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
+    }
+
     /// Makes sweeps, accelerated by Anderson's method, until one changes no rate by more than `tolerance`.
-    fn settle(&mut self, tolerance: f64, velocities: &mut [[DVec3; 2]]) {
+    fn settle(&mut self, tolerance: f64, velocities: &mut [DVec3]) {
         let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
         let mut anderson = Anderson::from(&self.impulses, &weights);
         for left in (0..SWEEPS).rev() {
@@ -120,7 +130,7 @@ impl Island {
             for ((line, impulse), &further) in self.lines.iter().zip(&mut self.impulses).zip(further) {
                 if further != 0.0 {
                     *impulse += further;
-                    line.push(further, velocities);
+                    line.push(further, &self.terms, velocities);
                 }
             }
         }
@@ -131,16 +141,16 @@ impl Solver {
     /// Finds the impulses in `unknown`, which begin as they are, and changes the velocities of the members by them. Contacts let their
     /// rates fall to `goals` and no further; friction counts only if it is said.
     pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, tolerance: f64) {
-        let mut velocities: Vec<[DVec3; 2]> =
-            self.members.iter().map(|member| [member.velocity, member.angular_velocity]).collect();
+        let mut velocities: Vec<DVec3> =
+            self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();
         for mut island in self.islands(goals, with_friction) {
             island.settle(tolerance, &mut velocities);
             for (line, impulse) in island.lines.iter().zip(island.impulses) {
                 self.unknown[line.row] = impulse;
             }
         }
-        for (member, [velocity, angular_velocity]) in self.members.iter_mut().zip(velocities) {
-            (member.velocity, member.angular_velocity) = (velocity, angular_velocity);
+        for (member, velocity) in self.members.iter_mut().zip(velocities.chunks_exact(2)) {
+            (member.velocity, member.angular_velocity) = (velocity[0], velocity[1]);
         }
     }
 
@@ -174,7 +184,8 @@ impl Solver {
             island.normals.push(normal);
             let rows = if with_friction { place.rows } else { 1 };
             for (row, &goal) in goals.iter().enumerate().skip(place.row).take(rows) {
-                island.lines.push(self.line(row, goal));
+                let line = self.line(row, goal, &mut island.terms);
+                island.lines.push(line);
                 island.impulses.push(self.unknown[row]);
             }
             while let Some(grip) = grips.next_if(|grip| grip.row < place.row + place.rows) {
@@ -183,7 +194,7 @@ impl Solver {
                     let [u, w] = [&island.lines[first], &island.lines[first + 1]];
                     // The two rows change each other little: their tangents are at right angles.
                     let weight = u.weight.max(w.weight);
-                    let weight = if weight > 0.0 { weight + u.coupling(w) } else { 0.0 };
+                    let weight = if weight > 0.0 { weight + island.coupling(u, w) } else { 0.0 };
                     island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
                 }
             }
@@ -191,28 +202,31 @@ impl Solver {
         islands
     }
 
-    fn line(&self, row: usize, goal: f64) -> Line {
-        let mut line = Line {
-            row,
-            members: [0; 2],
-            along: [[DVec3::ZERO; 2]; 2],
-            change: [[DVec3::ZERO; 2]; 2],
-            weight: self.columns.weights()[row],
-            bias: self.rows[row].rate,
-            goal,
-            least: self.least(row),
-        };
+    /// A row, with its terms. Velocities of bodies that do not move count as bias.
+    fn line(&self, row: usize, goal: f64, terms: &mut Vec<Term>) -> Line {
+        let mut bias = self.rows[row].rate;
+        let first = terms.len();
         let directions =
             self.structure.iter().flat_map(|structure| &self.jacobian[structure.directions_of(row)]);
-        for (i, direction) in directions.enumerate() {
-            line.members[i] = direction.member;
-            line.along[i] = [direction.linear, direction.angular];
-        }
-        for change in self.columns.of(row) {
-            let i = usize::from(change.member != line.members[0]);
-            line.change[i] = [change.velocity, change.angular_velocity];
+        for direction in directions {
+            let member = &self.members[direction.member];
+            let changes = self.columns.of(row).iter().find(|change| change.member == direction.member);
+            let [linear, angular] =
+                changes.map_or([DVec3::ZERO; 2], |change| [change.velocity, change.angular_velocity]);
+            let of = [
+                (direction.linear, linear, member.velocity),
+                (direction.angular, angular, member.angular_velocity),
+            ];
+            for (i, (along, change, velocity)) in of.into_iter().enumerate() {
+                if member.inverse_mass == 0.0 {
+                    bias += along.dot(velocity);
+                } else if along != DVec3::ZERO || change != DVec3::ZERO {
+                    terms.push(Term { velocity: 2 * direction.member + i, along, change });
+                }
+            }
         }
         debug_assert!(self.laws[row] == Law::Stop || matches!(self.laws[row], Law::Friction { .. }));
-        line
+        let (weight, least) = (self.columns.weights()[row], self.least(row));
+        Line { row, terms: first..terms.len(), weight, bias, goal, least }
     }
 }
