@@ -101,6 +101,18 @@ pub(super) struct Calendar {
     is_sorted: bool,
 }
 
+/// A time in which nobody comes or goes, and the moments in it.
+pub(super) struct Leg<'a> {
+    /// When it ends, s.
+    pub(super) end: f64,
+    /// The moments before its end, s.
+    pub(super) within: &'a [f64],
+    /// The moments at its end, when those that are born then are there already, and those that die then are there still.
+    pub(super) at_end: &'a [f64],
+    /// The moments after it.
+    pub(super) later: &'a [f64],
+}
+
 impl Calendar {
     /// Notes the births and deaths of a body after time `t`; whether the body is there now.
     pub(super) fn note(&mut self, body: usize, presence: &Presence, t: f64) -> bool {
@@ -121,6 +133,14 @@ impl Calendar {
     pub(super) fn next(&mut self) -> Option<f64> {
         self.sort();
         self.events.get(self.over).map(|event| event.time)
+    }
+
+    /// The way to time `t` up to the next birth or death, and which of the moments that somebody wants to see, in rising order, are on it.
+    pub(super) fn leg<'a>(&mut self, t: f64, moments: &'a [f64]) -> Leg<'a> {
+        let end = self.next().map_or(t, |next| next.min(t));
+        let (within, rest) = moments.split_at(moments.partition_point(|&moment| moment < end));
+        let (at_end, later) = rest.split_at(rest.partition_point(|&moment| moment <= end));
+        Leg { end, within, at_end, later }
     }
 
     /// What has changed when time `t` is reached: who is born then is there, and who dies then still is. Each body is given

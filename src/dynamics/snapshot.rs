@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Balance, BodyId, ContactSnapshot, Reaction, Undefined};
+use super::{Balance, BodyId, ContactSnapshot, Loads, Model, Reaction, State, Undefined};
 
 /// All bodies at one moment of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +36,21 @@ pub struct BodySnapshot {
     pub angular_velocity: DVec3,
     /// The sum of the forces on it, N; m a where its motion is given.
     pub force: DVec3,
+}
+
+impl BodySnapshot {
+    /// The bodies that are there, in the order of their ids. `loads` has the sums of the forces on them.
+    pub(super) fn of_all(model: &Model, state: &State, loads: &Loads) -> Vec<BodySnapshot> {
+        let body = |id: usize| BodySnapshot {
+            id,
+            location: state.location[id],
+            orientation: model.world_from_body(id, state),
+            velocity: state.velocity[id],
+            angular_velocity: model.angular_velocity(id, state),
+            force: loads.force[id],
+        };
+        (0..state.len()).filter(|&id| model.is_present(id)).map(body).collect()
+    }
 }
 
 /// Why a run cannot go on.

@@ -15,19 +15,17 @@ impl<S: Stepper> Ahead<S> {
         while self.time < t {
             let due = self.calendar.depart(self.time);
             self.change(&due);
-            let stop = self.calendar.next().map_or(t, |next| next.min(t));
-            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
-            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
-            left = later;
-            for &moment in before {
+            let leg = self.calendar.leg(t, left);
+            left = leg.later;
+            for &moment in leg.within {
                 self.go_to(moment)?;
                 see(self.peek()?);
             }
-            self.go_to(stop)?;
+            self.go_to(leg.end)?;
             let due = self.calendar.arrive(self.time);
             self.change(&due);
             self.ledger.close(&self.model, self.time, &self.state);
-            for _ in here {
+            for _ in leg.at_end {
                 see(self.peek()?);
             }
         }

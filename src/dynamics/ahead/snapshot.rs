@@ -9,15 +9,7 @@ impl<S> Ahead<S> {
         let Ahead { model, state, loads, time, .. } = self;
         model.evaluate(*time, state, loads);
         model.guide(*time, loads);
-        let body = |id: usize| BodySnapshot {
-            id,
-            location: state.location[id],
-            orientation: model.world_from_body(id, state),
-            velocity: state.velocity[id],
-            angular_velocity: model.angular_velocity(id, state),
-            force: loads.force[id],
-        };
-        let bodies = (0..state.len()).filter(|&id| model.is_present(id)).map(body).collect();
+        let bodies = BodySnapshot::of_all(model, state, loads);
         Snapshot { time: *time, bodies, balance, ..Snapshot::default() }
     }
 }

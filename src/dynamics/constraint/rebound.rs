@@ -4,8 +4,8 @@
 //! Newton's law; for many it never gains energy, as Newton's can. Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid
 //! multibody systems*, Nonlinear Dynamics 7 (1995) 471.
 //!
-//! What would touch within the part gets its impulse at the beginning of it, so it parts too early. Its way is put right
-//! afterwards: it moves as before until it touches, and only then as the impulse has it.
+//! A contact that closes within the part gets its impulse at the beginning of the part, which is too early. The places of its bodies are corrected
+//! afterwards, as if they had kept their old velocities until they touched.
 
 use std::collections::BTreeMap;
 
@@ -36,9 +36,9 @@ struct Rebound {
 }
 
 impl Solver {
-    /// Lets what touches within a part of a step, which lasts from `time` on for `part` seconds, hit each other, after
-    /// [`prepare_sweeps`](Self::prepare_sweeps). Rates of stops may fall to `goals`; what rebounds may come no nearer for the rest of the part, and its goal
-    /// says so.
+    /// Finds the impulses of all contacts that close within a part of a step, from `time` on for `part` seconds, after
+    /// [`prepare_sweeps`](Self::prepare_sweeps). The rates of stops may fall to `goals`. The goal of a contact that rebounds becomes 0: its bodies come no
+    /// nearer for the rest of the part.
     pub(in crate::dynamics) fn strike_all(
         &mut self,
         model: &Model,
@@ -79,8 +79,8 @@ impl Solver {
         self.least.get(row).copied().unwrap_or(0.0)
     }
 
-    /// The contacts that touch within a part of a step (s) so fast that bodies rebound: what the loads would bring back within about the same
-    /// time does not, unless nothing is lost.
+    /// The contacts that close within a part of a step (s) and are fast enough for a rebound. A rebound that the loads would undo within about
+    /// one more part does not count, unless the restitution is 1.
     fn rebounds(
         &self,
         (model, loads): (&Model, &Loads),

@@ -71,7 +71,7 @@ pub trait Force: Send + Sync {
         false
     }
 
-    /// Whether it depends on the velocities of the bodies, or does work without a potential.
+    /// Whether the force depends on velocities, or does work that no potential gives back.
     fn depends_on_motion(&self) -> bool {
         true
     }

@@ -76,7 +76,8 @@ fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     Immersed { volume, moment: -0.25 * pi * rest * rest * up }
 }
 
-/// The corners of the faces of a box, seen from outside against the clock; a corner is a number whose bits say on which side it is.
+/// The corners of the faces of a box, counter-clockwise as seen from outside. Bit 0 of a corner's number is 1 where its x is positive, bit 1 where its
+/// y is, bit 2 where its z is.
 const FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 

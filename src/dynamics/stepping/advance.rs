@@ -24,15 +24,13 @@ impl TimeStepping {
         while self.time < t {
             let due = self.calendar.depart(self.time);
             self.change(&due);
-            let stop = self.calendar.next().map_or(t, |next| next.min(t));
-            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
-            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
-            left = later;
-            self.advance_evenly(stop, before, see)?;
+            let leg = self.calendar.leg(t, left);
+            left = leg.later;
+            self.advance_evenly(leg.end, leg.within, see)?;
             let due = self.calendar.arrive(self.time);
             self.change(&due);
             self.ledger.close(&self.model, self.time, &self.state);
-            for _ in here {
+            for _ in leg.at_end {
                 let balance = self.ledger.peek(&self.model, self.time, &self.state);
                 see(self.picture(self.time, balance, None).checked()?);
             }

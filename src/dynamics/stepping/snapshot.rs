@@ -1,7 +1,5 @@
 //! What can be known of a moment.
 
-use glam::DQuat;
-
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
 use super::TimeStepping;
@@ -18,21 +16,7 @@ impl TimeStepping {
         self.add_contact_forces();
         let Self { model, state: own, loads, .. } = self;
         let state = state.unwrap_or(own);
-        let present = (0..state.len()).filter(|&id| model.is_present(id));
-        let body = |id: usize| {
-            let axes = model.principal_axes(id);
-            let turned = axes != DQuat::IDENTITY;
-            let own = state.orientation[id];
-            BodySnapshot {
-                id,
-                location: state.location[id],
-                orientation: if turned { own * axes.conjugate() } else { own },
-                velocity: state.velocity[id],
-                angular_velocity: model.angular_velocity(id, state),
-                force: loads.force[id],
-            }
-        };
-        let bodies = present.map(body).collect();
+        let bodies = BodySnapshot::of_all(model, state, loads);
         let contacts = if self.shows_contacts { self.contacts() } else { Vec::new() };
         let reactions = vec![Reaction::default(); self.joints.len()];
         Snapshot { time, bodies, reactions, contacts, penetration: self.penetration(), balance }

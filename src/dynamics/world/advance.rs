@@ -133,13 +133,11 @@ impl World {
         let mut left = moments;
         while self.time < t {
             self.depart();
-            let stop = self.calendar.next().map_or(t, |next| next.min(t));
-            let (before, rest) = left.split_at(left.partition_point(|&moment| moment < stop));
-            let (here, later) = rest.split_at(rest.partition_point(|&moment| moment <= stop));
-            left = later;
-            self.advance_evenly(stop, before, see);
+            let leg = self.calendar.leg(t, left);
+            left = leg.later;
+            self.advance_evenly(leg.end, leg.within, see);
             self.arrive();
-            here.iter().for_each(|_| see(self.peek()));
+            leg.at_end.iter().for_each(|_| see(self.peek()));
         }
     }
 

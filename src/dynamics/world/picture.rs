@@ -16,21 +16,13 @@ pub(super) fn picture(
     system.evaluate(time, state, loads);
     push_crowd(crowd, model, loads);
     model.guide(time, loads);
-    let body = |id: usize| BodySnapshot {
-        id,
-        location: state.location[id],
-        orientation: model.world_from_body(id, state),
-        velocity: state.velocity[id],
-        angular_velocity: model.angular_velocity(id, state),
-        force: loads.force[id],
-    };
+    let bodies = BodySnapshot::of_all(model, state, loads);
     let reactions = system.reactions();
-    let present = (0..state.len()).filter(|&id| model.is_present(id));
     let mut contacts = system.contacts();
     contacts.extend(rest.contacts());
     contacts.extend(crowd);
     contacts.sort_by_key(|contact| contact.bodies);
-    Snapshot { time, bodies: present.map(body).collect(), reactions, contacts, penetration: 0.0, balance }
+    Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
 }
 
 /// Adds the forces at contacts of the crowd to the loads.

@@ -22,16 +22,16 @@ const KNOWN: f64 = 1e-16;
 const ROUNDING: f64 = 1e-12;
 /// What changes by no more than this part within a step does so by rounding.
 const NOISE: f64 = 1e-15;
-/// So much longer than the step before, nothing is known of a step.
+/// A step that is more than this many times as long as the one before begins without a prediction.
 const UNKNOWN: f64 = 20.0;
 
 /// The slope of everything is a polynomial within a step, through its values at eight nodes. Source: E. Everhart, *An efficient integrator that uses
 /// Gauss–Radau spacings*, in *Dynamics of Comets* (1985) 185; H. Rein & D. S. Spiegel, Mon. Not. R. Astron. Soc. 446 (2015) 1424.
 ///
-/// A step is √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) for the body where that is shortest, by its acceleration a, jerk j and snap s at
-/// the end of the step before: so the error does not depend on how far from the origin a body is. Source: D. Pham, H. Rein & D. S. Spiegel, Open
-/// J. Astrophys. 7 (2024). The slopes of orientations and of angular momenta are looked at in the same way. Places, velocities and time are
-/// sums that keep what they lose by rounding.
+/// For each body, a step may last √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) seconds, with its acceleration a, jerk j and snap s at the end of
+/// the step before. The shortest of these times is taken. It does not depend on how far a body is from the origin. Source: D. Pham, H. Rein & D. S.
+/// Spiegel, Open J. Astrophys. 7 (2024). Orientations and angular momenta limit the step in the same way. Places, velocities and time are
+/// compensated sums: they keep what rounding would lose.
 #[derive(Default)]
 pub(super) struct GaussRadau {
     /// The length of a step by the time in which the motion changes.
@@ -67,7 +67,7 @@ impl GaussRadau {
             self.visit::<5>(field, now, dt);
             self.visit::<6>(field, now, dt);
             let change = self.visit::<7>(field, now, dt);
-            // What is small and does not become less any more is rounding.
+            // A small change that does not shrink any more is rounding.
             if change < KNOWN || round > 1 && change < ROUNDING && change >= before {
                 break;
             }

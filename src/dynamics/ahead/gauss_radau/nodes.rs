@@ -62,12 +62,7 @@ pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
     all[0][0] = 1.0;
     let mut k = 1;
     while k < TERMS {
-        let mut j = 0;
-        while j <= k {
-            let shifted = if j > 0 { all[k - 1][j - 1] } else { 0.0 };
-            all[k][j] = shifted - NODES[k] * all[k - 1][j];
-            j += 1;
-        }
+        all[k] = next_row(&all[k - 1], k, [-NODES[k]; TERMS]);
         k += 1;
     }
     all
@@ -75,20 +70,28 @@ pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
 
 /// The coefficients of powers of h by those products. Source: Everhart, equation 9.
 pub(super) const PRODUCTS: [[f64; TERMS]; TERMS] = {
+    let [_, nodes @ ..] = NODES;
     let mut all = [[0.0; TERMS]; TERMS];
     all[0][0] = 1.0;
     let mut k = 1;
     while k < TERMS {
-        let mut j = 0;
-        while j <= k {
-            let shifted = if j > 0 { all[k - 1][j - 1] } else { 0.0 };
-            all[k][j] = shifted + NODES[j + 1] * all[k - 1][j];
-            j += 1;
-        }
+        all[k] = next_row(&all[k - 1], k, nodes);
         k += 1;
     }
     all
 };
+
+/// Row k of a triangular table: the row before it, shifted by one place, plus its entries times `factors`.
+const fn next_row(before: &[f64; TERMS], k: usize, factors: [f64; TERMS]) -> [f64; TERMS] {
+    let mut row = [0.0; TERMS];
+    let mut j = 0;
+    while j <= k {
+        let shifted = if j > 0 { before[j - 1] } else { 0.0 };
+        row[j] = shifted + factors[j] * before[j];
+        j += 1;
+    }
+    row
+}
 
 /// The binomial coefficients j + 1 over k + 1.
 pub(super) const BINOMIALS: [[f64; TERMS]; TERMS] = {
