@@ -41,6 +41,8 @@ pub struct Model {
     forces: Vec<Arc<dyn Force>>,
     constraints: Vec<Arc<dyn Constraint>>,
     effort: Effort,
+    /// The bodies that are advanced at present, if these are not all.
+    focus: Option<Vec<usize>>,
 }
 
 impl Model {
@@ -111,6 +113,16 @@ impl Model {
             && self.motions.is_empty()
             && self.torqued.is_empty()
             && self.forces.iter().all(|force| force.is_local())
+    }
+
+    /// From now on, only some bodies are advanced, in rising order; or all again. Methods may leave the others where they are.
+    pub(super) fn focus(&mut self, bodies: Option<Vec<usize>>) {
+        self.focus = bodies;
+    }
+
+    /// The bodies that are advanced at present, in rising order, if these are not all.
+    pub(super) fn in_focus(&self) -> Option<&[usize]> {
+        self.focus.as_deref()
     }
 
     /// Whether some force depends on velocities, or does work without a potential. Its value at one place is then not enough for a step.

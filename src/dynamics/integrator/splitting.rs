@@ -7,6 +7,13 @@ use super::rotation;
 
 /// The effect of constant loads for `dt` on bodies that keep their places: v += F/m dt, L += τ dt.
 pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
+    if let Some(bodies) = model.in_focus() {
+        for &i in bodies {
+            state.velocity[i] += dt * model.inverse_mass()[i] * loads.force[i];
+            state.angular_momentum[i] += dt * loads.torque[i];
+        }
+        return;
+    }
     for ((velocity, &force), &inverse_mass) in
         state.velocity.iter_mut().zip(&loads.force).zip(model.inverse_mass())
     {
@@ -17,8 +24,24 @@ pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     }
 }
 
+/// What loads that become `later` change in a kick for `dt` that was made with `first`.
+pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, state: &mut State) {
+    let mut change = |i: usize| {
+        state.velocity[i] += dt * model.inverse_mass()[i] * (later.force[i] - first.force[i]);
+        state.angular_momentum[i] += dt * (later.torque[i] - first.torque[i]);
+    };
+    match model.in_focus() {
+        Some(bodies) => bodies.iter().for_each(|&i| change(i)),
+        None => (0..model.len()).for_each(change),
+    }
+}
+
 /// The motion for `dt` of bodies on which nothing acts: x += v dt, and a free rotation.
 pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
+    if let Some(bodies) = model.in_focus() {
+        bodies.iter().for_each(|&i| drift_body(model, dt, state, i));
+        return;
+    }
     for (location, &velocity) in state.location.iter_mut().zip(&state.velocity) {
         *location += dt * velocity;
     }

@@ -60,10 +60,7 @@ impl VelocityVerlet {
         system.evaluate_forces(t + dt, state, &mut self.end);
 
         // And now what the new loads would have made of it.
-        for (i, &inverse_mass) in model.inverse_mass().iter().enumerate() {
-            state.velocity[i] += half * inverse_mass * (self.end.force[i] - self.start.force[i]);
-            state.angular_momentum[i] += half * (self.end.torque[i] - self.start.torque[i]);
-        }
+        splitting::kick_again(model, [&self.start, &self.end], half, state);
     }
 }
 

@@ -95,10 +95,12 @@ impl World {
             self.solver.calm();
             let Some(collider) = &mut self.collider else { return Ok(()) };
             collider.focus(group);
+            self.model.focus(Some(group.bodies.clone()));
             if known.is_none() {
                 self.decide_contacts(t);
             }
             self.follow_events(t, dt, &[], &mut |_| {});
+            self.model.focus(None);
             let Some(collider) = &mut self.collider else { return Ok(()) };
             collider.unfocus(group, ways);
             for &i in &group.bodies {
