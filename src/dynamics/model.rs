@@ -362,6 +362,9 @@ impl Model {
 
     /// The sum of all forces and torques, also on bodies that no load moves.
     pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
+        if self.sum_in_focus(time, state, loads) {
+            return;
+        }
         self.force.write(&mut loads.force, self.len());
         self.torque.write(&mut loads.torque, self.len());
         loads.power = Accounts::default();
@@ -372,6 +375,23 @@ impl Model {
         for force in &self.forces {
             force.apply(&moment, loads);
         }
+    }
+
+    /// The same for the bodies that are advanced at present; the loads on others mean nothing then. False where all are advanced, or where some
+    /// force can only be evaluated for all.
+    fn sum_in_focus(&self, time: f64, state: &State, loads: &mut Loads) -> bool {
+        let Some(bodies) = self.in_focus().filter(|_| !self.turns_bodies() && !self.depends_on_motion())
+        else {
+            return false;
+        };
+        loads.force.resize(self.len(), DVec3::ZERO);
+        loads.torque.resize(self.len(), DVec3::ZERO);
+        loads.power = Accounts::default();
+        let moment = Moment { time, state, model: self };
+        bodies.iter().all(|&i| {
+            (loads.force[i], loads.torque[i]) = (self.force.get(i), self.torque.get(i));
+            self.forces.iter().all(|force| force.apply_to(i..i + 1, &moment, loads))
+        })
     }
 
     /// Takes away the loads on bodies that no load moves, since whatever holds or guides them bears these.

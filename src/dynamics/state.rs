@@ -78,6 +78,21 @@ impl State {
         self.angular_momentum.reserve_exact(bodies);
     }
 
+    /// Takes over some bodies from another state of as many bodies, or all if none are named; and its accounts.
+    pub(super) fn take_over(&mut self, source: &State, bodies: Option<&[usize]>) {
+        let Some(bodies) = bodies else {
+            self.clone_from(source);
+            return;
+        };
+        for &i in bodies {
+            self.location[i] = source.location[i];
+            self.velocity[i] = source.velocity[i];
+            self.orientation[i] = source.orientation[i];
+            self.angular_momentum[i] = source.angular_momentum[i];
+        }
+        self.accounts = source.accounts;
+    }
+
     /// The number of bodies.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -32,7 +32,9 @@ impl Solver {
         self.first_rates.clear();
         self.first_rates.extend(self.rows.iter().map(|row| row.rate));
         let mut trial = std::mem::take(&mut self.trial);
-        trial.clone_from(state);
+        let of_all = trial.len() != state.len();
+        let known = self.structure.as_ref().filter(|_| !of_all).map(|structure| &structure.bodies[..]);
+        trial.take_over(state, known);
         model.place(t + dt, &mut trial);
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {

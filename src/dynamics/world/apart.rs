@@ -86,6 +86,7 @@ impl World {
         let (groups, ways) = parting.busy();
         for group in groups {
             self.state.clone_from(start);
+            self.before.clone_from(start);
             self.integrator.discontinuity();
             let is_own = |body: &usize| group.bodies.binary_search(body).is_ok();
             let own = whole.contacts().iter().filter(|contact| contact.bodies.iter().any(is_own));

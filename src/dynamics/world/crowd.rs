@@ -61,7 +61,7 @@ impl World {
         let Some(collider) = &mut self.collider else { return false };
         let is_new = collider.join(&self.model, &self.before, &bodies);
         if is_new {
-            self.state.clone_from(&self.before);
+            self.state.take_over(&self.before, self.model.in_focus());
             self.solver.take_failure();
             self.integrator.discontinuity();
             self.meet(t, false);

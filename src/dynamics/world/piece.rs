@@ -24,7 +24,7 @@ impl World {
             self.make_step(t, dt);
             return (dt, None);
         }
-        self.before.clone_from(&self.state);
+        self.before.take_over(&self.state, self.model.in_focus());
         self.make_step(t, dt);
         let touched = self.find_touch(t, dt);
         let length = touched.map_or(dt, |(length, _)| length);
@@ -271,7 +271,7 @@ impl World {
 
     /// The state `dt` after the beginning of the piece, made by one step.
     fn try_step(&mut self, t: f64, dt: f64) {
-        self.state.clone_from(&self.before);
+        self.state.take_over(&self.before, self.model.in_focus());
         if dt == 0.0 {
             return;
         }
