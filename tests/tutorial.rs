@@ -11,6 +11,6 @@ use page::Page;
 
 #[test]
 fn every_command_prints_and_draws_what_the_page_shows() {
-    let others = Page::check("docs/tutorial.md").check_pictures();
+    let others = Page::check("docs/tutorial.md", &[]).check_pictures();
     assert!(others.is_empty(), "pictures that no command of the page makes: {others:?}");
 }

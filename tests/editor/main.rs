@@ -60,7 +60,7 @@ fn every_scene_that_is_good_is_so_for_an_editor() {
         }
     }
     let scenes = files.len();
-    for page in ["README.md", "docs/tutorial.md"] {
+    for page in ["README.md", "docs/scenes.md", "docs/tutorial.md"] {
         for (name, text) in snippets(page) {
             let path = write(folder.path(), &name, &text);
             // Some show mistakes.
@@ -95,11 +95,12 @@ fn what_is_wrong_in_a_key_or_a_value_is_wrong_for_an_editor() {
     }
 }
 
-/// The file of the README that gives all scenes of a folder the schema.
+/// The file of docs/commands.md that gives all scenes of a folder the schema.
 #[test]
 fn a_file_of_settings_gives_a_whole_folder_the_schema() {
     let folder = folder();
-    let (name, settings) = snippets("README.md").into_iter().find(|(name, _)| name == ".taplo.toml").unwrap();
+    let (name, settings) =
+        snippets("docs/commands.md").into_iter().find(|(name, _)| name == ".taplo.toml").unwrap();
     fs::write(folder.path().join(name), settings).unwrap();
     fs::write(folder.path().join("good.toml"), "[body.ball]\nshape.sphere.radius = 1\n").unwrap();
     assert!(taplo(folder.path()).args(["lint", "good.toml"]).output().unwrap().status.success());

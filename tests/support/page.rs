@@ -19,11 +19,14 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Checks everything on a page but its pictures.
-    pub(crate) fn check(path: &'static str) -> Page {
+    /// Checks everything on a page but its pictures. Its commands may use the scenes of other pages, too.
+    pub(crate) fn check(path: &'static str, scenes_of: &[&str]) -> Page {
         let page = Page { path, folder: tempfile::tempdir().unwrap() };
         let copy = Command::new("cp").arg("-r").arg(root().join("scenes")).arg(page.folder.path()).status();
         assert!(copy.unwrap().success());
+        for other in scenes_of {
+            page.write_scenes(&fs::read_to_string(root().join(other)).unwrap());
+        }
         let shown = fs::read_to_string(root().join(path)).unwrap();
         let real = page.real(&shown);
         if is_update() && untimed(&shown) != untimed(&real) {
@@ -69,6 +72,14 @@ impl Page {
             rest = after;
         }
         real + rest
+    }
+
+    /// Writes all scenes of a page to their files.
+    fn write_scenes(&self, page: &str) {
+        let blocks = page.split("```toml\n").skip(1).filter_map(|rest| rest.split("\n```").next());
+        blocks.for_each(|scene| {
+            self.write_scene(scene);
+        });
     }
 
     /// Writes a scene to the file that its first line names: `# ball.toml`.
