@@ -131,13 +131,13 @@ pub trait Dynamics: Send {
     /// Looking at moments changes nothing: the run is the same bit for bit without them.
     ///
     /// # Errors
-    /// Where the run cannot go on, or a moment is not finite.
+    /// If the run cannot go on, or a moment is not finite.
     fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown>;
 
     /// The present moment. The drift is relative to the largest kinetic energy among all snapshots so far.
     ///
     /// # Errors
-    /// Where a body is at no finite place.
+    /// If a body is at no finite place.
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown>;
 
     /// The impacts since somebody asked last, in the order in which they happened.

@@ -282,7 +282,7 @@ impl Model {
         self.motions.push((body, motion));
         self.movable[body] = true;
         self.inverse_mass[body] = 0.0;
-        // By this its angular momentum says how it turns.
+        // The angular velocity follows from the angular momentum by this.
         self.inverse_inertia[body] =
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }

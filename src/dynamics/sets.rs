@@ -4,7 +4,7 @@
 pub(super) struct Sets(Vec<usize>);
 
 impl Sets {
-    /// So many sets of one number each.
+    /// This many sets, of one number each.
     pub(super) fn new(numbers: usize) -> Sets {
         Sets((0..numbers).collect())
     }

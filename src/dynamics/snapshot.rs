@@ -76,7 +76,7 @@ pub enum Breakdown {
         constraint: usize,
         /// The time, s.
         time: f64,
-        /// By how much it does not hold, in metres or, of a turn, in radians.
+        /// The error of the joint, in metres, or in radians for a rotation.
         missing: f64,
     },
     /// Two bodies are within each other where contacts begin.

@@ -106,7 +106,7 @@ impl State {
     }
 }
 
-// By hand, for the sake of `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
+// Written by hand for the sake of `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
 impl Clone for State {
     fn clone(&self) -> Self {
         Self {

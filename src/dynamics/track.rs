@@ -9,7 +9,7 @@ use super::{Kinematics, Motion};
 pub enum Interpolation {
     /// Straight and evenly: velocities jump.
     Linear,
-    /// By cubic Hermite polynomials: velocities are continuous.
+    /// Interpolation by cubic Hermite polynomials: velocities are continuous.
     Cubic,
 }
 
@@ -47,8 +47,8 @@ impl Track {
         Track::with_gaps(keys, &[], interpolation, at_rest)
     }
 
-    /// The same with gaps, given by the numbers of the keys behind them, in rising order: each of the parts between has slopes
-    /// of its own.
+    /// The same track with gaps. Each gap is given by the number of the key behind it, in rising order. The slopes of each part
+    /// between gaps depend on that part alone.
     #[must_use]
     pub fn with_gaps(
         mut keys: Vec<Key>,
@@ -89,7 +89,7 @@ fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat
     };
     let (location, orientation) = match (before, after) {
         (Some(a), Some(b)) => {
-            // Of the parabola: each side counts by the length of the other.
+            // The slope of the parabola: each side is weighted by the length of the other.
             let weight = (b.time - key.time) / (b.time - a.time);
             let (left, right) = (rise(a, key), rise(key, b));
             (left.0 * weight + right.0 * (1.0 - weight), left.1 * weight + right.1 * (1.0 - weight))
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// By difference quotients over 2e-6: off by rounding, 1e-16 / 1e-6.
+    /// Compares with difference quotients over 2e-6. Rounding makes them wrong by 1e-16 / 1e-6.
     #[test]
     fn velocities_are_the_derivatives_of_the_place() {
         const H: f64 = 1e-6;

@@ -241,7 +241,7 @@ mod tests {
         assert!(step > 1e-3 && none < 1e-8, "{step} {none}");
     }
 
-    /// By all pairs, in the order of bodies; of two groups, those of different ones.
+    /// Compares with the sum over all pairs, in the order of bodies. Between two groups, only pairs of different groups count.
     #[test]
     fn cells_give_the_plain_double_sum() {
         let at = |i: usize, k: f64| (i as f64 * k).fract() * 9.0;

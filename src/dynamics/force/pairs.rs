@@ -7,7 +7,7 @@ use super::{Loads, Moment};
 
 /// The bodies in one tile: two tiles and their sums fit into the first-level cache, and lie on the stack.
 const TILE: usize = 128;
-/// So few bodies need no tiles: to make one takes as long as all their pairs.
+/// Up to this many bodies, tiles do not pay off: making one takes as long as visiting all pairs.
 const FEW: usize = 16;
 /// As many interactions side by side as give the compiler something to vectorise.
 const LANES: usize = 4;

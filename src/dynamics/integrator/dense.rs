@@ -41,7 +41,7 @@ impl Step<'_> {
     }
 }
 
-/// That of methods that kick at the beginning of a step: from then on, bodies drift freely.
+/// Interpolation for methods that kick at the beginning of a step: after the kick, bodies drift freely.
 pub(super) struct Drift<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Drift<'_> {
@@ -57,7 +57,7 @@ impl DenseOutput for Drift<'_> {
     }
 }
 
-/// That of explicit Euler: the tangent at the beginning of the step.
+/// Interpolation for explicit Euler: the tangent at the beginning of the step.
 pub(super) struct Tangent<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Tangent<'_> {

@@ -1,4 +1,4 @@
-//! What explicit Runge–Kutta methods are made of: the slope of the state, and steps along weighted slopes.
+//! Building blocks of explicit Runge–Kutta methods: the slope of the state, and steps along weighted slopes.
 
 use glam::{DQuat, DVec3};
 

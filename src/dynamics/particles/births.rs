@@ -14,7 +14,7 @@ pub struct Births {
 }
 
 impl Births {
-    /// So many particles per second (greater than 0), one after another.
+    /// Particles born one after another at a rate per second, which is greater than 0.
     #[must_use]
     pub fn rate(rate: f64, start: f64, end: f64) -> Births {
         Births { start, end, at_once: 1, every: 1.0 / rate }

@@ -22,9 +22,9 @@ const SNUG: f64 = 1e-6;
 const SLIGHT: f64 = 1e-10;
 /// A rebound that is over after this part of a step is none.
 const SHORT: f64 = 0.25;
-/// So many events are followed in a step.
+/// The most events followed in one step.
 const MOST: usize = 12;
-/// So many safe steps lead to a touch; from then on, the way is passed in parts.
+/// The most safe steps taken towards a touch. After these, the way is passed in parts.
 const ADVANCES: usize = 60;
 const PART: f64 = 1.0 / 64.0;
 /// Impulses at several places are found by at most so many rounds.

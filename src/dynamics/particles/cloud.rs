@@ -10,7 +10,7 @@ use super::{Course, Field, ParticleSource, Scenery};
 use crate::dynamics::contact::{Ball, Surface};
 use crate::dynamics::{BodyId, Method};
 
-/// So many particles are advanced side by side: what is known of them fits into the first-level cache.
+/// The number of particles that are advanced side by side. Their data fit into the first-level cache.
 const LANES: usize = 128;
 
 /// A particle that is alive.

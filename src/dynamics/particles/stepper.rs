@@ -26,7 +26,7 @@ impl Field {
         Field { make: Arc::new(move |particles, _| make(particles)), sources: Vec::new() }
     }
 
-    /// A force that comes from bodies: it is made for particles, and for the numbers that the bodies have among them.
+    /// A force that comes from bodies. It is made for particles, with the numbers that the bodies have among them.
     pub fn from_bodies(
         sources: Vec<(BodyId, RigidBody)>,
         make: impl Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync + 'static,

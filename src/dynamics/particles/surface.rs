@@ -40,7 +40,7 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
         }
         Shape::Capsule { radius, height } => {
             let middle = height - 2.0 * radius;
-            // By Archimedes, a ball has the side area of the cylinder around it: 2πr per height, as the middle has.
+            // By Archimedes, a ball has the side area of the cylinder around it: 2πr per height, as the middle part has.
             if random.uniform() * height < middle {
                 let wall = Frustum {
                     base: -middle / 2.0,

@@ -231,8 +231,8 @@ fn places_on_surfaces_are_as_likely_as_their_area() {
     is(&Shape::Torus { radius: 3.0, tube_radius: 1.0 }, 0.5 + 1.0 / (3.0 * PI), &|place| across(place) > 3.0);
 }
 
-/// Of two triangles of 2 m² and 6 m², the larger gets three quarters; of a triangle, the part beyond half the way from a corner has
-/// three quarters as well.
+/// The larger of two triangles, 2 m² and 6 m², gets three quarters of the points. So does the half of a triangle that is farther
+/// from a corner.
 #[test]
 fn places_on_triangles_are_as_likely_as_their_area() {
     const COUNT: u32 = 20_000;
@@ -273,7 +273,7 @@ fn places_lie_on_their_surfaces_and_normals_point_outwards() {
         for _ in 0..500 {
             let (place, normal) = surface::place(&shape, &mut random);
             assert!((normal.length() - 1.0).abs() < 1e-12);
-            // Of a convex shape, no point lies farther along the normal.
+            // No point of a convex shape lies farther along the normal.
             let farthest = shape.support(DQuat::IDENTITY, normal).unwrap();
             assert!((place.dot(normal) - farthest).abs() < 1e-9, "{shape:?} {place} {normal}");
         }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::Shape;
 
-/// So many steps are made to find a point that two shapes have in common. Round shapes that just touch need the most.
+/// The most iterations spent on finding a point that two shapes share. Round shapes that just touch need the most.
 const MAX_STEPS: usize = 64;
 
 /// A convex shape at a place.
@@ -181,7 +181,7 @@ mod tests {
         }
     }
 
-    /// Of balls, the answer is known; a box that is all rounding is one, and has to be found by steps.
+    /// For balls, the answer is known. A box that is all rounding is a ball, but needs iterations.
     #[test]
     fn round_boxes_meet_as_balls_do() {
         let (ball, round) =

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Mesh, Shape, cone_base};
 
-/// So many steps are made towards a surface. Only a ray that grazes it needs more than some twenty.
+/// The most steps taken towards a surface. Only a ray that grazes it needs more than about twenty.
 const MAX_STEPS: usize = 300;
 /// A point is on the surface if it is nearer to it than this part of the size of the shape.
 const NEAR: f64 = 1e-12;
@@ -92,7 +92,7 @@ fn sphere(origin: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     (half_chord >= 0.0 && exit >= 0.0).then_some(exit)
 }
 
-/// By slabs: the ray is inside between the last of the three entries and the first of the three exits.
+/// The slab method: the ray is inside between the last of the three entries and the first of the three exits.
 fn cuboid(origin: DVec3, direction: DVec3, half: DVec3) -> Option<f64> {
     let (mut enters, mut leaves) = (0.0f64, f64::MAX);
     for axis in 0..3 {

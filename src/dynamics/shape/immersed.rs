@@ -121,7 +121,7 @@ impl Cut {
     fn add(&mut self, corners: [DVec3; 3]) {
         let corners = corners.map(|corner| corner - self.tip);
         let above = corners.map(|corner| corner.dot(self.up));
-        // Of a triangle, a plane leaves a triangle or a quadrilateral, whose corners are seen in turn.
+        // A plane cuts a triangle to a triangle or a quadrilateral, whose corners come in turn.
         let mut kept = [DVec3::ZERO; 4];
         let mut count = 0;
         for (k, corner) in corners.iter().enumerate() {
@@ -219,8 +219,8 @@ mod tests {
         }
     }
 
-    /// By the theorem of divergence: the integral of the height grows by the height times what the volume grows by. Central differences with
-    /// 1e-4 are off by 1e-8 times a third derivative, which is of the order of 1 but where an edge lies in the plane.
+    /// By the divergence theorem, the integral of the height grows by the height times the growth of the volume. Central
+    /// differences with 1e-4 are off by 1e-8 times a third derivative, which is of order 1 unless an edge lies in the plane.
     #[test]
     fn the_moment_grows_with_the_volume() {
         const H: f64 = 1e-4;

@@ -194,7 +194,7 @@ fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13 * b.abs(), "{shape:?}: {a} {b}");
         near(scaled.volume().unwrap(), 27.0 * shape.volume().unwrap());
         near(scaled.inertia(1.0).x, 9.0 * shape.inertia(1.0).x);
-        // Also where powers of lengths come near to the ends of the numbers.
+        // Powers of lengths may come close to overflow or underflow.
         for factor in [1e-90, 1e90] {
             near(shape.scaled(factor).inertia(1.0).y, factor * factor * shape.inertia(1.0).y);
         }

@@ -24,7 +24,8 @@ pub(super) struct Mixing {
 }
 
 impl Mixing {
-    /// That of some contacts. `moves` says which bodies move by forces; only pairs with one of them touch.
+    /// Prepares the mixing for the given contacts. `moves` says which bodies move by forces; a pair touches only if one of its
+    /// bodies does.
     pub(super) fn new(contacts: &Contacts, moves: &[bool]) -> Mixing {
         let surfaces: Vec<Surface> =
             contacts.surfaces.iter().map(|surface| surface.unwrap_or_default()).collect();

@@ -31,7 +31,7 @@ pub(super) struct Profile {
 enum Outline {
     /// The radius at y is `middle + slope · y`.
     Cone { middle: f64, slope: f64 },
-    /// That of a ball around a point of the axis.
+    /// A ball around a point of the axis.
     Ball { centre: f64, radius: f64 },
     /// A tube around the axis, in the plane of the origin.
     Ring { radius: f64, tube: f64 },
@@ -155,7 +155,7 @@ fn roots(b: f64, h: f64, c: f64) -> [f64; 2] {
     [b - root, b + root]
 }
 
-/// Of a disk, the area where across · s ≤ rest, and the integral of s over it.
+/// The area of the part of a disk where across · s ≤ rest, and the integral of s over that part.
 fn segment(radius: f64, rest: f64, across: f64) -> (f64, f64) {
     let reach = across * radius;
     if rest >= reach {

@@ -18,11 +18,10 @@ fn outer(p: DVec3, q: DVec3) -> DMat3 {
 
 /// The integrals of 1, p and p pᵀ over the solid that a closed surface encloses, negative where it shows its inside.
 ///
-/// By the theorem of divergence they are sums over the triangles (B. Mirtich, *Fast and Accurate Computation of
-/// Polyhedral Mass Properties*, Journal of Graphics Tools 1(2), 1996; D. Eberly, *Polyhedral Mass Properties
-/// (Revisited)*, 2002). Of a triangle (a, b, c) the sums are the integrals over the tetrahedron (0, a, b, c): with
-/// d = a · (b × c) and s = a + b + c, its volume is d/6, its first moment d s/24 and its second one
-/// d (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/120.
+/// By the divergence theorem they are sums over the triangles (B. Mirtich, *Fast and Accurate Computation of Polyhedral Mass
+/// Properties*, Journal of Graphics Tools 1(2), 1996; D. Eberly, *Polyhedral Mass Properties (Revisited)*, 2002). The term of a
+/// triangle (a, b, c) is the integral over the tetrahedron (0, a, b, c): with d = a · (b × c) and s = a + b + c, its volume is
+/// d/6, its first moment d s/24 and its second moment d (a aᵀ + b bᵀ + c cᵀ + s sᵀ)/120.
 pub(super) fn over_solid(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Whole {
     let (mut volume, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
     for triangle in triangles {

@@ -42,7 +42,7 @@ impl Mesh {
     /// Triangles with two equal corners do not count. A closed surface that shows its inside is turned inside out.
     ///
     /// # Panics
-    /// Where a triangle names a vertex that is not there.
+    /// If a triangle names a vertex that is not there.
     #[must_use]
     pub fn new(name: &str, mut vertices: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> Mesh {
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
@@ -102,7 +102,7 @@ impl Mesh {
         &self.vertices
     }
 
-    /// Its triangles, each by the numbers of its vertices.
+    /// The triangles, each as the numbers of its vertices.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles

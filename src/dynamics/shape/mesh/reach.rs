@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// So many vertices, one after another in a file, are mostly near each other.
+/// The number of vertices in a block. Vertices that follow each other in a file are mostly near each other.
 const VERTICES_OF_A_BLOCK: usize = 64;
 
 /// The boxes around groups of vertices, so that the farthest of a million is found by looking at few of them.

@@ -92,8 +92,8 @@ fn a_box_of_triangles_is_a_box() {
     assert_eq!(cuboid(size, DQuat::IDENTITY, DVec3::ZERO).principal_axes(), DQuat::IDENTITY);
 }
 
-/// Of a tetrahedron, C = V/20 Σ p pᵀ over its corners about its centre (Tonon, *Explicit Exact Formulas for the 3-D
-/// Tetrahedron Inertia Tensor*, 2004).
+/// A tetrahedron has C = V/20 Σ p pᵀ over its corners about its centre (Tonon, *Explicit Exact Formulas for the 3-D Tetrahedron
+/// Inertia Tensor*, 2004).
 #[test]
 fn a_tetrahedron_has_the_inertia_of_its_corners() {
     let corners =
