@@ -10,7 +10,7 @@ use super::setting::Setting;
 use crate::dynamics::{Accounts, Snapshot};
 use crate::scene::Scene;
 
-/// What is seen at a frame.
+/// The values compared at a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moment {
     /// s
@@ -21,13 +21,13 @@ pub(super) struct Moment {
     pub(super) squares: Option<[f64; 2]>,
     /// The error of the energy, J.
     pub(super) energy: f64,
-    /// By how much linear and angular momentum have changed: in the run, and at half the step.
+    /// The change of linear and angular momentum: in the run, and at half the step.
     pub(super) changed: [[f64; 2]; 2],
     /// The twin: mean squares of the distances of places (m²), of velocities, and of orientations.
     pub(super) apart: Option<[f64; 3]>,
 }
 
-/// What the run, and the same at smaller steps, come to.
+/// The comparison of a run with the same run at smaller steps.
 #[derive(Debug, Default)]
 pub(super) struct Compared {
     pub(super) moments: Vec<Moment>,

@@ -22,11 +22,11 @@ pub struct Ended {
 /// A run that is compared with others.
 pub(super) struct Track<'a> {
     snapshots: Snapshots<'a>,
-    /// What has been computed and not been seen.
+    /// States that are computed and not yet compared.
     waiting: std::collections::VecDeque<Snapshot>,
     pub(super) ended: Option<Ended>,
     last: Option<f64>,
-    /// What an interval between two frames takes, in evaluations of the forces.
+    /// The cost of an interval between two frames, in force evaluations.
     cost: f64,
     /// The most timesteps that it may make, and whether it would have made more.
     most: u64,
@@ -76,7 +76,7 @@ pub(super) fn together(
     watch: &mut Watch<'_>,
     see: &mut dyn FnMut(&[Option<Snapshot>]),
 ) -> Result<(), Stopped> {
-    /// So many bodies wait to be seen.
+    /// The number of states, of single bodies, that are computed before they are compared.
     const ROOM: usize = 4096;
     let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::dynamics::{BodySnapshot, Shape, Snapshot};
 use crate::scene::Scene;
 
-/// What is compared of a scene: the bodies that forces move.
+/// The bodies that are compared: those that forces move.
 pub(super) struct Measured {
     /// The numbers of these bodies in the scene.
     pub(super) bodies: Vec<usize>,
@@ -20,11 +20,11 @@ pub(super) struct Measured {
 /// How far a body is from where another run has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Distance {
-    /// Of the centres, m.
+    /// Between the centres, m.
     pub(super) place: f64,
     /// The angle between the two orientations, rad.
     pub(super) angle: f64,
-    /// Of any point of the body at most, m.
+    /// Between points of the body, at most, m.
     pub(super) point: f64,
 }
 

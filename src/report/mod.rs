@@ -43,7 +43,7 @@ pub use verdict::{BodyError, Conserved, Order, Trusted};
 /// The accuracy that is wanted where nobody says another: about a pixel of an image.
 pub const ACCURACY: f64 = 1e-3;
 
-/// That somebody has stopped it.
+/// The error of a computation that the caller has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
@@ -64,7 +64,7 @@ pub struct Assessment {
     pub bodies_moved: usize,
     /// The time of the last frame, s.
     pub end: f64,
-    /// What is known of the run; none where nothing is integrated.
+    /// The verdict on the run. `None` if nothing is integrated.
     pub verdict: Option<Verdict>,
     /// The accuracy that is wanted, as a part of the size of the scene.
     pub accuracy: f64,
@@ -78,7 +78,7 @@ pub struct Assessment {
     pub has_particles: bool,
 }
 
-/// What is being done.
+/// The phase of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
     /// The run is compared with itself at smaller steps.
@@ -91,7 +91,7 @@ pub enum Phase {
 /// ends.
 ///
 /// # Errors
-/// Where `watch` has ended it.
+/// If `watch` has ended it.
 pub fn assess(
     scene: &Scene,
     accuracy: f64,

@@ -30,7 +30,7 @@ const LARGE: f64 = 1e4;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Parting {
-    /// Nothing could be displaced, or too few frames were seen.
+    /// Unknown: nothing could be displaced, or there were too few frames.
     Unknown,
     /// No faster than in regular motion.
     Regular {
@@ -104,7 +104,7 @@ fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
     }
     free += scene.simulation.gravity.abs();
     let free = DVec3::from_array(free.to_array().map(|extent| f64::from(u8::from(extent > 0.0))));
-    // What follows a given motion may lead others anywhere, and what moves along a line is in many planes.
+    // A body that follows a given motion may lead others anywhere, and a body that moves along a line lies in many planes.
     let is_led = scene.bodies.iter().any(|body| body.motion.is_some());
     if is_led || free.element_sum() < 2.0 { DVec3::ONE } else { free }
 }
@@ -123,7 +123,7 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
 /// How neighbours part whose distances are these at these times, s; a distance of 1 is the size of the scene. And the
 /// mean of Y, which is 0 where nothing is known.
 pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
-    /// So few moments tell nothing.
+    /// Fewer moments than this tell nothing.
     const FEW: usize = 8;
     let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
     let begin = distances.iter().position(|distance| *distance > 0.0).unwrap_or(near);

@@ -20,7 +20,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// That of a scene.
+    /// The setting of a scene.
     pub(super) fn of(scene: &Scene) -> Setting {
         let interval = 1.0 / scene.simulation.frame_rate;
         let method = scene.simulation.method;
@@ -28,7 +28,7 @@ impl Setting {
         Setting::new(method, steps, scene)
     }
 
-    /// That of a scene, with another method.
+    /// The setting of a scene with another method.
     pub(super) fn new(method: &'static Method, steps: u32, scene: &Scene) -> Setting {
         let Simulation { step, tolerance, .. } = scene.simulation;
         Setting { method, steps, step, tolerance }
@@ -73,7 +73,7 @@ impl Setting {
     }
 
     /// The step to write into a scene, s: the timestep with as few digits as give the same number of steps.
-    /// None where the method chooses it.
+    /// The step as a scene writes it. `None` if the method chooses its own steps.
     pub(super) fn written(self, scene: &Scene) -> Option<f64> {
         let step = self.timestep(scene)?;
         if self.method.ahead.is_some() {

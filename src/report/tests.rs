@@ -40,7 +40,7 @@ fn kepler(integrator: &str, step: f64) -> Scene {
     ))
 }
 
-/// Where the planet is: by Kepler's equation E − e sin E = t.
+/// The place of the planet, by Kepler's equation E − e sin E = t.
 fn on_ellipse(time: f64) -> DVec3 {
     let mut anomaly = time;
     for _ in 0..50 {
@@ -115,7 +115,7 @@ fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
     let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else {
         panic!("{:?}", verdict.neighbours)
     };
-    // Of the order of the period of a small swing, 2 s, over 2π.
+    // It is of the order of the period of a small swing, 2 s, over 2π.
     assert!((0.1..2.0).contains(&lyapunov_time), "{lyapunov_time}");
     assert!(assessment.untried.iter().any(|untried| untried.integrator == "yoshida4"));
 }

@@ -7,7 +7,7 @@ use super::verdict::{Conserved, Order, Trusted, Verdict};
 use super::{Assessment, Parting, Trial, Untried};
 use crate::dynamics::Method;
 
-/// So many bodies are named.
+/// The number of bodies that are named.
 const NAMED: usize = 5;
 
 /// Behind the name of what a line is about.
@@ -87,7 +87,7 @@ impl Assessment {
 
     fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
         let named: Vec<&super::BodyError> = verdict.bodies.iter().take(NAMED).collect();
-        // What is less is rounding.
+        // Smaller differences are rounding errors.
         let is_seen = |place: f64| place > 1e-12 * verdict.size;
         let mut rows = vec![["body", "place off by", "of its way", "turned by", "at t"].map(str::to_owned)];
         rows.extend(named.iter().map(|body| {
@@ -232,7 +232,7 @@ impl Assessment {
         trial.integrator == self.integrator && trial.steps_per_frame == self.steps_per_frame
     }
 
-    /// What to write into the scene for a trial.
+    /// The lines to write into the scene for a trial.
     fn lines_to_write(&self, trial: &Trial) -> [String; 3] {
         [
             "[simulation]".to_owned(),

@@ -53,14 +53,14 @@ pub struct Untried {
     pub why: String,
 }
 
-/// What was tried, in the order of the methods and of falling steps, and what was not.
+/// The trials, in the order of methods and of falling steps, and the methods that were not tried.
 #[derive(Debug, Default)]
 pub(super) struct Trials {
     pub(super) tried: Vec<Trial>,
     pub(super) untried: Vec<Untried>,
 }
 
-/// By how much the difference of two runs, of which one has twice the steps, is less than the error of the coarser one.
+/// Halving the step changes a run by less than the error of the coarser run. This is the ratio of the error to the change.
 pub(super) fn factor(order: f64) -> f64 {
     let ratio = libm::exp2(order);
     ratio / (ratio - 1.0)
@@ -84,7 +84,7 @@ const RUNS: f64 = 4.0;
 /// or so many evaluations of a single body, if that is more: about two seconds.
 const EVALUATIONS: f64 = 6e6;
 
-/// What a run is to reach.
+/// The goal of a trial.
 pub(super) struct Goal<'a> {
     pub(super) scene: &'a Scene,
     pub(super) measured: &'a Measured,
@@ -153,7 +153,7 @@ impl Goal<'_> {
         left: &mut f64,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Trial>, Option<String>), Stopped> {
-        /// So many steps are tried of each method.
+        /// The number of time steps tried with each method.
         const TRIES: usize = 5;
         for _ in 0..TRIES {
             let Some(steps) = self.next_steps(method, &tried) else { return Ok((tried, None)) };

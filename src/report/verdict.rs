@@ -1,4 +1,4 @@
-//! What the comparison of runs says of one: its error, its order, its momenta, and how long it is right.
+//! The verdict on a run, from the comparison of runs: its error, its order, its momenta, and how long it is accurate.
 
 use serde::Serialize;
 
@@ -12,12 +12,12 @@ use crate::dynamics::{Accounts, Method};
 use crate::scene::Scene;
 use crate::simulate::evaluations;
 
-/// What is known of a run that is integrated.
+/// The verdict on an integrated run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
     /// The error of the energy where it is largest, relative to the largest kinetic energy.
     pub drift: f64,
-    /// What each account of energy holds at the end, J; those that hold something.
+    /// The energy in each account at the end, J; empty accounts are left out.
     pub accounts: Vec<(&'static str, f64)>,
     /// Linear momentum.
     pub linear_momentum: Conserved,
@@ -41,12 +41,12 @@ pub struct Verdict {
     pub trusted_to_a_percent: Trusted,
     /// Which of the runs broke down.
     pub broken: Vec<Broken>,
-    /// What a plot shows.
+    /// The curves of a plot.
     #[serde(skip)]
     pub(super) curves: Curves,
 }
 
-/// What a plot shows, frame by frame.
+/// The curves of a plot, frame by frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
     /// s
@@ -63,9 +63,9 @@ pub(super) struct Curves {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Conserved {
-    /// Nothing has one.
+    /// No body has any.
     Still,
-    /// What acts from outside changes it: it does so at any step.
+    /// External forces change it, at any step.
     Changed,
     /// It would stay the same, and is off by this part of the sum of all magnitudes.
     Kept {
@@ -145,7 +145,8 @@ impl Broken {
 }
 
 impl Order {
-    /// What the runs show, as far as they are near each other: at other times, they differ by all that they can.
+    /// The observed order. It uses only times at which the runs are close to each other; elsewhere, their difference says
+    /// nothing.
     fn of(compared: &Compared, method: &Method) -> Order {
         /// Differences below this part of the size are rounding.
         const ROUNDING: f64 = 1e-11;
@@ -173,7 +174,7 @@ impl Order {
         }
     }
 
-    /// What the difference of two runs is to be multiplied with.
+    /// The factor from the difference of two runs to the error.
     pub(super) fn factor(self, method: &Method) -> f64 {
         match self {
             // A tenth of the tolerance leaves about a tenth of the error.
@@ -244,7 +245,7 @@ impl Verdict {
         self.error < 0.1 * self.size && self.broken.is_empty()
     }
 
-    /// What is known of the scene's own method: at the step, and at half of it.
+    /// The trials of the scene's own method, which are known already: at the step, and at half of it.
     pub(super) fn known(&self, scene: &Scene, own: Setting, compared: &Compared) -> Vec<Trial> {
         let factor = self.order.factor(own.method);
         let errors = [self.error, factor * compared.off_at_half];

@@ -1,4 +1,4 @@
-//! How large what is shown beside the bodies gets in a run, so that a run that shows nothing of it can say so.
+//! The largest sizes in a run of the things shown beside bodies, so that a run that shows none of them can report it.
 
 use glam::{DQuat, DVec3};
 
@@ -7,7 +7,7 @@ use super::{Frame, Load, Moments};
 use crate::dynamics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
-/// How large what is asked for gets in a run.
+/// The largest sizes in a run of the requested things.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Asked {
     /// The arrows, in the order of their bodies and of [`Quantity::OF_BODIES`].
@@ -29,7 +29,7 @@ pub struct Asked {
 pub struct AskedArrow {
     /// The number of the body.
     pub body: usize,
-    /// What it shows.
+    /// The quantity that it shows.
     pub quantity: Quantity,
     /// Its longest vector, in the unit of its quantity.
     pub longest: f64,
@@ -42,7 +42,7 @@ pub struct AskedArrow {
 pub struct AskedTrail {
     /// The number of the body.
     pub body: usize,
-    /// Where it begins, m, once the body has come.
+    /// Its root, m, once the body has come.
     begin: Option<DVec3>,
     /// How far the body goes from there, m.
     pub way: f64,
@@ -56,7 +56,7 @@ pub struct AskedGhosts {
     every: f64,
     /// The time of the first that there may be, s, once the body has come.
     first: Option<f64>,
-    /// Where the first one stands, m, and how it is turned.
+    /// The pose of the first one: location, m, and orientation.
     stands: Option<(DVec3, DQuat)>,
     /// How far the body goes from there, m; none if it is gone before.
     pub way: Option<f64>,
@@ -99,7 +99,7 @@ enum End {
 }
 
 impl Asked {
-    /// What a scene asks for, before its first frame.
+    /// The requests of a scene, before its first frame.
     pub(super) fn new(scene: &Scene) -> Asked {
         let end = |anchor: Anchor| match anchor {
             Anchor::Point(point) => End::Point(point),
@@ -223,7 +223,7 @@ impl AskedSlider {
 }
 
 impl End {
-    /// Where it is, m, if it is there.
+    /// Its place, m. `None` while it is absent.
     fn place(&self, frame: &Frame) -> Option<DVec3> {
         match self {
             End::Point(point) => Some(*point),

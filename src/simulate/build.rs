@@ -10,8 +10,8 @@ use crate::dynamics::{
 };
 use crate::scene::{Body, ContactLaw, Joint, JointKind, Scene};
 
-/// What advances a scene, chosen by what the scene says; the interactions of pairs are counted meanwhile. An engine with steppers
-/// of its own is made here, beside the world.
+/// Builds the dynamics that suits the scene; it also counts the interactions of pairs. An engine with its own steppers is made
+/// here, beside the world.
 pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
         let mut world = free_world(scene);
@@ -69,7 +69,7 @@ pub fn world(scene: &Scene) -> World {
 fn free_world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
-    // What is given at every time needs no steps to get there.
+    // Given motion needs no intermediate steps.
     world.set_step(if is_given(scene) { f64::INFINITY } else { scene.simulation.step });
     world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
@@ -115,7 +115,7 @@ fn contacts(scene: &Scene) -> Contacts {
     let moves = |id: usize| !scene.bodies[id].start.fixed && scene.bodies[id].motion.is_none();
     for group in groups.values() {
         for (place, &one) in group.iter().enumerate() {
-            // Of two that no force moves, no contact is looked for.
+            // Two bodies that no force moves cannot come into contact.
             let others = group[place + 1..].iter().filter(|&&two| moves(one) || moves(two));
             apart.extend(others.map(|&two| (one, two)));
         }

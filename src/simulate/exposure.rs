@@ -1,4 +1,4 @@
-//! What a camera sees while its shutter is open.
+//! The view of a camera while its shutter is open.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::scene::Shutter;
 pub struct Exposure {
     /// The moment at which the shutter opens.
     pub frame: Frame,
-    /// What has been up to there.
+    /// The past up to there.
     history: History,
     /// The particles of the last frame up to there.
     clouds: Clouds,

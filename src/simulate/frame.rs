@@ -1,21 +1,21 @@
-//! What can be seen at one moment.
+//! The state of a run at one moment.
 
 use super::simulation::Entry;
 use super::{ImpactCounts, Past, Swarm};
 use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot, find};
 
-/// What can be seen at one moment of a run.
+/// The state of a run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Its number, from 0.
     pub index: usize,
     /// Its time, s.
     pub time: f64,
-    /// The bodies that are there, in the order of the scene.
+    /// The present bodies, in the order of the scene.
     pub bodies: Vec<BodySnapshot>,
-    /// What the joints do to the bodies, in the order of the scene.
+    /// The reactions of the joints on the bodies, in the order of the scene.
     pub reactions: Vec<Reaction>,
-    /// Where bodies touch and stay in touch.
+    /// The places where bodies touch and stay in touch.
     pub contacts: Vec<ContactSnapshot>,
     /// How deep bodies are within each other at most, m.
     pub penetration: f64,
@@ -25,19 +25,19 @@ pub struct Frame {
     pub impacts: ImpactCounts,
     /// The particles that are alive, for each emitter in the order of the scene.
     pub particles: Vec<Swarm>,
-    /// What has been before, as far as the scene asks for it.
+    /// The past, as far as the scene asks for it.
     pub past: Past,
 }
 
 impl Frame {
-    /// The frame of a moment, without particles, what has been before, and the impacts up to it.
+    /// The frame of a moment, with the impacts up to it, but without particles and past.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
         let Snapshot { time, bodies, reactions, contacts, penetration, balance } = moment;
         let (impacts, past, particles) = (ImpactCounts::default(), Past::default(), Vec::new());
         Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, particles, past }
     }
 
-    /// The frame of a moment of a run, without what has been before.
+    /// The frame of a moment of a run, without its past.
     pub(super) fn of_entry(index: usize, entry: Entry) -> Frame {
         Frame { impacts: entry.counts, ..Frame::of(index, entry.snapshot) }
     }

@@ -22,7 +22,7 @@ pub struct Frames<'a> {
     clouds: Clouds,
 }
 
-/// Where the moments come from.
+/// The source of the moments.
 enum Source<'a> {
     /// They are computed.
     Live(Simulation<'a>, VecDeque<Entry>),
@@ -57,18 +57,18 @@ impl<'a> Frames<'a> {
         Frames::from(scene, source)
     }
 
-    /// What is to be seen at any time of the run, s: at that of a frame, the frame, bit for bit; else what is between
-    /// two. A time before the beginning is the beginning, one after the end is the end. The run is computed up to there.
+    /// The state at any time of the run, s. At the time of a frame, it is that frame, bit for bit; otherwise it lies between two
+    /// frames. A time before the beginning is the beginning, one after the end is the end. The run is computed up to there.
     ///
     /// # Errors
-    /// Where the run leaves the numbers before.
+    /// If the run becomes non-finite before that time.
     pub fn at(scene: &Scene, time: f64) -> Result<Frame, SimulateError> {
         let time = within(scene, time);
         let moments = Moments::of_ghosts(scene).with(time);
         Frames::with(scene, moments, &Effort::default()).moment(time)
     }
 
-    /// The moment of a time (s), which must be that of a frame or a recorded one, with what has been before.
+    /// The moment at a time (s), which must be that of a frame or a recorded one, with its past.
     fn moment(mut self, time: f64) -> Result<Frame, SimulateError> {
         let mut before = 0;
         while let Some(entry) = self.entry()? {
@@ -82,7 +82,7 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// The moment with a number in the recording, and what has been before; the number of the frame at or before it is known.
+    /// The moment with a number in the recording, with its past. The number of the frame at or before it is known.
     pub(super) fn recorded_moment(
         mut self,
         moment: usize,
@@ -108,7 +108,7 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// Whether frames say anything of what has been before.
+    /// Whether frames have a past.
     pub fn remember_anything(&self) -> bool {
         !self.history.is_idle()
     }
@@ -121,7 +121,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// What has been up to the last frame.
+    /// The past up to the last frame.
     pub(super) fn history(&self) -> &History {
         &self.history
     }
@@ -131,7 +131,7 @@ impl<'a> Frames<'a> {
         &self.clouds
     }
 
-    /// Goes on with a frame, without looking at those before, where nobody asks for what has been before. Frames that its
+    /// Continues with a frame. Skips those before it, unless their past or their particles are needed.
     /// particles need come before it.
     pub(super) fn pass_to(&mut self, frame: usize) {
         let Source::Recorded(recording, reader) = &mut self.source else { return };

@@ -31,17 +31,17 @@ impl ImpactCounts {
         }
     }
 
-    /// Of the whole run.
+    /// The total of the whole run.
     pub fn of_run(&self) -> f64 {
         self.0.first().copied().unwrap_or_default()
     }
 
-    /// Of a body, by its number in the scene.
+    /// The total of a body, by its number in the scene.
     pub fn of_body(&self, body: usize) -> f64 {
         self.0.get(1 + body).copied().unwrap_or_default()
     }
 
-    /// Of a pair, by its number among those of the scene.
+    /// The total of a pair, by its number among those of the scene.
     pub fn of_pair(&self, pair: usize) -> f64 {
         let place = self.0.len().checked_sub(1 + pair);
         place.and_then(|place| self.0.get(place)).copied().unwrap_or_default()

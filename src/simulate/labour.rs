@@ -7,7 +7,7 @@ use super::world;
 use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
-/// To write a body takes about as long as so many interactions.
+/// Writing a body takes about as long as this many interactions.
 const SCRIPT: u64 = 100;
 
 /// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
@@ -22,7 +22,7 @@ pub struct Labour {
 }
 
 impl Labour {
-    /// That of a scene.
+    /// The labour of a scene.
     pub fn of(scene: &Scene) -> Labour {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
@@ -81,7 +81,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
     world.set_integrator(method);
     world.add(RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0));
     world.add_force(Counting(Arc::clone(&count)));
-    // The first step may take more: a method may keep what it knows for the next.
+    // The first step may cost more: a method may keep values for the next step.
     world.step(1.0);
     let before = count.load(Ordering::Relaxed);
     world.step(1.0);

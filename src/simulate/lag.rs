@@ -13,7 +13,7 @@ pub struct Lagging {
     pub body: usize,
     /// The time τ by which it is behind what moves evenly, s; without it, it is where the body is or was last.
     pub lag: f64,
-    /// Where it is, m.
+    /// The place, m.
     pub location: DVec3,
     /// The time (s) and the location of the body then.
     seen: Option<(f64, DVec3)>,

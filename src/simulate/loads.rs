@@ -13,17 +13,17 @@ use crate::scene::{Arrow, Quantity, Scene};
 pub struct Load {
     /// The number of the body that it acts on.
     pub body: usize,
-    /// What it is.
+    /// The quantity.
     pub quantity: Quantity,
     /// The arrow that the scene asks for.
     pub arrow: Arrow,
-    /// Where it acts, m: the centre of the body, or the point of contact.
+    /// The point of action, m: the centre of the body, or the point of contact.
     pub root: DVec3,
     /// The force, N.
     pub vector: DVec3,
 }
 
-/// What one body does to another where they touch, as one force at one place.
+/// The contact force of one body on another, as one force at one place.
 #[derive(Default)]
 struct Touch {
     normal: DVec3,

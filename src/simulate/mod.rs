@@ -70,7 +70,7 @@ pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 
-/// That a run left the numbers: what is asked for cannot be computed with this step and method.
+/// The error of a run whose state became non-finite: this step and method cannot compute the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {
     /// The name of the first body that has no finite place or velocity.
@@ -82,7 +82,7 @@ pub struct Diverged {
 /// Why a run cannot be simulated, or read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SimulateError {
-    /// It left the numbers.
+    /// The state became non-finite.
     Diverged(Diverged),
     /// A force has no finite value.
     Undefined(Box<Undefined>),
@@ -96,7 +96,7 @@ pub enum SimulateError {
     Recording(String),
 }
 
-/// That the formulas of a force have no finite value on a body.
+/// The error of a force whose formulas have no finite value on a body.
 #[derive(Clone, Debug)]
 pub struct Undefined {
     /// The name of the force.
@@ -105,9 +105,9 @@ pub struct Undefined {
     pub body: String,
     /// The time, s.
     pub time: f64,
-    /// What is wrong: its code, the message, and what is said at the place.
+    /// The reason: its code, the message, and the remark at the place.
     pub why: (diagnostic::Code, String, String),
-    /// Where the scene says it, and the texts of the scene.
+    /// The place in the scene's text, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -119,7 +119,7 @@ impl PartialEq for Undefined {
 }
 
 impl Undefined {
-    /// That a force of a world, by its number there, has no value.
+    /// Finds the force of the scene by its number in the world.
     fn of(scene: &Scene, force: usize, at: &dynamics::Undefined) -> Option<Undefined> {
         let gravity = usize::from(scene.simulation.gravity != glam::DVec3::ZERO);
         let mut number = force.checked_sub(gravity)?;
@@ -160,14 +160,14 @@ impl std::fmt::Display for Undefined {
 
 impl std::error::Error for Undefined {}
 
-/// That a method that chooses its own steps found none short enough.
+/// The error of an adaptive method that found no time step short enough.
 #[derive(Clone, Debug)]
 pub struct Stalled {
     /// The name of the body whose motion changes too fast.
     pub body: String,
     /// The time, s.
     pub time: f64,
-    /// Where the scene says its name, and the texts of the scene.
+    /// The place that names it, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -178,16 +178,16 @@ impl PartialEq for Stalled {
     }
 }
 
-/// That a joint cannot be kept.
+/// The error of a joint that cannot be kept.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// The name of the joint.
     pub joint: String,
     /// The time, s.
     pub time: f64,
-    /// By how much it does not hold, in metres or, of a turn, in radians.
+    /// The error of the joint, in metres, or in radians for a rotation.
     pub missing: f64,
-    /// Where the scene says its name, and the texts of the scene.
+    /// The place that names it, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -198,7 +198,7 @@ impl PartialEq for Broken {
     }
 }
 
-/// That a contact of two bodies cannot be computed.
+/// The error of a contact that cannot be computed.
 #[derive(Clone, Debug)]
 pub struct Stuck {
     /// The names of the two; none for the ground.
@@ -207,7 +207,7 @@ pub struct Stuck {
     pub time: f64,
     /// How deep they are within each other where contacts begin, m; none: their impacts do not end.
     pub depth: Option<f64>,
-    /// Where the scene says their names, and the texts of the scene.
+    /// The places that name them, and the texts of the scene.
     pub place: (Vec<diagnostic::Span>, Sources),
 }
 

@@ -2,8 +2,7 @@
 
 use crate::scene::{Scene, Shutter};
 
-/// The times between frames that somebody wants to see. They follow from the scene alone, and the run does not depend
-/// on them.
+/// The requested times between frames. They follow from the scene alone, and the run does not depend on them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moments {
     /// The intervals of ghosts, s.
@@ -16,7 +15,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// All that the pictures of a scene show: ghosts, and what its cameras see while their shutters are open.
+    /// All moments that the pictures of a scene need: those of ghosts, and those seen while a shutter is open.
     pub fn of(scene: &Scene) -> Moments {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut shutters: Vec<Shutter> = Vec::new();
@@ -150,7 +149,7 @@ mod tests {
         let moments = Moments::of(&scene("")).with(0.123);
         assert_eq!(moments.after(1), [0.123]);
         assert!(moments.after(0).is_empty() && moments.after(2).is_empty());
-        // That of a frame is that frame.
+        // The moment at a frame's time is that frame.
         assert!(Moments::of(&scene("")).with(0.2).after(1).is_empty());
     }
 }

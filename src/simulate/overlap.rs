@@ -17,7 +17,7 @@ use crate::scene::Scene;
 /// Bodies overlap when they still do after they have been made smaller by this part.
 const DEEP: f64 = 0.01;
 
-/// That two bodies go into each other, which were apart when the later of them came.
+/// Two bodies overlap that were apart in the first frame of the later one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// The names of the two.
@@ -41,21 +41,21 @@ pub(super) struct Watch<'a> {
     /// Which of the bodies were there in the frame before.
     were_there: Vec<bool>,
     found: Option<Overlap>,
-    /// Nothing is watched any more.
+    /// The watch has ended.
     is_over: bool,
-    /// So many frames are passed over.
+    /// The number of frames that are still to be skipped.
     pause: u64,
 }
 
-/// What a look at a pair costs, relative to a comparison of a distance: shapes that are not balls are compared step by step.
+/// The cost of testing a pair, relative to comparing a distance: shapes that are not balls are compared step by step.
 const OF_SHAPES: u64 = 64;
-/// What the looks at pairs may cost on average, for each body and frame: less than its line in a script.
+/// The allowed mean cost of testing pairs, for each body and frame: less than its line in a script.
 const USUAL: u64 = 32;
-/// What they may cost beside that in every frame, however few bodies there are.
+/// The allowed cost in every frame beside that, however few bodies there are.
 const ALWAYS: u64 = 16_384;
-/// So many times what is usual ends the watch.
+/// At this multiple of the usual cost, the watch ends.
 const MOST: u64 = 128;
-/// So many pairs may touch in their first frame, for each body: equal balls have six.
+/// The most pairs, for each body, that may touch in their first frame. Equal balls have six.
 const TOGETHER: usize = 64;
 
 impl<'a> Watch<'a> {
@@ -67,7 +67,7 @@ impl<'a> Watch<'a> {
             let [i, j] = joint.kind.between().map(|end| end.body().and_then(|id| number(id.index())));
             Some((i?.min(j?), i?.max(j?)))
         });
-        // Where joints hold them, bodies may be within each other.
+        // Bodies that a joint holds may overlap.
         let together = joined.collect();
         let were_there = vec![false; near.bodies.len()];
         Watch { scene, near, together, were_there, found: None, is_over, pause: 0 }
@@ -111,17 +111,17 @@ impl<'a> Watch<'a> {
         self.pause = cost / self.usual();
     }
 
-    /// What has been found.
+    /// The overlap found, if any.
     pub(super) fn finish(self) -> Option<Overlap> {
         self.found
     }
 
-    /// What the looks at pairs may cost on average in a frame.
+    /// The allowed mean cost of testing pairs in a frame.
     fn usual(&self) -> u64 {
         ALWAYS + USUAL * self.near.bodies.len() as u64
     }
 
-    /// Whether two bodies overlap that are so many times larger than they are.
+    /// Whether two bodies overlap if both are enlarged by a factor.
     fn meet(&self, frame: &Frame, i: usize, j: usize, scale: f64) -> bool {
         let placed = |i: usize| {
             let id = self.near.bodies[i].id;
@@ -137,7 +137,7 @@ impl<'a> Watch<'a> {
         placed(i).any(|one| placed(j).any(|other| one.meets(&other)))
     }
 
-    /// What it costs to find out whether two bodies overlap.
+    /// The cost of testing whether two bodies overlap.
     fn cost(&self, i: usize, j: usize) -> u64 {
         let [one, other] = [i, j].map(|i| &self.scene.bodies[self.near.bodies[i].id].shape);
         match (one, other) {

@@ -23,7 +23,7 @@ pub type Swarm = Arc<[Particle]>;
 #[derive(Clone)]
 pub(super) struct Clouds {
     makers: Arc<[Maker]>,
-    /// What stops the particles that collide; empty where none do.
+    /// The obstacles of colliding particles; empty if no particles collide.
     obstacles: Arc<[Obstacle]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
@@ -38,7 +38,7 @@ pub(super) struct Clouds {
     begin: usize,
 }
 
-/// What makes the cloud of an emitter.
+/// Makes the cloud of an emitter.
 struct Maker {
     emitter: Emitter,
     fields: Vec<Field>,
@@ -179,7 +179,7 @@ impl Clouds {
         self.clouds.iter_mut().for_each(|cloud| cloud.advance_among(to, step, &course, scenery.as_ref()));
     }
 
-    /// What stops particles in an interval; none where nothing does.
+    /// The obstacles of an interval. `None` if nothing stops particles.
     fn scenery(&self, course: &dyn Fn(BodyId) -> Option<Course>) -> Option<Scenery> {
         (!self.obstacles.is_empty()).then(|| Scenery::new(&self.obstacles, course))
     }
@@ -224,7 +224,7 @@ fn steps(scene: &Scene, interval: f64) -> u32 {
     world.steps_within(interval)
 }
 
-/// What stops particles: the bodies that collide, and the ground. The check has refused shapes that are no obstacles.
+/// The obstacles of particles: the bodies that collide, and the ground. The check has refused shapes that are no obstacles.
 fn obstacles(scene: &Scene) -> Arc<[Obstacle]> {
     if scene.emitters.iter().all(|emitter| emitter.collides.is_none()) {
         return [].into();
@@ -248,14 +248,14 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
     fields
 }
 
-/// What a force is for particles of a radius (m); none if it does not act on them.
+/// The field of a force on particles of a radius (m). `None` if it does not act on them.
 fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
     let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };
     Some(match &force.kind {
         ForceKind::Constant(ConstantForce { force, .. }) => {
-            // What does not turn has no torque.
+            // Particles do not rotate, so torques do not matter.
             let (force, torque) = (*force, DVec3::ZERO);
             Field::new(move |bodies| Arc::new(ConstantForce { bodies, force, torque }))
         }
@@ -270,7 +270,7 @@ fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
         ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
             let (constant, softening) = (*constant, *softening);
             Field::from_bodies(sources(bodies), move |bodies, against| {
-                // By a tree, what a particle feels would depend on which others are there.
+                // With a tree, the force on a particle would depend on the others present.
                 let (against, opening_angle) = (Some(against), None);
                 Arc::new(Gravitation { bodies, against, constant, softening, opening_angle })
             })

@@ -1,7 +1,7 @@
-//! What a run remembers of its past, for trails and ghosts.
+//! The remembered past of a run, for trails and ghosts.
 //!
-//! It is kept for bodies that ask for it, and bounded: a trail has some hundred points and the corners between, and the scene's
-//! check limits the ghosts. What a frame is given depends on its time alone, and not on which frames are drawn.
+//! Only the bodies that ask for it have one, and it is bounded: a trail has some hundred points and the corners between, and the
+//! scene's check limits the ghosts. The past of a frame depends on its time alone, and not on which frames are drawn.
 
 mod corners;
 #[cfg(test)]
@@ -20,7 +20,7 @@ use super::{Frame, Lagging, Moments};
 use crate::dynamics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
-/// What has been before a moment.
+/// The past of a moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
     /// The trails that are asked for.
@@ -38,14 +38,14 @@ pub struct Ghost {
     pub time: f64,
     /// How it was.
     pub body: BodySnapshot,
-    /// Where it touched others, if its ghosts show the forces there.
+    /// Its contacts, if its ghosts show the forces there.
     pub contacts: Vec<ContactSnapshot>,
 }
 
 /// The past of a run as it goes on.
 #[derive(Clone, Default)]
 pub(super) struct History {
-    /// What each body asks for that asks for something.
+    /// The requests of the bodies that have any.
     asks: Arc<[(usize, Showing)]>,
     /// For each of them, its mass, kg. That of a body that no force moves is infinite.
     masses: Arc<[f64]>,
@@ -63,7 +63,7 @@ pub(super) struct History {
 }
 
 impl History {
-    /// That of a run that has not begun.
+    /// The history of a run that has not begun.
     pub(super) fn new(scene: &Scene) -> History {
         let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
         let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
@@ -92,7 +92,7 @@ impl History {
         }
     }
 
-    /// Whether nobody asks for what has been.
+    /// Whether no body asks for its past.
     pub(super) fn is_idle(&self) -> bool {
         self.asks.is_empty() && self.lagging.is_empty()
     }
@@ -106,7 +106,7 @@ impl History {
     }
 
     fn note_ghosts(&mut self, moment: &Snapshot) {
-        // What is the time of a frame but for rounding is that frame.
+        // A time that differs from a frame's only by rounding is that frame's.
         let slack = Moments::slack(1.0 / self.interval);
         let mut due: Vec<(f64, usize)> = Vec::new();
         for (body, showing) in self.asks.iter() {
@@ -147,7 +147,7 @@ impl History {
             // Which frames are kept follows from their numbers and the present one alone.
             let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
-                // The last one before is needed for what is between.
+                // The last point before is needed for interpolation.
                 let before = way.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
                 way.drain(..before.saturating_sub(1));
             }
@@ -175,7 +175,7 @@ impl History {
         corners::between((before, &(moment.time, *now)), &self.impacts, impulse, (self.masses[number], trail))
     }
 
-    /// What has been before a moment, which is that of the last frame or a later one.
+    /// The past of a moment, which is the last frame or later.
     pub(super) fn before(&self, moment: &Frame) -> Past {
         let mut trails = Vec::new();
         for (number, ((body, showing), way)) in self.asks.iter().zip(&self.ways).enumerate() {

@@ -4,8 +4,7 @@ use glam::DVec3;
 
 use super::Bounds;
 
-/// An envelope keeps at most so many lines. Beyond them it drops every second one, which lowers it by less than a
-/// thousandth.
+/// The most lines of an envelope. Beyond them it drops every second one, which lowers the envelope by less than a thousandth.
 const MOST_LINES: usize = 128;
 
 /// How far arrows of one kind reach. An arrow ends at `root + scale · vector`; the scale is not known yet.
@@ -58,7 +57,7 @@ impl Line {
 /// The largest of many lines at any scale s ≥ 0: their upper envelope, a convex chain of lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Envelope {
-    /// By rising slope. Each is the largest somewhere.
+    /// In the order of rising slope. Each is the largest somewhere.
     lines: Vec<Line>,
 }
 
@@ -76,7 +75,7 @@ impl Envelope {
                 }
             }
         }
-        // What the new line hides: before it what starts lower, and what it overtakes too early.
+        // The new line hides lines that start lower before it, and those that it overtakes too early.
         let mut from = place;
         while from > 0 {
             let before = self.lines[from - 1];

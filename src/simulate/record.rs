@@ -1,4 +1,4 @@
-//! A scene, simulated once: its recording, and what is known of the run as a whole.
+//! A scene, simulated once: its recording, and figures on the whole run.
 
 use std::io;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub struct Recorded<'a> {
     survey: Survey,
     /// Why it ended before its last frame, if it did.
     breakdown: Option<SimulateError>,
-    /// Where it went on after it had been stopped, s.
+    /// The time at which it was resumed, s.
     resumed: Option<f64>,
 }
 
@@ -28,7 +28,7 @@ impl<'a> Recorded<'a> {
     /// Simulates a scene, and keeps the recording in memory.
     ///
     /// # Errors
-    /// Where the run leaves the numbers.
+    /// If the run becomes non-finite.
     pub fn new(scene: &'a Scene) -> Result<Recorded<'a>, SimulateError> {
         let store = Box::<MemoryStore>::default();
         let mut recorder = Recorder::new(scene, Moments::of(scene), &Effort::default(), store);
@@ -36,10 +36,10 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// Simulates a scene by somebody else's dynamics, at time 0, whose bodies have the numbers of the scene.
+    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the numbers of the scene.
     ///
     /// # Errors
-    /// Where the run leaves the numbers.
+    /// If the run becomes non-finite.
     pub fn of(scene: &'a Scene, dynamics: Box<dyn Dynamics>) -> Result<Recorded<'a>, SimulateError> {
         let simulation = Simulation::of(scene, Moments::of(scene), dynamics);
         let mut recorder = Recorder::of(scene, simulation, Box::<MemoryStore>::default());
@@ -47,16 +47,16 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// A run that was simulated and looked over by somebody else.
+    /// A run that was simulated and surveyed elsewhere.
     pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
         Recorded { scene, recording, survey, breakdown: None, resumed: None }
     }
 
-    /// A run that was recorded earlier; `seen` is told of every frame. What is known of the run as a whole depends on what is
-    /// drawn, so it is found by reading all frames.
+    /// A run that was recorded earlier; `seen` receives every frame. The survey depends on what is drawn, so it needs to read all
+    /// frames.
     ///
     /// # Errors
-    /// Where the recording cannot be read.
+    /// If the recording cannot be read.
     pub fn read(
         scene: &'a Scene,
         recording: Arc<Recording>,
@@ -75,7 +75,7 @@ impl<'a> Recorded<'a> {
         self.scene
     }
 
-    /// What is known of the run as a whole.
+    /// Figures on the whole run.
     pub fn survey(&self) -> &Survey {
         &self.survey
     }
@@ -153,7 +153,7 @@ impl<'a> Recorded<'a> {
                     Ok(frame) if frame.index < wanted => {}
                     Ok(frame) => {
                         let rest = (Arc::clone(&recording), frames.position());
-                        // Only who looks on from there needs to know what has been before.
+                        // Only readers that continue from there need the past.
                         let before = match is_exposed {
                             true => (frames.history().clone(), frames.clouds().clone()),
                             false => (History::default(), Clouds::new(scene)),
@@ -170,7 +170,7 @@ impl<'a> Recorded<'a> {
     /// beginning, one after the end is the end. What was not recorded is simulated once more.
     ///
     /// # Errors
-    /// Where the run leaves the numbers before, or the recording cannot be read.
+    /// If the run becomes non-finite before that time, or the recording cannot be read.
     pub fn at(&self, time: f64) -> Result<Exposure, SimulateError> {
         let time = within(self.scene, time);
         let moments = Moments::of(self.scene).with(time);
@@ -234,7 +234,7 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Of a run that has not begun; the interactions of pairs are counted meanwhile.
+    /// A recorder of a run that has not begun. It also counts the interactions of pairs.
     pub fn new(scene: &'a Scene, moments: Moments, effort: &Effort, store: Box<dyn Store>) -> Recorder<'a> {
         Recorder::of(scene, Simulation::new(scene, moments, effort), store)
     }
@@ -268,7 +268,7 @@ impl<'a> Recorder<'a> {
     /// The present moment, which must be that of a frame; none where the run cannot go on from it.
     ///
     /// # Errors
-    /// Where there is no room for the recording.
+    /// If there is no room for the recording.
     pub fn checkpoint(&mut self) -> io::Result<Option<Checkpoint>> {
         let Some(simulation) = self.simulation.checkpoint() else { return Ok(None) };
         Ok(Some(Checkpoint { index: self.recording.index()?, simulation }))
@@ -298,7 +298,7 @@ impl<'a> Recorder<'a> {
     /// Simulates up to the next frame, which is given without its past; none after the end.
     ///
     /// # Errors
-    /// Where the run leaves the numbers, or there is no room for it.
+    /// If the run becomes non-finite, or there is no room for it.
     pub fn advance(&mut self) -> Result<Option<Frame>, SimulateError> {
         let Self { simulation, surveyor, recording, .. } = self;
         let (mut seen, mut failed): (_, Option<io::Error>) = (None, None);
@@ -327,18 +327,19 @@ impl<'a> Recorder<'a> {
         self.surveyor.bounds()
     }
 
-    /// What was simulated.
+    /// The simulated run.
     ///
     /// # Errors
-    /// Where there is no room for it.
+    /// If there is no room for it.
     pub fn finish(self) -> Result<Recorded<'a>, SimulateError> {
         self.finish_after(None)
     }
 
-    /// What was simulated before a breakdown. A run that diverges is wrong long before it stops, and nothing of it is given.
+    /// The part of the run before a breakdown. A run that diverges is wrong long before it stops, so none of it is returned.
     ///
     /// # Errors
-    /// The breakdown, where there is no frame before it or the run diverged; or where there is no room for the recording.
+    /// Returns the breakdown if there is no frame before it or the run diverged. Also fails if there is no room for the
+    /// recording.
     pub fn finish_early(self, breakdown: SimulateError) -> Result<Recorded<'a>, SimulateError> {
         if matches!(breakdown, SimulateError::Recording(_) | SimulateError::Diverged(_)) {
             return Err(breakdown);

@@ -8,17 +8,17 @@ use std::str::FromStr;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
     ranges: Vec<RangeInclusive<usize>>,
-    /// Of these, every so many-th, from the first on.
+    /// Keeps every n-th of these, from the first on.
     every: usize,
 }
 
 impl Selection {
-    /// The first so many frames.
+    /// The first frames, up to this number.
     pub fn first(frames: usize) -> Selection {
         Selection { ranges: if frames == 0 { vec![] } else { vec![0..=frames - 1] }, every: 1 }
     }
 
-    /// Every so many-th frame of the film, from the first one of these on.
+    /// Every n-th frame of the film, from the first one of these on.
     #[must_use]
     pub fn every(self, every: usize) -> Selection {
         Selection { every: every.max(1), ..self }

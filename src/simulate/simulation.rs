@@ -35,7 +35,7 @@ impl<'a> Simulation<'a> {
         Simulation::of(scene, moments, dynamics(scene, effort))
     }
 
-    /// That of somebody else's dynamics, at time 0.
+    /// A simulation of the caller's own dynamics, at time 0.
     pub(super) fn of(scene: &'a Scene, moments: Moments, dynamics: Box<dyn Dynamics>) -> Simulation<'a> {
         let intervals = moments.intervals();
         let counts = ImpactCounts::new(scene);
@@ -49,7 +49,7 @@ impl<'a> Simulation<'a> {
             return Ok(false);
         }
         let done = self.advance_to_next(see);
-        // After what is not finite, nothing could be.
+        // After a non-finite state, no later one could be finite.
         self.next = if done.is_ok() { self.next + 1 } else { usize::MAX };
         done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }

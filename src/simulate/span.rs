@@ -1,4 +1,4 @@
-//! Where everything takes place, from the start of a run until several moments.
+//! The space that a run takes, from its start until several moments.
 
 use glam::{DMat3, DVec3};
 
@@ -19,7 +19,7 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
-/// Where everything takes place from the start of a run until a moment.
+/// The space that a run takes from its start until a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
     /// The time of its last frame, s.
@@ -39,9 +39,9 @@ pub(super) struct JointArrow {
     pub(super) quantity: Quantity,
     /// Its length for one unit, m, if that is given.
     pub(super) scale: Option<f64>,
-    /// Where it begins, m.
+    /// Its root, m.
     pub(super) root: DVec3,
-    /// What it shows.
+    /// The vector that it shows.
     pub(super) vector: DVec3,
 }
 

@@ -20,11 +20,11 @@ use super::{Bounds, Frame, Frames, SimulateError, Span, world};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
-/// What is known of a run as a whole.
+/// Figures on a whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// Where everything takes place, from the start until several moments; the last is the end. A body counts until
-    /// it goes through a plane. Empty if the scene has no body but planes.
+    /// The space that the run takes, from the start until several moments; the last is the end. A body counts until it goes
+    /// through a plane. Empty if the scene has no body but planes.
     pub spans: Vec<Span>,
     /// The first passage of a body through each plane or ground that is given; none where contacts stop bodies.
     pub crossings: Vec<Crossing>,
@@ -32,7 +32,7 @@ pub struct Survey {
     pub overlap: Option<Overlap>,
     /// The first body that starts otherwise than the scene says, since joints hold it.
     pub corrected: Option<Corrected>,
-    /// How large what is to be shown beside the bodies gets.
+    /// The largest sizes of the things shown beside the bodies.
     pub asked: Asked,
     /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
     /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
@@ -41,7 +41,7 @@ pub struct Survey {
     /// The same error relative to the energy that was turned over: the largest kinetic energy, or what contacts have taken, if that is
     /// more. Bodies that only settle hardly move, and a method of first order is wrong by ½ Δt F·v meanwhile.
     pub drift_of_turnover: f64,
-    /// What contacts have done up to the last frame; none without them.
+    /// Totals of the contacts up to the last frame. `None` without contacts.
     pub contacts: Option<ContactTotals>,
     /// The real timestep, s.
     pub timestep: f64,
@@ -49,7 +49,7 @@ pub struct Survey {
     pub steps_per_frame: u32,
 }
 
-/// What contacts have done in a run.
+/// Totals of the contacts in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactTotals {
     /// The number of impacts.
@@ -60,7 +60,7 @@ pub struct ContactTotals {
     pub rubbed: f64,
     /// How deep bodies were within each other at most in a frame, m.
     pub penetration: f64,
-    /// By how much a joint did not hold at most in a frame, m.
+    /// The largest error of a joint in any frame, m.
     pub joints: f64,
 }
 
@@ -76,7 +76,7 @@ impl ContactTotals {
 /// Simulates a scene to learn where it takes place; `seen` is told of every frame.
 ///
 /// # Errors
-/// Where the run leaves the numbers.
+/// If the run becomes non-finite.
 pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, SimulateError> {
     let mut surveyor = Surveyor::new(scene);
     for frame in Frames::new(scene) {
@@ -87,10 +87,10 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Sim
     Ok(surveyor.finish())
 }
 
-/// So many particles of an emitter tell where all of them go.
+/// The number of particles of an emitter that are followed, to estimate the space that all of them take.
 const SOME_PARTICLES: f64 = 500.0;
 
-/// Looks over a run whose frames somebody else makes.
+/// Surveys a run whose frames come from elsewhere.
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
@@ -123,7 +123,7 @@ impl Survey {
 }
 
 impl<'a> Surveyor<'a> {
-    /// Of a run that has not begun.
+    /// A surveyor of a run that has not begun.
     pub fn new(scene: &'a Scene) -> Surveyor<'a> {
         Surveyor {
             scene,
@@ -193,7 +193,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// What is known after the last frame.
+    /// The survey after the last frame.
     pub fn finish(self) -> Survey {
         let Surveyor {
             scene,

@@ -17,13 +17,13 @@ pub struct Swarms {
 }
 
 impl Swarms {
-    /// Of each emitter, at most about so many particles at once: every n-th, always the same ones.
+    /// Keeps about this many particles of each emitter at once, or fewer: every n-th, always the same ones.
     #[must_use]
     pub fn thinned(scene: &Scene, recording: Arc<Recording>, most: f64) -> Swarms {
         Swarms { clouds: Clouds::thinned(scene, most), recording, next: 0 }
     }
 
-    /// For each emitter: every so many-th of its particles is there.
+    /// For each emitter n, if every n-th of its particles is kept.
     #[must_use]
     pub fn strides(&self) -> &[u64] {
         self.clouds.strides()
@@ -38,7 +38,7 @@ impl Swarms {
     /// The particles of a frame, for each emitter in the order of the scene.
     ///
     /// # Errors
-    /// Where the frame is not recorded, or cannot be read.
+    /// If the frame is not recorded, or cannot be read.
     pub fn at(&mut self, frame: usize) -> io::Result<Vec<Swarm>> {
         if !self.clouds.go_on_to(frame, self.next) {
             self.next = self.clouds.first_frame(frame);

@@ -1,4 +1,4 @@
-//! What holds of a run as a whole.
+//! Properties of a whole run.
 
 use super::*;
 
@@ -216,13 +216,13 @@ mod between_frames {
                 assert_eq!(&Frames::at(&scene, frame.time).unwrap(), frame);
                 assert_eq!(&recorded.at(frame.time).unwrap().frame, frame);
             }
-            // What was not recorded is simulated.
+            // A moment that was not recorded is simulated.
             let between = recorded.at(0.21).unwrap().frame;
             assert_eq!(between, Frames::at(&scene, 0.21).unwrap());
             assert_eq!((between.index, between.time), (5, 0.21));
             let height = |frame: &Frame| frame.bodies[0].location.y;
             assert!(height(&frames[5]) > height(&between) && height(&between) > height(&frames[6]));
-            // What is before the beginning or after the end.
+            // Times before the beginning or after the end.
             for (time, index) in [(-1.0, 0), (f64::NAN, 0), (7.0, 10)] {
                 assert_eq!(&recorded.at(time).unwrap().frame, &frames[index]);
             }

@@ -6,7 +6,7 @@ use super::Frame;
 use crate::dynamics::{Anchor, BodySnapshot, Pulley, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
-/// What an arrow of a body shows, in SI units.
+/// The vector that an arrow of a body shows, in SI units.
 pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
     match quantity {
         Quantity::Velocity => frame.velocity,
@@ -24,7 +24,7 @@ pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
     shape.exit(DVec3::ZERO, orientation.conjugate() * direction).unwrap_or(0.0)
 }
 
-/// Where an arrow for a vector begins, m: at the surface of the body, so that all of it is seen.
+/// The root of a vector's arrow, m: at the surface of the body, so that all of it is seen.
 pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     let along = vector.normalize_or_zero();
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
@@ -42,7 +42,7 @@ pub struct JointEnd {
 }
 
 impl JointEnd {
-    /// That of a joint of a scene.
+    /// The end of a joint of a scene.
     pub fn new(scene: &Scene, joint: usize) -> JointEnd {
         let (end, shape) = match scene.joints[joint].kind.between()[1] {
             end @ Anchor::Point(_) => (end, None),
@@ -55,8 +55,8 @@ impl JointEnd {
         JointEnd { joint, end, shape }
     }
 
-    /// What an arrow shows, in SI units, and where it begins, m: at the surface of a body in whose centre the end is. None while
-    /// the body is away.
+    /// The vector of an arrow, in SI units, and its root, m: at the surface of the body whose centre is the end. `None` while the
+    /// body is absent.
     pub fn arrow(&self, quantity: Quantity, frame: &Frame) -> Option<(DVec3, DVec3)> {
         let reaction = frame.reactions.get(self.joint)?;
         let vector = match quantity {
@@ -117,7 +117,7 @@ mod tests {
             (can.clone(), DQuat::IDENTITY, slanted, 0.5 / 0.6),
             (can, turned, slanted, 0.5 / 0.8),
             (Shape::Plane { normal: DVec3::Y }, DQuat::IDENTITY, DVec3::Y, 0.0),
-            // Nothing of a ring is on its axis.
+            // A ring has no material on its axis.
             (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::X, 0.0),
             (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::Y, 2.5),
         ] {

@@ -9,7 +9,7 @@ pub(super) struct Axis {
     is_logarithmic: bool,
 }
 
-/// So many values are named at most, but for one.
+/// The most steps between the values at an axis.
 const TICKS: f64 = 6.0;
 
 /// Less than this is nothing.
@@ -44,7 +44,7 @@ impl Axis {
         Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: true }
     }
 
-    /// Where a value is along the axis, 0 to 1.
+    /// The place of a value along the axis, 0 to 1.
     pub(super) fn part(&self, value: f64) -> f64 {
         let place = if self.is_logarithmic { libm::log10(value.max(LEAST)) } else { value };
         (place - self.min) / (self.max - self.min)

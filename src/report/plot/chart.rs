@@ -39,9 +39,9 @@ pub struct Curve {
 /// Curves over common axes, both logarithmic.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// What is counted from left to right, and from below upwards.
+    /// The labels of the horizontal and the vertical axis.
     pub axes: [String; 2],
     /// The curves.
     pub curves: Vec<Curve>,

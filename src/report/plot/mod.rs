@@ -30,11 +30,11 @@ const WIDTH: f64 = 1100.0;
 const LEFT: f64 = 120.0;
 const RIGHT: f64 = 40.0;
 const TOP: f64 = 92.0;
-/// Of a panel, and from the lower edge of one to the upper edge of the next.
+/// The height of a panel, and the distance from the lower edge of one to the upper edge of the next.
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 66.0;
 
-/// Where a text ends, begins, or has its middle.
+/// The point of a text that its place gives: start, middle or end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Anchor {
     Start,
@@ -42,7 +42,7 @@ enum Anchor {
     End,
 }
 
-/// What a picture consists of. Places are in pixels, from the upper left corner.
+/// An element of a picture. Places are in pixels, from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Line {

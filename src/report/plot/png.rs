@@ -7,7 +7,7 @@ use super::{Anchor, GROUND, Item, Picture, Rgb};
 /// The bytes of the file.
 ///
 /// # Errors
-/// Where it cannot be encoded.
+/// If it cannot be encoded.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -101,7 +101,7 @@ impl Near {
                 let reach = (body.radius + other.radius) * (1.0 + DEEP);
                 let Some(there) = frame.body(other.id) else { return };
                 let square = (there.location - here).length_squared();
-                // By chance there may be any body in a cell, also this one.
+                // A cell may hold unrelated bodies by chance, and also this one.
                 let is_pair = j != i && (body.moves || other.moves);
                 let is_near = is_pair && square < reach * reach;
                 cost = cost.saturating_add(if is_near { show(i.min(j), i.max(j)) } else { 1 });

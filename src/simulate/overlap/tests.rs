@@ -152,7 +152,7 @@ fn the_work_grows_with_the_number_of_bodies_and_not_with_that_of_pairs() {
     assert!(many < 5 * few, "{few} for 500 bodies, {many} for 2000");
 }
 
-/// A thousand at the same place are half a million pairs, of which none is a surprise.
+/// A thousand bodies at one place are half a million pairs, all of which overlap as expected.
 #[test]
 fn where_all_is_near_all_nothing_is_watched() {
     let scene = Scene::parse(

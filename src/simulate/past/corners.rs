@@ -1,4 +1,4 @@
-//! Where a trail has a corner: at the impacts between two frames.
+//! The corners of a trail: at the impacts between two frames.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::way::Passed;
 use crate::dynamics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
-/// A trail shows at most so many impacts between two of its points. More would be too near each other to be told apart.
+/// The most impacts that a trail shows between two of its points. More would be too close to tell apart.
 pub(super) const MOST: usize = 4;
 
 /// A body at a moment.

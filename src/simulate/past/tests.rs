@@ -1,4 +1,4 @@
-//! What is remembered of a run.
+//! Tests of the remembered past.
 
 use glam::DVec3;
 

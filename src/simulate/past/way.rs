@@ -16,7 +16,7 @@ pub struct Way {
     pub body: usize,
     /// Points of the way, the oldest first; the last is the present one.
     pub points: Vec<Passed>,
-    /// Every so many frames a point is kept.
+    /// The number of frames from one kept point to the next.
     pub stride: usize,
 }
 
@@ -34,8 +34,8 @@ pub struct Passed {
 }
 
 impl Passed {
-    /// Where the body was between this point and a later one, m: on a curve of third degree, which meets locations
-    /// and velocities at both. So the way under a constant force is exact, however far apart the points are.
+    /// The place of the body between this point and a later one, m: on a cubic that matches locations and velocities at both. So
+    /// the path under a constant force is exact, however far apart the points are.
     pub fn towards(&self, next: &Passed, time: f64) -> DVec3 {
         let span = next.time - self.time;
         if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
@@ -79,13 +79,14 @@ fn frames_within(intervals: f64) -> usize {
     intervals as usize
 }
 
-/// Every so many frames a point of a trail is kept, as seen from a frame: as few as make at most [`MOST_POINTS`].
+/// The number of frames from one kept point of a trail to the next, as seen from a frame: the smallest power of two that keeps
+/// the trail within [`MOST_POINTS`].
 pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
     let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
     (within.min(frame) / MOST_POINTS + 1).next_power_of_two()
 }
 
-/// Leaves out what is too much between two kept points of a way: more than so many impacts.
+/// Drops impacts beyond the limit between two kept points of a path.
 pub(super) fn thin(way: &mut Vec<(usize, Passed)>) {
     let mut kept = Vec::with_capacity(way.len());
     for run in way.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {

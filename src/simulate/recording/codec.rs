@@ -1,4 +1,4 @@
-//! Moments as bytes: what has not changed since the moment before takes none.
+//! The encoding of moments: unchanged values take no bytes.
 //!
 //! A page is a sequence of moments. Each is, in little-endian numbers:
 //!
@@ -36,7 +36,7 @@ use crate::scene::Scene;
 const HEAD: usize = 12 + Accounts::NAMES.len();
 /// The numbers of a body.
 const NUMBERS: usize = 16;
-/// Where each column of a body begins, and after the last, where it ends.
+/// The first number of each column of a body, and the end of the last one.
 const COLUMNS: [usize; 6] = [0, 3, 7, 10, 13, NUMBERS];
 /// The mask of a body that is not there.
 const ABSENT: u8 = 0x80;
@@ -49,12 +49,12 @@ const AT_REST: [f64; NUMBERS] = {
     numbers
 };
 
-/// Where each column of a joint begins, and after the last, where it ends.
+/// The first number of each column of a joint, and the end of the last one.
 const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
 /// The numbers of a joint.
 const JOINT_NUMBERS: usize = 6;
 
-/// Where the one column of a count begins and ends.
+/// The begin and the end of the one column of a count.
 const COUNT_COLUMNS: [usize; 2] = [0, 1];
 
 /// How many bodies and joints a run has, and how many numbers count its impacts.

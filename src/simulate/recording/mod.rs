@@ -1,7 +1,7 @@
 //! A run that has been simulated: the state of every frame and of the moments between, to be read in any order.
 //!
 //! Memory does not grow with it: moments stand in pages of at most 32 moments or about 1 MB, which a [`Store`] keeps.
-//! A page can be read without those before it. While a run goes on, what is recorded so far can be read.
+//! A page can be read without those before it. The recorded part of a run can be read while the run goes on.
 
 mod codec;
 mod events;
@@ -21,9 +21,9 @@ use crate::dynamics::{BodySnapshot, Snapshot};
 pub use codec::Counts;
 pub use store::{MemoryStore, Store};
 
-/// A page is full after so many moments,
+/// A page is full after this many moments,
 const MOMENTS: usize = 32;
-/// or after so many bytes.
+/// or after this many bytes.
 const BYTES: usize = 1 << 20;
 
 /// The moments of a run, from the first on. One writes, any number read.
@@ -34,7 +34,7 @@ pub struct Recording {
     store: Box<dyn Store>,
 }
 
-/// What is where.
+/// The index of a recording.
 #[derive(Default)]
 struct Contents {
     /// The time of each moment, s, in rising order.
@@ -49,7 +49,7 @@ struct Contents {
 }
 
 impl Recording {
-    /// That of a run of so many bodies and joints which has not begun.
+    /// An empty recording of a run with these numbers of bodies and joints.
     pub fn new(counts: Counts, store: Box<dyn Store>) -> Recording {
         let (encoder, contents) = (Mutex::new(Encoder::new(counts)), RwLock::default());
         Recording { counts, encoder, contents, store }
@@ -58,7 +58,7 @@ impl Recording {
     /// A recording that was [described](Self::index) before, of which the store has all pages.
     ///
     /// # Errors
-    /// Where the description is not one.
+    /// If the description is not one.
     pub fn with_index(counts: Counts, index: &[u8], store: Box<dyn Store>) -> io::Result<Recording> {
         let contents = RwLock::new(Contents::from_bytes(index)?);
         Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
@@ -67,7 +67,7 @@ impl Recording {
     /// Like [`with_index`](Self::with_index), of a run that goes on.
     ///
     /// # Errors
-    /// Where the description is not one.
+    /// If the description is not one.
     pub(super) fn to_be_continued(
         counts: Counts,
         index: &[u8],
@@ -96,11 +96,10 @@ impl Recording {
         Ok(())
     }
 
-    /// Puts the last page into the store, and describes what is where: with this and the store, the recording can be
-    /// read again.
+    /// Puts the last page into the store, and returns an index. With the index and the store, the recording can be read again.
     ///
     /// # Errors
-    /// Where there is no room for the page.
+    /// If there is no room for the page.
     pub fn index(&self) -> io::Result<Vec<u8>> {
         let mut encoder = self.encoder();
         let mut contents = self.contents.write().unwrap_or_else(PoisonError::into_inner);
@@ -251,7 +250,7 @@ impl Reader {
         self.next
     }
 
-    /// The next moment; none at the end of what is recorded so far.
+    /// The next moment. `None` at the end of the recorded part.
     pub(super) fn entry(&mut self) -> io::Result<Option<Entry>> {
         self.advance(None, Decoder::decode)
     }
@@ -259,7 +258,7 @@ impl Reader {
     /// A frame as it was recorded.
     ///
     /// # Errors
-    /// Where it is not there, or cannot be read.
+    /// If it is not there, or cannot be read.
     pub fn frame(&mut self, frame: usize) -> io::Result<Snapshot> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -267,10 +266,10 @@ impl Reader {
         Ok(self.entry()?.ok_or_else(damaged)?.snapshot)
     }
 
-    /// A frame as it can be seen, without what has been before.
+    /// A frame as it can be seen, without its past.
     ///
     /// # Errors
-    /// Where it is not there, or cannot be read.
+    /// If it is not there, or cannot be read.
     pub fn seen(&mut self, frame: usize) -> io::Result<Frame> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -282,7 +281,7 @@ impl Reader {
     /// frame after frame.
     ///
     /// # Errors
-    /// Where the frame is not there, or cannot be read.
+    /// If the frame is not there, or cannot be read.
     pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Frame, Option<BodySnapshot>)> {
         if !self.seek_frame(frame) {
             return Err(damaged());

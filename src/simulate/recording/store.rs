@@ -1,4 +1,4 @@
-//! Where the pages of a recording are.
+//! Storage for the pages of a recording.
 
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,13 +8,13 @@ pub trait Store: Send + Sync {
     /// Adds a page; pages have numbers from 0 on.
     ///
     /// # Errors
-    /// Where there is no room for it.
+    /// If there is no room for it.
     fn put(&self, page: &[u8]) -> io::Result<()>;
 
     /// The page of a number.
     ///
     /// # Errors
-    /// Where it cannot be read, or is not what was put there.
+    /// If it cannot be read, or is not what was put there.
     fn page(&self, number: usize) -> io::Result<Arc<[u8]>>;
 }
 

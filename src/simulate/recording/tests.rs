@@ -14,8 +14,8 @@ fn push(recording: &Recording, frame: usize) {
     recording.push(&Entry { frame: Some(frame), snapshot, impacts, counts }).unwrap();
 }
 
-/// A moment is what has changed since the one before. Who follows a run while it is recorded must not read the
-/// page from its beginning for each frame.
+/// A moment holds the changes since the one before. A reader that follows a run must not decode the page from its beginning for
+/// each frame.
 #[test]
 fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
     let recording =

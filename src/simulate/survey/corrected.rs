@@ -6,7 +6,7 @@ use super::super::Frame;
 use crate::dynamics::BodySnapshot;
 use crate::scene::Scene;
 
-/// That a body starts otherwise than the scene says, since joints hold it.
+/// A body starts with another velocity than the scene gives it, because joints hold it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corrected {
     /// Its name.
@@ -22,7 +22,7 @@ pub struct Corrected {
 impl Corrected {
     /// Compares the first frame with the scene.
     pub(super) fn find(scene: &Scene, frame: &Frame) -> Option<Corrected> {
-        // Rounding is far smaller, and what is larger may be seen.
+        // Rounding errors are far smaller, and larger changes may be visible.
         const NOTICEABLE: f64 = 1e-6;
         if scene.joints.is_empty() {
             return None;
@@ -32,7 +32,7 @@ impl Corrected {
             let body = &scene.bodies[id];
             let is_free = !body.start.fixed && body.motion.is_none();
             let start = &body.start;
-            // One that is given none is set in motion by what guides or drives it.
+            // A body without a given velocity is set in motion by its guide or drive.
             let is_given = start.velocity != DVec3::ZERO || start.angular_velocity != DVec3::ZERO;
             is_free
                 && is_given

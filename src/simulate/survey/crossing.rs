@@ -6,7 +6,7 @@ use super::super::Frame;
 use crate::dynamics::{BodySnapshot, RigidBody, Shape};
 use crate::scene::{Body, Scene};
 
-/// That bodies go through a plane, since nothing keeps them from it.
+/// Bodies go through a plane, because nothing stops them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
     /// The name of the plane; none for the ground of the environment.
@@ -131,12 +131,12 @@ impl Watched {
         side * (body.location - self.point).dot(self.normal) - reach
     }
 
-    /// What rounding may make of a body that just touches, m.
+    /// The rounding error for a body that just touches, m.
     fn tolerance(&self, body: &BodySnapshot) -> f64 {
         1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
     }
 
-    /// What has gone through it.
+    /// The crossing found, if any.
     pub(super) fn finish(self) -> Option<Crossing> {
         self.crossing
     }

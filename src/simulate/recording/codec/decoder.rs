@@ -21,12 +21,12 @@ pub(in super::super) struct Decoder {
 }
 
 impl Decoder {
-    /// For so many bodies and joints, at the beginning of a page.
+    /// A decoder for this many bodies and joints, at the beginning of a page.
     pub(in super::super) fn new(counts: Counts) -> Decoder {
         Decoder { last: Last::new(counts), at: 0 }
     }
 
-    /// Goes back to the beginning of a page, of this or another recording of so many.
+    /// Goes back to the beginning of a page, of this or another recording with the same counts.
     pub(in super::super) fn begin_page(&mut self) {
         self.last.begin_page();
         self.at = 0;
@@ -106,7 +106,7 @@ impl Decoder {
     }
 }
 
-/// What stands before the bodies of a moment.
+/// The header of a moment, before the bodies.
 struct Head {
     frame: Option<usize>,
     numbers: [f64; HEAD],
@@ -154,8 +154,8 @@ struct Parts<'a> {
     impacts: &'a [u8],
 }
 
-/// The parts of the moment at a place of a page of a run with so many joints and counts of impacts. The place becomes that of the
-/// moment after it.
+/// The parts of the moment at a place of a page, for a run with these numbers of joints and impact counts. The place moves to the
+/// next moment.
 fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
@@ -180,14 +180,14 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -
     Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
 }
 
-/// The bytes of a list of things of so many numbers each, and what is behind them.
+/// The bytes of a list whose items have `numbers` numbers each, and the bytes behind the list.
 fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
     rest.split_at_checked(count.saturating_mul(8 * numbers)).ok_or_else(damaged)
 }
 
-/// The things of a list, each of so many numbers.
+/// The items of a list, each made of N numbers.
 fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> io::Result<Vec<T>> {
     let thing = |bytes: &[u8]| {
         let mut numbers = [0.0; N];
@@ -197,7 +197,7 @@ fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> i
     bytes.chunks(8 * N).map(thing).collect()
 }
 
-/// Runs, the bytes of their values, and what is behind them.
+/// Runs, the bytes of their values, and the bytes behind them.
 type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
 
 /// Reads runs of masks that name columns.
@@ -228,7 +228,7 @@ fn width(mask: u8, columns: &[usize]) -> usize {
         .sum()
 }
 
-/// Reads the columns that a mask names, and gives what is behind them.
+/// Reads the columns that a mask names, and returns the bytes behind them.
 fn take_changed<'a>(
     mut values: &'a [u8],
     mask: u8,
@@ -243,7 +243,7 @@ fn take_changed<'a>(
     Ok(values)
 }
 
-/// Reads numbers, and gives what is behind them.
+/// Reads numbers, and returns the bytes behind them.
 fn take<'a>(bytes: &'a [u8], numbers: &mut [f64]) -> io::Result<&'a [u8]> {
     let (mine, rest) = bytes.split_at_checked(8 * numbers.len()).ok_or_else(damaged)?;
     for (number, chunk) in numbers.iter_mut().zip(mine.as_chunks::<8>().0) {

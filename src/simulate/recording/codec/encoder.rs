@@ -13,7 +13,7 @@ pub(in super::super) struct Encoder {
 }
 
 impl Encoder {
-    /// For so many bodies and joints.
+    /// An encoder for this many bodies and joints.
     pub(in super::super) fn new(counts: Counts) -> Encoder {
         Encoder { last: Last::new(counts), masks: Vec::new() }
     }
@@ -60,7 +60,7 @@ impl Encoder {
         let Self { last: Last { joints, .. }, masks } = self;
         masks.clear();
         let start = bytes.len();
-        // What has no reaction does nothing.
+        // A joint without a reaction exerts no force.
         let reactions = snapshot.reactions.iter().copied().chain(std::iter::repeat(Reaction::default()));
         for (last, Reaction { force, torque }) in joints.iter_mut().zip(reactions) {
             let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
