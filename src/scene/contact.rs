@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::dynamics::Surface;
 
-/// What finds out where bodies touch, and stops them there.
+/// The method that detects contacts and stops bodies there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactLaw {
     /// The time of each impact is found within the step.

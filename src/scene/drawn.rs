@@ -28,7 +28,7 @@ impl DrawnFormula {
         DrawnFormula { text, program }
     }
 
-    /// What is written.
+    /// The text as written.
     pub fn text(&self) -> &str {
         &self.text
     }

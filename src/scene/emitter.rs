@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Color;
 use crate::dynamics::{BodyId, ParticleSource, Surface};
 
-/// What sends out particles, and what they look like.
+/// A source of particles, with their look.
 #[derive(Clone, Debug)]
 pub struct Emitter {
     /// Its name, unique among emitters.
@@ -59,7 +59,7 @@ impl Emitter {
     }
 }
 
-/// What evenly spaced values from birth to death come to at an age from 0 to 1.
+/// Interpolates values spaced evenly from birth to death, at an age from 0 to 1.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -14,7 +14,7 @@ use crate::dynamics::{
 pub struct Force {
     /// Its name, unique among forces.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: ForceKind,
     /// The numbers of the emitters on whose particles it acts.
     pub emitters: Vec<usize>,
@@ -42,7 +42,7 @@ pub enum ForceKind {
     },
     /// The force between neutral atoms, for all pairs that are near.
     LennardJones(LennardJones),
-    /// What a liquid carries.
+    /// Buoyancy in a liquid.
     Buoyancy(Buoyancy),
     /// Magnetic dipoles.
     Dipoles(Dipoles),
@@ -58,7 +58,7 @@ pub enum ForceKind {
 }
 
 impl ForceKind {
-    /// What acts on the bodies of a world.
+    /// The forces for a world.
     pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
         match self {
             ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],

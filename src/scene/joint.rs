@@ -11,12 +11,12 @@ use crate::dynamics::{
     Slider, Target,
 };
 
-/// What holds two bodies together, or a body to a point of the world.
+/// A joint: it holds two bodies together, or a body to a point of the world.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// Its name, unique among joints.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: JointKind,
     /// The motor that gives way, if it has one.
     pub servo: Option<Servo>,
@@ -59,7 +59,7 @@ pub struct JointLook {
 }
 
 impl JointKind {
-    /// What holds the bodies of a world.
+    /// The constraint for a world.
     pub fn constraint(&self) -> Arc<dyn Constraint> {
         match self {
             JointKind::Ball(ball) => Arc::new(*ball),
@@ -87,8 +87,8 @@ impl JointKind {
         }
     }
 
-    /// By how much it does not hold, m: how far apart its points are, or by how much its length is off. The closure gives a body; none where
-    /// one of its bodies is away, and for pulleys and gears, which hold no two points together.
+    /// The error of the joint, m: the distance between its two points, or the error of its length. The closure gives the state of
+    /// a body. `None` while a body of the joint is absent, and for pulleys and gears, which hold no two points together.
     pub fn gap(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<f64> {
         let ends = self.between().map(|end| match end {
             Anchor::Body { id, at } => body(id).map(|body| (body.point(at).0, body.orientation)),
@@ -120,7 +120,7 @@ impl JointKind {
 pub struct Course {
     /// The formula.
     pub value: Timed,
-    /// What its unit is in the dynamics' unit: of degrees, π/180.
+    /// One unit of it in the dynamics' unit: for degrees, π/180.
     pub unit: f64,
 }
 

@@ -10,9 +10,9 @@ use crate::dynamics::Reaction;
 pub struct Label {
     /// Its name, unique among labels.
     pub name: String,
-    /// What it says, piece by piece.
+    /// Its text, piece by piece.
     pub text: Vec<Piece>,
-    /// Where it stands.
+    /// Its place.
     pub place: LabelPlace,
     /// The height of its lines, as part of the picture's height; none: as is well read.
     pub size: Option<f64>,
@@ -29,7 +29,7 @@ pub enum Piece {
     Value {
         /// The formula, whose inputs are the values of `inputs`.
         formula: Program,
-        /// What the formula is about.
+        /// The measures that the formula uses.
         inputs: Vec<Measure>,
         /// How the value is written.
         format: Format,
@@ -47,7 +47,7 @@ pub enum Format {
     Scientific(usize),
 }
 
-/// Where a label stands.
+/// The place of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LabelPlace {
     /// At an edge of the picture.
@@ -254,9 +254,9 @@ pub enum JointMeasure {
     TorqueMagnitude,
     /// A component of its torque, N·m.
     Torque(usize),
-    /// Of a hinge: its angle, degrees.
+    /// The angle of a hinge, degrees.
     Angle,
-    /// Of a slider: the way along its axis, m.
+    /// The position of a slider along its axis, m.
     Position,
     /// The rate of that, rad/s or m/s.
     Speed,
@@ -290,7 +290,7 @@ impl JointMeasure {
         ("joint.NAME.speed", JointMeasure::Speed, "the rate of that angle, rad/s, or of that way, m/s"),
     ];
 
-    /// What each is called behind the name of a joint.
+    /// The names behind the name of a joint, with their measures.
     pub fn names() -> impl Iterator<Item = (&'static str, JointMeasure)> {
         JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
     }
@@ -329,7 +329,7 @@ impl JointMeasure {
 pub struct ScaleBar {
     /// Its length, m; none: about a fifth of the picture's width.
     pub length: Option<f64>,
-    /// Where it stands.
+    /// The corner of the picture.
     pub corner: Corner,
 }
 
@@ -338,11 +338,11 @@ pub struct ScaleBar {
 pub struct Grid {
     /// The distance from one line to the next, m; none: after the size of the motion.
     pub spacing: Option<f64>,
-    /// Where it is.
+    /// Its plane.
     pub plane: GridPlane,
 }
 
-/// Where a grid is.
+/// The plane of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GridPlane {
     /// On the ground.

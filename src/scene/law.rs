@@ -10,10 +10,10 @@ use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intr
 use crate::diagnostic::Span;
 use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
-/// What a formula of a force may ask for, those of a potential first.
+/// The quantities that a formula of a force may use, first those of a potential.
 pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];
 
-/// What a potential may ask for.
+/// The quantities that a potential may use.
 pub const OF_PLACE: &[&str] = QUANTITIES.split_at(6).0;
 
 /// The places of quantities among them.
@@ -39,19 +39,19 @@ impl BodyFormula {
         BodyFormula { text, span, resolved }
     }
 
-    /// What is written.
+    /// The formula as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Where it stands.
+    /// Its place in the text.
     pub fn span(&self) -> Span {
         self.span
     }
 }
 
 impl fmt::Debug for BodyFormula {
-    // Where it stands does not change what it is.
+    // The place in the text does not change the formula.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.resolved.fmt(f)
     }
@@ -96,9 +96,9 @@ impl FormulaLaw {
     /// The law of these formulas.
     ///
     /// # Errors
-    /// Where the derivatives of the potential are too long.
+    /// If the derivatives of the potential are too long.
     pub fn new(force: [OfBody; 3], potential: Option<OfBody>) -> Result<FormulaLaw, ExpressionError> {
-        /// What a formula of a thousand letters may come to.
+        /// The most operations allowed in a derivative; meant for formulas of up to a thousand letters.
         const MOST: u64 = 100_000;
         let formulas = force.each_ref().map(OfBody::resolved);
         let program = Wide::new(&formulas.each_ref());

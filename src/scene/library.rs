@@ -1,6 +1,6 @@
 //! The materials that every scene knows by name, without declaring them.
 //!
-//! What POV-Ray is told of each stands in `templates/library/`, in the file of its family.
+//! POV-Ray's definition of each stands in `templates/library/`, in the file of its family.
 
 use super::{Color, Finish, Look};
 
@@ -9,17 +9,17 @@ use super::{Color, Finish, Look};
 pub struct LibraryMaterial {
     /// Its name, as scenes write it.
     pub name: &'static str,
-    /// What it looks like, in one line without a full stop.
+    /// Its look, in one line without a full stop.
     pub meaning: &'static str,
     /// Its color where a scene gives no other, as `0xrrggbb`; none: it has colors of its own, and takes no other.
     pub color: Option<u32>,
     /// The template that makes it, below `templates/library/` and without its ending.
     pub family: &'static str,
-    /// What its pattern does on a body.
+    /// The behaviour of its pattern on a body.
     pub pattern: Pattern,
     /// How strongly it refracts light; none: it is opaque.
     pub ior: Option<f64>,
-    /// What is left of it where no POV-Ray draws: in the preview and in models.
+    /// Its approximation without POV-Ray: in the preview and in models.
     pub plain: PlainLook,
 }
 
@@ -37,7 +37,7 @@ pub struct PlainLook {
     pub roughness: f64,
 }
 
-/// That of a material of which nothing else is said.
+/// The look of a material that gives none of these values.
 const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
 
 impl LibraryMaterial {
@@ -57,7 +57,7 @@ impl LibraryMaterial {
     }
 }
 
-/// What the pattern of a material does on a body.
+/// The behaviour of a material's pattern on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// There is none: it looks the same from all sides, however it is turned.

@@ -10,16 +10,16 @@ use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
 use crate::dynamics::Surface;
 
-/// What bodies look like.
+/// A material of bodies.
 #[derive(Clone, Debug)]
 pub struct Material {
     /// Its name: that of the file, or one of the palette's.
     pub name: String,
-    /// What it is made of.
+    /// Its look.
     pub look: Look,
 }
 
-/// What a material is made of.
+/// The look of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
     /// One color all over.
@@ -103,7 +103,7 @@ impl Finish {
         }
     }
 
-    /// What it is like, in one line.
+    /// Its description, in one line.
     pub fn summary(self) -> &'static str {
         match self {
             Finish::Matte => "Like chalk",
@@ -119,7 +119,7 @@ impl Finish {
 /// From where the scene is seen. What is not given follows from the motion.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// Where the camera is, m.
+    /// The place of the camera, m.
     pub location: Option<DVec3>,
     /// The point in the middle of the picture, m.
     pub look_at: Option<DVec3>,
@@ -136,7 +136,7 @@ pub struct Camera {
 /// How a camera moves: what is not given stays as it is at the start.
 #[derive(Clone, Debug, Default)]
 pub struct CameraMotion {
-    /// Where it is, m.
+    /// The place of the camera, m.
     pub location: Option<TimedVector>,
     /// The point in the middle of the picture, m.
     pub look_at: Option<TimedVector>,
@@ -148,7 +148,7 @@ pub struct CameraMotion {
     pub orbit: Option<f64>,
 }
 
-/// That a camera goes along with a body.
+/// A camera that follows a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follow {
     /// The number of the body.
@@ -178,7 +178,7 @@ pub enum Projection {
         /// The horizontal field of view, degrees (as POV-Ray takes it).
         angle: f64,
     },
-    /// By parallel rays, as in a technical drawing.
+    /// By parallel rays, as in a technical drawing: size does not depend on distance.
     Orthographic {
         /// The width that is seen, m; none: that of the motion.
         width: Option<f64>,
@@ -237,7 +237,7 @@ pub struct View {
 pub struct Light {
     /// Its name, unique among lights.
     pub name: String,
-    /// What it is.
+    /// The kind of the light.
     pub kind: LightKind,
     /// Its color.
     pub color: Color,
@@ -252,12 +252,12 @@ pub struct Light {
 pub enum LightKind {
     /// A lamp without size.
     Point {
-        /// Where it is, m.
+        /// The place of the lamp, m.
         location: TimedVector,
     },
     /// A lamp with a size.
     Area {
-        /// Where its centre is, m.
+        /// The centre of the lamp, m.
         location: TimedVector,
         /// Its diameter, m.
         size: f64,
@@ -272,7 +272,7 @@ pub enum LightKind {
 /// Ground, sky and fog.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// What goes together where nothing else is given.
+    /// The preset, which supplies the parts that are not given.
     pub preset: Preset,
     /// The ground, if there is one.
     pub ground: Option<Ground>,
@@ -306,20 +306,20 @@ pub struct Ground {
 /// The sky.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sky {
-    /// That of the preset.
+    /// The gradient of the preset.
     Gradient,
     /// The same color everywhere.
     Plain(Color),
 }
 
-/// What goes to POV-Ray as it is.
+/// Code and settings passed to POV-Ray as they are.
 #[derive(Clone, Debug)]
 pub struct PovRay {
     /// Include files.
     pub include: Vec<Include>,
     /// Files that POV-Ray's own words read.
     pub assets: Vec<Asset>,
-    /// What else POV-Ray's own words name as a file, where they are trusted to: the name between its quotes, and how it is read.
+    /// Other files that the scene's trusted POV-Ray code names: the name between its quotes, and how it is read.
     pub reads: Vec<(FileKind, String)>,
     /// POV-Ray's own words, before the bodies.
     pub sdl: Option<String>,
@@ -334,7 +334,7 @@ pub struct PovRay {
 /// A file that scripts read, of which a copy stands beside them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asset {
-    /// What scripts call it: the path of its copy below the folder of all copies, with `/`.
+    /// The name in scripts: the path of its copy below the folder of all copies, with `/`.
     pub name: String,
     /// The path of its file.
     pub path: PathBuf,
@@ -372,7 +372,7 @@ pub struct Output {
     pub width: u32,
     /// Height, pixels.
     pub height: u32,
-    /// Where the part stands that all scripts have in common.
+    /// The place of the part that all scripts have in common.
     pub layout: Layout,
     /// Whether nothing stands behind the bodies: no sky, no ground, and alpha in the images.
     pub transparent: bool,
@@ -380,7 +380,7 @@ pub struct Output {
     pub video_rate: Option<f64>,
 }
 
-/// Where the part stands that all scripts have in common.
+/// The place of the part that all scripts have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// In every script: a node of a cluster needs one file.

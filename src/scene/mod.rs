@@ -73,7 +73,7 @@ pub(crate) fn is_possible_number_of_frames(frames: usize) -> bool {
 pub struct Scene {
     /// The name of the scene's file without its ending; `scene` for a text without a file.
     pub name: String,
-    /// What the scene shows.
+    /// The title of the scene.
     pub title: Option<String>,
     /// How the world is advanced.
     pub simulation: Simulation,
@@ -81,9 +81,9 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The forces that are not a single body's own, in the order of the file.
     pub forces: Vec<Force>,
-    /// What holds bodies together, in the order of the file.
+    /// Joints, in the order of the file.
     pub joints: Vec<Joint>,
-    /// What sends out particles, in the order of the file.
+    /// Emitters of particles, in the order of the file.
     pub emitters: Vec<Emitter>,
     /// The materials of the file in its order, then those of bodies' own, the library and the palette.
     pub materials: Vec<Material>,
@@ -103,17 +103,17 @@ pub struct Scene {
     pub scale_bar: Option<ScaleBar>,
     /// The grid, if there is one.
     pub grid: Option<Grid>,
-    /// What goes to POV-Ray as it is.
+    /// Code and settings passed to POV-Ray as they are.
     pub povray: PovRay,
     /// The images that the scripts are meant for.
     pub output: Output,
     /// A digest (SHA-256, in hexadecimal) of all texts and meshes that the scene was read from.
     pub digest: String,
-    /// Where the text says what a run may show to be wrong; the texts are those of `warnings`.
+    /// The places in the text that errors of a run point at. The texts are those of `warnings`.
     pub places: Places,
     /// The values that replaced those of the file, as they were written: `simulation.step=0.001`.
     pub overrides: Vec<String>,
-    /// What was noticed and is no error.
+    /// The warnings.
     pub warnings: Report,
 }
 

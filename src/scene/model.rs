@@ -23,7 +23,7 @@ pub struct Simulation {
     pub method: &'static Method,
     /// The acceleration of every body that can move, m/s².
     pub gravity: DVec3,
-    /// What stops bodies where they touch; none: they pass through each other.
+    /// The method that stops bodies where they touch. `None`: bodies pass through each other.
     pub contacts: Option<ContactLaw>,
 }
 
@@ -64,7 +64,7 @@ pub struct Body {
     pub name: Arc<str>,
     /// Its form.
     pub shape: Shape,
-    /// What it is at the start.
+    /// Its state at the start.
     pub start: RigidBody,
     /// Its magnetic moment in its own axes, A m².
     pub magnetic_moment: DVec3,
@@ -79,7 +79,7 @@ pub struct Body {
     pub material: Option<usize>,
     /// How it differs in pictures from what it is in mechanics.
     pub look: Arc<BodyLook>,
-    /// What is shown of it beside itself. Copies of a body share it.
+    /// The physics shown beside the body. Copies of a body share it.
     pub showing: Arc<Showing>,
 }
 

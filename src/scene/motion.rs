@@ -10,7 +10,7 @@ use crate::dynamics::{Kinematics, Motion, Track};
 /// A motion that is given.
 #[derive(Clone, Debug)]
 pub enum BodyMotion {
-    /// By formulas of the time.
+    /// By formulas in the time.
     Formula {
         /// The centre of mass, m.
         location: TimedVector,
@@ -22,7 +22,7 @@ pub enum BodyMotion {
 }
 
 impl BodyMotion {
-    /// Where the body is at a time (s): its centre of mass (m), and how it is turned.
+    /// The place of the body at a time (s): its centre of mass (m), and its orientation.
     pub fn place(&self, t: f64) -> (DVec3, DQuat) {
         match self {
             BodyMotion::Formula { location, orientation } => (location.at(t), orientation.at(t).0),
@@ -68,7 +68,7 @@ pub enum TimedOrientation {
     Axis {
         /// The axis, a unit vector.
         axis: DVec3,
-        /// By so much, degrees.
+        /// The angle of the rotation, degrees.
         angle: Timed,
     },
     /// It does not change.

@@ -29,7 +29,7 @@ pub(super) struct Palette {
     by_name: HashMap<&'static str, usize>,
 }
 
-/// What a body without a material looks like.
+/// The look of a body without a material.
 #[derive(Clone, Copy)]
 pub(super) enum Usual {
     /// One of the colors.

@@ -1,8 +1,8 @@
-//! Where in its text a scene says things that only a run shows to be wrong.
+//! Places in a scene's text that errors of a run point at.
 
 use crate::diagnostic::Span;
 
-/// Where in its text a scene names its bodies, and what else errors of a run point at.
+/// The places at which a scene names its bodies, and others that errors of a run point at.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     /// The name of each body, in the order of [`Scene::bodies`](super::Scene::bodies).

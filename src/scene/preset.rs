@@ -40,7 +40,7 @@ impl Preset {
         }
     }
 
-    /// What it looks like, in a line.
+    /// Its look, in a line.
     pub fn meaning(self) -> &'static str {
         match self {
             Preset::Daylight => "A blue sky over light tiles: the usual one",

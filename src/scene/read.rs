@@ -17,7 +17,7 @@ const SMALLEST: f64 = 1e-100;
 /// The largest magnitude: its square, and products of three, are still numbers.
 const LARGEST: f64 = 1e100;
 
-/// That a value is of another type than it should be.
+/// The error for a value of the wrong type.
 pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     let message = format!("expected {}, found {}", expected.in_words(), node.in_words());
     Diagnostic::error(Code::WrongType, message).at(node.span, "")
@@ -93,7 +93,7 @@ pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagno
     }
 }
 
-/// So many numbers; every wrong one is an error of its own.
+/// Reads `N` numbers. Each wrong number gives its own error.
 pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64; N], Vec<Diagnostic>> {
     let items = items(node, &Kind::Numbers(N, bound), N, N).map_err(|error| vec![error])?;
     let (mut numbers, mut errors) = ([0.0; N], Vec::new());
@@ -164,7 +164,7 @@ pub(super) fn list_of_body(
     if errors.is_empty() { Ok(list) } else { Err(errors) }
 }
 
-/// So many formulas, or numbers in their place; every wrong one is an error of its own.
+/// Reads `count` formulas or numbers. Each wrong one gives its own error.
 pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>> {
     let items = items(node, &Kind::Formulas(count), count, count).map_err(|error| vec![error])?;
     let is_formula = |item: &&Node| matches!(item.value, Value::String(_) | Value::Invalid);

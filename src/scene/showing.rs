@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Color;
 
-/// What is shown of a body beside itself.
+/// The physics shown beside a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Showing {
     /// Arrows for its vectors, in the order of [`Quantity::OF_BODIES`].
@@ -13,7 +13,7 @@ pub struct Showing {
     pub loads: [Option<Arrow>; 3],
     /// Its own axes.
     pub axes: Option<BodyAxes>,
-    /// Where it has been, every so many seconds.
+    /// Ghosts: its earlier poses, at regular intervals.
     pub ghosts: Option<Ghosts>,
     /// The way that it has come.
     pub trail: Option<Trail>,

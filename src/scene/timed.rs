@@ -36,12 +36,12 @@ impl std::fmt::Debug for TimeFormula {
     }
 }
 
-/// What is computed for a formula and its derivatives; the inputs are the time and the formula's numbers.
+/// The programs for a formula and its derivatives. Their inputs are the time and the formula's numbers.
 struct Programs {
     value: Code,
     rate: Code,
     curvature: Code,
-    /// What the value is computed from, to tell why it has none.
+    /// The formula that the value is computed from, to explain a non-finite value.
     formula: Resolved,
     /// How many operations the three have together.
     operations: u64,
@@ -51,7 +51,7 @@ struct Programs {
 #[derive(Debug, PartialEq)]
 struct Written {
     text: Arc<str>,
-    /// Where its parts stand.
+    /// The places of its parts.
     ranges: Box<[[u32; 2]]>,
 }
 
@@ -68,14 +68,14 @@ impl Formulas {
     /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
     ///
     /// # Errors
-    /// Where it is nested too deeply, or its derivatives are too long.
+    /// If it is nested too deeply, or its derivatives are too long.
     pub(super) fn read(
         &mut self,
         text: Arc<str>,
         span: Span,
         resolved: &Resolved,
     ) -> Result<Arc<TimeFormula>, ExpressionError> {
-        /// What a formula of a thousand letters may come to, and no more than is compiled at once.
+        /// The most operations allowed in a derivative, and in one compilation; meant for formulas of up to a thousand letters.
         const MOST: u64 = 100_000;
         let rate = resolved.derivative(0);
         let curvature = if rate.operations() > MOST { None } else { Some(rate.derivative(0)) };
@@ -120,7 +120,7 @@ fn bits(numbers: &[f64]) -> impl Iterator<Item = u64> {
 }
 
 impl TimeFormula {
-    /// What is written.
+    /// The formula as written.
     pub fn text(&self) -> &str {
         &self.written.text
     }

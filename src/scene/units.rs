@@ -134,8 +134,8 @@ pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     is_unit(unit).then_some((number, unit))
 }
 
-/// What a number with a unit is in the unit of a key, as a scene writes it. Of a key without a unit, the unit of the
-/// scene language for that quantity counts.
+/// Converts a number to the unit of a key, as a scene writes it. For a key without a unit, it converts to the scene language's
+/// unit for that quantity.
 pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
     let factor = match (factor(unit, of), of) {
         (None, "") => UNITS.iter().find(|known| known.names.contains(&unit)).map(|known| known.factor),

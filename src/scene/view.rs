@@ -33,7 +33,7 @@ impl<'a> NamedTable<'a> {
         &self.entry.name.text
     }
 
-    /// Where the name stands.
+    /// The place of the name.
     pub(super) fn span(self) -> Span {
         self.entry.name.span
     }
@@ -67,12 +67,12 @@ impl<'a> View<'a> {
         found
     }
 
-    /// Where the value of a key stands.
+    /// The place of a key's value.
     pub(in crate::scene) fn span(&self, name: &str) -> Option<Span> {
         self.node(name).map(|node| node.span)
     }
 
-    /// Where a key itself stands.
+    /// The place of a key.
     pub(in crate::scene) fn key_span(&self, name: &str) -> Option<Span> {
         self.table?.get(name).map(|entry| entry.name.span)
     }

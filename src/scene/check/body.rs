@@ -18,7 +18,7 @@ const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
 /// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
-/// What was made of the body before.
+/// The previous body that was made.
 struct Last {
     /// The table of its shape.
     table: Option<Table>,
@@ -45,7 +45,7 @@ pub(super) fn read(
         let before = context.diagnostics.len();
         let body = table.look(|view| {
             let table = view.table("shape");
-            // Copies that share a table share what is made of it.
+            // Copies that share a table also share the result.
             let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
             let shape = same.map(|last| last.shape.clone());
             let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
@@ -58,7 +58,7 @@ pub(super) fn read(
                 motion.map_or((None, own), |(motion, presence)| (Some(motion), presence));
             presence::never(name, view, &presence, simulation, context);
             if let Some(motion) = &motion {
-                // What follows from where bodies begin, rest lengths of springs say, follows from where they really are.
+                // Rest lengths follow from the places where bodies really are, not from those given in the table.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }
@@ -185,7 +185,7 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     1.0
 }
 
-/// What is wrong with a number that should be positive and finite, and has been computed.
+/// Describes a computed number that should be positive and finite, and is not.
 fn extreme(number: f64) -> &'static str {
     if number > 0.0 { "larger than any number" } else { "smaller than any number" }
 }
@@ -201,7 +201,7 @@ fn inertia_of_shape(
 ) -> DVec3 {
     let inertia = shape.inertia(mass);
     let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
-    // Of a mesh without a solid, more has been said.
+    // A mesh without a solid has its own error already.
     if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
         let error = Diagnostic::error(Code::ImpossibleInertia, message);
@@ -270,7 +270,7 @@ fn euler(angles: DVec3) -> DQuat {
 
 /// The number of a material of a body's own. Copies share it as far as they look the same.
 fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
-    /// So many of the latest materials are looked through.
+    /// The search looks at this many of the latest materials.
     const LATEST: usize = 16;
     if let Some(original) = context.groups.original(name) {
         let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);

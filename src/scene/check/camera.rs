@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
-/// What `--view` takes for all views, so no view can have this name.
+/// The word for all views in `--view`, so no view can have this name.
 const ALL: &str = "all";
 
 /// Reads the main camera.
@@ -49,7 +49,7 @@ fn camera(
 ) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
-    // What neither says has a default, which would hide what the main camera says.
+    // Takes a key from the first table that gives it, so that a default of the view does not hide the main camera's value.
     let of = |key: &str| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
     for key in ["location", "look_at", "angle"] {
         motion::finite(tables[0].raw(key), simulation, context);
@@ -81,7 +81,7 @@ fn camera(
         tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
     let open = number("shutter").filter(|open| *open > 0.0);
     misplaced(&tables[0], orthographic, number("aperture").is_some(), open.is_some(), context);
-    // What a view inherits has been said of the main camera.
+    // An error in an inherited key is reported for the main camera.
     if let (Some(open), Some(span)) = (tables[0].number("shutter"), tables[0].span("shutter")) {
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
     }
@@ -130,7 +130,7 @@ fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     })
 }
 
-/// Warns of a camera that follows a body which is never there. What a view inherits has been said of the main camera.
+/// Warns of a camera that follows a body which is never present. Errors in inherited keys are reported for the main camera.
 fn nobody(
     keys: &Keys<'_>,
     motion: &CameraMotion,
@@ -149,7 +149,7 @@ fn nobody(
 
 /// The error of a shutter that is still open when the next image begins.
 fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
-    // The time between 30 frames a second is 0.0333 s to whoever writes it by hand.
+    // A user writes the time between 30 frames a second as 0.0333 s.
     const TOLERANCE: f64 = 0.01;
     let interval = 1.0 / simulation.frame_rate;
     let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::diagnostic::{Code, Diagnostic, Severity, Sources};
 
-/// What the lack of something that could not be read may lead to.
+/// Errors that may only follow from something unreadable.
 const OF_LACK: [Code; 6] = [
     Code::MissingKey,
     Code::UnknownName,
@@ -18,14 +18,14 @@ const OF_LACK: [Code; 6] = [
 pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {
     let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
     if found.iter().chain(unreadable).any(is_error) {
-        // Bodies that are there, and wrong, may not count as such.
+        // Bodies may be present but wrong, and then do not count.
         found.retain(|diagnostic| diagnostic.code != Code::NoBodies);
     }
     if unreadable
         .iter()
         .any(|diagnostic| matches!(diagnostic.code, Code::CannotInclude | Code::CyclicInclude))
     {
-        // What is missing may be there.
+        // Something reported as missing may have been the unreadable part.
         found.retain(|diagnostic| !OF_LACK.contains(&diagnostic.code));
     }
     let syntax: Vec<&Diagnostic> = unreadable.iter().filter(|d| is_syntax(d.code)).collect();

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 use crate::dynamics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, Simulation};
 
-/// What a surface is like.
+/// The properties of a surface.
 const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
 /// The keys of a body that need contacts.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
@@ -20,7 +20,7 @@ const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "co
 /// allows as much where bodies overlap.
 const BELOW: f64 = 1e-9;
 
-/// What stops bodies where they touch, if anything does.
+/// The contact law of the scene, if it has one.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
     let word = simulation.text("contacts")?;
     ContactLaw::ALL.into_iter().find(|law| law.name() == word)
@@ -100,7 +100,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    // What is wrong with the word has been said.
+    // An error in the word has been reported.
     if simulation.contacts.is_none() && !table.has("contacts") {
         needed(root, &table, context);
     }
@@ -157,7 +157,7 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     }
 }
 
-/// Where `simulation.contacts` belongs, and the text that puts it there.
+/// The place for `simulation.contacts`, and the text to insert there.
 fn insertion(
     root: &View<'_>,
     simulation: &View<'_>,

@@ -13,11 +13,11 @@ pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
 pub(super) const MAX_STEPS: f64 = 1e11;
 /// More timesteps than anybody wants who has not said how long one is: five days of 1/240 s.
 const MANY_STEPS: f64 = 1e8;
-/// So many timesteps are taken in the shortest time that the start shows, where nobody has said how long one is.
+/// The number of time steps in the shortest time scale of the initial state, where the scene gives no step.
 const STEPS_OF_A_TIME: f64 = 100.0;
-/// So many frames make a film of 20 seconds.
+/// The number of frames in a film of 20 seconds.
 const USUAL_FRAMES: f64 = 500.0;
-/// So many bodies are looked at, each with each.
+/// The most bodies that are compared in pairs.
 const MAX_BODIES: usize = 1000;
 
 /// How many frames and timesteps there are.

@@ -16,19 +16,19 @@ use crate::scene::{Body, Color, ContactLaw, Emitter, Simulation};
 
 /// More particles at once than anybody wants to draw.
 const MAX_ALIVE: f64 = 1_000_000.0;
-/// So many that collide are bearable where few bodies are computed exactly.
+/// The most colliding particles for contacts that are computed one event at a time.
 const MAX_COLLIDING: f64 = 1_000.0;
 /// More timesteps before the run than anybody wants to wait for.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
 /// Births before the run are numbered, and from about this number on an `f64` cannot tell their times apart.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
-/// So many values of a formula with random numbers are looked at.
+/// The number of samples taken of a formula with random numbers.
 const DRAWS: u64 = 4096;
 
 /// The keys of a surface.
 const SURFACE: [&str; 2] = ["restitution", "friction"];
 
-/// What an emitter is read with.
+/// The inputs for reading an emitter.
 struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
@@ -159,7 +159,7 @@ impl Reader<'_, '_> {
                     break;
                 }
             }
-            // That contacts are missing is said of all keys that need them.
+            // Missing contacts are reported once for all keys that need them.
             _ => {}
         }
     }
@@ -209,7 +209,7 @@ impl Reader<'_, '_> {
         (lifetime, longest)
     }
 
-    /// Draws many values of a formula, and reports the first that is not finite or of which something is said. Gives the largest.
+    /// Draws many values of a formula. Reports the first that is non-finite or has another mistake. Returns the largest.
     fn each_draw(
         &mut self,
         key: &str,
@@ -246,7 +246,7 @@ impl Reader<'_, '_> {
         largest
     }
 
-    /// Where they begin, and the body that sends them out.
+    /// The place where particles begin, and the body that sends them out.
     fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
         let from = self.view.table("from");
         let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
@@ -291,7 +291,7 @@ impl Reader<'_, '_> {
         (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
     }
 
-    /// What happens before the run is computed step by step, as the run is.
+    /// Limits the time before the run, which is computed step by step, as the run is.
     fn not_too_early(&mut self, emitter: &Emitter) {
         let births = emitter.source.births;
         let before = births.start.max(-emitter.source.longest_life);

@@ -15,7 +15,7 @@ pub(super) fn body(node: &Node, context: &Context<'_>) -> Option<usize> {
     node.as_str().and_then(|name| context.names.bodies.get(name)).copied()
 }
 
-/// What is written for an end: a body by its name, a point of a body, or a point of the world.
+/// The end as written: a body by its name, a point of a body, or a point of the world.
 pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
     match node.value {
         Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
@@ -33,13 +33,13 @@ pub(super) fn says_point(node: &Node) -> bool {
     matches!(&node.value, Value::Table(table) if table.get("at").is_some())
 }
 
-/// Where a body is at the start, and how it is turned.
+/// The pose of a body at the start.
 pub(super) fn pose(id: BodyId, bodies: &[Body]) -> (DVec3, DQuat) {
     let start = &bodies[id.index()].start;
     (start.location, start.orientation)
 }
 
-/// Where an end is at the start.
+/// The place of an end at the start.
 pub(super) fn place(end: Anchor, bodies: &[Body]) -> DVec3 {
     end.place(|id| pose(id, bodies))
 }

@@ -8,7 +8,7 @@ use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// What reads the geometry of bodies before they are checked; a mesh that several have is read once.
+/// Reads the geometry of bodies before they are checked. A mesh that several bodies have is read once.
 pub(super) struct BodyReader<'a> {
     context: Context<'a>,
     /// The table of the shape of the body before, and its radius.

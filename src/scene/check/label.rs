@@ -75,7 +75,7 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
     LabelPlace::Body { body, side: view.choice("side", Side::ALL, Side::name), ghosts }
 }
 
-/// The pieces of a text. What is wrong with it is said at its place.
+/// The pieces of a text. Reports mistakes at their places.
 fn pieces(
     text: &str,
     span: Span,
@@ -139,7 +139,7 @@ impl Reader<'_, '_, '_> {
         }
         if let Some((begin, length)) = words.find('{').and_then(|at| Some((at, words[at..].find('}')?))) {
             let here = range.start + begin..range.start + begin + length + 1;
-            let message = "what stands in braces is shown as it is";
+            let message = "text in braces is shown unchanged";
             let warning = Diagnostic::warning(Code::LabelSyntax, message);
             let meant = format!("${}", &self.text[here.clone()]);
             let at = self.at(&here);
@@ -214,7 +214,7 @@ impl Reader<'_, '_, '_> {
         for (name, measure, _) in RunMeasure::ALL {
             // Beside a body, `impacts` are those of the body.
             let is_known = measure != RunMeasure::Impacts || has_contacts && !of_body;
-            // Of ghosts, no more is kept than what they look like.
+            // Ghosts keep only their look, so of the run only the time is known.
             if is_known && (with_run || measure == RunMeasure::Time) {
                 add(name, Measure::Run(measure));
             }
@@ -228,7 +228,7 @@ impl Reader<'_, '_, '_> {
         (scope, inputs)
     }
 
-    /// Keeps what is wrong with a formula that begins at a place of the text.
+    /// Reports the errors of a formula that begins at a place of the text.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -240,7 +240,7 @@ impl Reader<'_, '_, '_> {
                 continue;
             }
             let at = self.at(&(start + error.range.start..start + error.range.end));
-            // What is said of variables is not all that there is here.
+            // An error about variables alone does not list every name that labels have.
             let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
             let diagnostic = Diagnostic::error(error.code, error.message);
             let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();

@@ -24,7 +24,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
     }
     if let Some(material) = view.text("like").and_then(LibraryMaterial::named) {
         if let (Some(span), None) = (view.key_span("color"), material.color) {
-            let message = format!("the color of what is like `{}` has no effect", material.name);
+            let message = format!("a color has no effect on a material that is like `{}`", material.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.push(warning.at(span, "it has colors of its own"));
         }

@@ -17,7 +17,7 @@ pub(super) struct Meshes {
     known: HashMap<Key, Result<Arc<Mesh>, String>>,
     /// The digests of the files and where they are named first, in the order of the scene.
     files: Vec<(PathBuf, [u8; 32])>,
-    /// Where each mesh is named first, and its triangles.
+    /// For each mesh, the place of its first name, and its number of triangles.
     sizes: Vec<(Span, usize)>,
     /// How often each file has been read after the first time, with other numbers.
     readings: HashMap<PathBuf, usize>,
@@ -25,18 +25,18 @@ pub(super) struct Meshes {
     triangles: usize,
 }
 
-/// So often is a file read with other numbers.
+/// The most times that one file is read with other settings.
 const MOST_READINGS: usize = 1000;
 /// A file is not read again where there are more triangles already.
 const MOST_TRIANGLES: usize = 4_000_000;
 
-/// A file, and the bits of the numbers with which it is read.
+/// A file, and the bits of the numbers it is read with.
 type Key = (PathBuf, Vec<u64>);
 
 /// Scripts that are together larger than this many bytes are worth a word.
 const LARGE: f64 = 5e8;
-/// What a triangle takes in a script, with its share of the vertices, bytes: about half a vertex of three numbers and
-/// the numbers of three vertices.
+/// The size of a triangle in a script with its share of the vertices, bytes: about half a vertex of three numbers, and the
+/// numbers of three vertices.
 const BYTES_OF_A_TRIANGLE: f64 = 45.0;
 
 impl Meshes {
@@ -82,7 +82,7 @@ impl Meshes {
         mesh
     }
 
-    /// That meshes stand in so many scripts that these are a burden.
+    /// The warning that the scripts repeat a mesh so often that their size is a burden.
     #[allow(clippy::cast_precision_loss, reason = "an estimate")]
     pub(super) fn too_large_to_repeat(
         &self,
@@ -124,7 +124,7 @@ pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<
     Some(Shape::Mesh { mesh: mesh?, scale: 1.0 })
 }
 
-/// What stands in the file of a table, which is read once.
+/// The contents of a table's file, which is read once.
 fn file(
     view: &View<'_>,
     context: &mut Context<'_>,
@@ -152,7 +152,7 @@ fn smooth(view: &View<'_>) -> Option<f64> {
     }
 }
 
-/// That the mesh of a table, which has the given shape, encloses no solid, if it does not.
+/// The error for a mesh of this shape that encloses no solid. `None` if it encloses one.
 pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
     let Shape::Mesh { mesh, .. } = shape else { return None };
     let span = view.span("file")?;

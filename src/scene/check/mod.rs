@@ -49,7 +49,7 @@ use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::dynamics::{Presence, Track};
 
-/// What a scene is made from.
+/// The inputs of the check.
 pub(super) struct Input<'a> {
     /// The name of the scene.
     pub(super) name: &'a str,
@@ -63,12 +63,12 @@ pub(super) struct Input<'a> {
     pub(super) text: &'a str,
 }
 
-/// What every part of the check works with.
+/// The state shared by all parts of the check.
 struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
     names: Names,
-    /// Where the tables of the scene stand.
+    /// The places of the scene's tables.
     tables: HashMap<Arc<str>, Span>,
     /// The bodies that are copies of others.
     groups: Groups,
@@ -78,9 +78,9 @@ struct Context<'a> {
     bodies_are_wrong: bool,
     /// The names of the forces that are wrong.
     wrong_forces: HashSet<Arc<str>>,
-    /// Whether what is looked at is a part of a table, which needs none of its keys.
+    /// Whether the check looks at a part of a table, which needs none of its keys.
     is_partial: bool,
-    /// What has been said of things that may have it from one and the same text: code and place.
+    /// The code and place of errors reported for things that may share one text.
     told: HashSet<(Code, Span)>,
     /// How many copies of each body have been found wrong.
     wrong_copies: HashMap<String, usize>,
@@ -117,7 +117,7 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What a part of the check needs whose diagnostics are of no use.
+    /// A context for parts of the check whose diagnostics are ignored.
     fn silent() -> Context<'static> {
         Context {
             folder: None,
@@ -150,26 +150,27 @@ impl Context<'_> {
         }
     }
 
-    /// Notes what is in a file that is read.
+    /// Adds the contents of a file.
     fn add_file(&mut self, bytes: &[u8]) {
         self.files.push(Sha256::digest(bytes).into());
     }
 
-    /// Whether there are errors among what has been said since there were `before` diagnostics.
+    /// Whether there are errors among the diagnostics since there were `before`.
     fn has_errors(&self, before: usize) -> bool {
         self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Whether so many copies of the same body are wrong that no more of them need be looked at: the scene is refused anyway.
+    /// Whether the scene has too many wrong copies of one body to examine more. It is refused anyway.
     fn is_hopeless(&self, name: &str) -> bool {
-        /// So many wrong copies of a body are looked at, each of which may be wrong in its own way.
+        /// The number of wrong copies of one body that are examined. Each may be wrong in its own way.
         const ENOUGH: usize = 1000;
         let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);
         !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
     }
 
-    /// Of what has been said since there were `before` diagnostics, keeps what has not been said of another thing that has it from
-    /// the same text: all copies of a body have the same mistakes. `name` and `span` are those of the thing.
+    /// Deduplicates the diagnostics added since there were `before` of them: all copies of a body have the same mistakes. A
+    /// diagnostic is dropped if another thing from the same text has it already. `name` and `span` are those of the present
+    /// thing.
     fn once(&mut self, before: usize, name: &str, span: Span) {
         if self.diagnostics.len() == before {
             return;
@@ -283,7 +284,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     Ok(Scene { warnings: report, ..scene })
 }
 
-/// Makes the scene. Where a value is missing or wrong, which has been said, any other takes its place.
+/// Makes the scene. A missing or wrong value has been reported; another value takes its place.
 fn build(
     input: &Input<'_>,
     options: &Options,
@@ -397,7 +398,7 @@ fn digest(
             Include::Text { text, .. } => add(text),
         }
     }
-    // What is in them is in no script.
+    // The contents of assets are in no script.
     povray.assets.iter().for_each(|asset| add(&asset.name));
     context.files.iter().for_each(|digest| hash.update(digest));
     context.meshes.digests().for_each(|digest| hash.update(digest));

@@ -15,10 +15,11 @@ use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{TimeFormula, TimedVector};
 
-/// So many places all keyframes have together, and rows of files that bodies share and turn differently.
+/// The most places that all keyframes may have together. It includes rows of files that several bodies share and turn
+/// differently.
 const MAX_PLACES: usize = 2_000_000;
-/// So many operations are spent on looking for the frames at which formulas have no value; where there are more, only some
-/// frames are looked at, and the run says what it finds at others.
+/// The most operations spent on looking for frames at which formulas have no value. Beyond it, only some frames are examined, and
+/// the run reports what it finds at the others.
 pub(super) const MAX_OPERATIONS: u64 = 50_000_000;
 
 /// The motion of a body whose own place is given, if it has one, and when the body is there. By its own keys it is there when
@@ -172,7 +173,7 @@ fn by_keyframes(
     Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
 }
 
-/// Whether one more track of so many places is affordable; it is said if it is not.
+/// Whether one more track with this many places is affordable. Reports an error if not.
 fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> bool {
     context.places = context.places.saturating_add(places);
     if context.places <= MAX_PLACES
@@ -187,7 +188,7 @@ fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> boo
     false
 }
 
-/// The tracks of a camera's location and of what it looks at, if that is said anywhere.
+/// The tracks of a camera's location and of its target, if the scene gives them.
 pub(super) fn camera_keyframes(
     view: &View<'_>,
     look_at: Option<DVec3>,
@@ -292,20 +293,20 @@ fn by_trajectory(
     Some((BodyMotion::Track(track), presence))
 }
 
-/// What a track of a file is made from.
+/// The rows that a track is made from.
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct Rows {
-    /// Where the rows of the body stand in memory: the files are kept, so it tells them from all others.
+    /// The address of the body's rows in memory. Files stay in memory, so the address identifies the rows.
     address: usize,
     /// The orientation that the rows are given, where they have none of their own.
     orientation: Option<[u64; 4]>,
     is_linear: bool,
 }
 
-/// What the file of a table holds; none after what is wrong with it has been said.
+/// The recording in a table's file. `None` after an error has been reported.
 fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
     let node = view.raw("file")?;
-    // What is wrong with the path has been said.
+    // An error in the path has been reported.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
     let columns = Columns::read(&view.table("columns"));
     trajectory::read(&path, node.as_str().unwrap_or_default(), &columns, span, context)

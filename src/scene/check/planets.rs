@@ -1,4 +1,4 @@
-//! What an integrator of planets can advance: free bodies about a heavy one, by gravitation alone.
+//! Checks for planetary integrators: they advance free bodies about a heavy one, by gravitation alone.
 
 use glam::DVec3;
 
@@ -8,10 +8,10 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::{Body, Force, ForceKind, Simulation};
 
-/// The heavy body weighs at least so many times as much as all others together.
+/// The heavy body weighs at least this many times as much as all others together.
 const HEAVY: f64 = 20.0;
 
-/// Says what such an integrator cannot advance.
+/// Reports everything that such an integrator cannot advance.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,

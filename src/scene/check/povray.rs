@@ -91,7 +91,7 @@ fn include_text(
     Ok(Include::Text { name: name.to_owned(), text })
 }
 
-/// That a value in POV-Ray's own words, as labels have them, stays as it is.
+/// The warning that a `${…}` in POV-Ray code is not replaced, as one in a label would be.
 pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<Diagnostic> {
     let start = text.find("${")?;
     let end = text[start..].find('}').map_or(text.len(), |length| start + length + 1);

@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Key, Presence};
 use crate::scene::Simulation;
 
-/// A body is away between two rows that are more than so many times as far apart as usual.
+/// A body is away between two rows whose distance exceeds the usual one by this factor.
 const GAP: f64 = 1.5;
 
 /// When a body is there by its own keys.
@@ -32,7 +32,7 @@ pub(super) fn read(
     Presence::during(&[[start.map_or(f64::NEG_INFINITY, at), end.map_or(f64::INFINITY, at)]])
 }
 
-/// Warns of a body that is there at no time of the run.
+/// Warns of a body that is never present in the run.
 pub(super) fn never(
     name: &str,
     view: &View<'_>,
@@ -81,7 +81,7 @@ pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (
     (Presence::during(&intervals), gaps)
 }
 
-/// What times reach that go from the first to the last: an end of the run that is less than a frame away is reached.
+/// The times from the first to the last. If the end of the run is less than a frame away, they reach it.
 fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
     let frame = (1.0 - 1e-6) / simulation.frame_rate;
     let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };

@@ -1,7 +1,7 @@
 //! Raw SDL, and what it may do without `--trust`.
 //!
-//! POV-Ray does what a script says: it opens, overwrites and includes any file that its user can. So raw SDL in a
-//! scene is code, and a scene from somewhere else must not get to run what reaches for files.
+//! POV-Ray obeys a script: it opens, overwrites and includes any file that its user can. So raw SDL in a scene is code, and a
+//! scene from somewhere else must not run code that reaches for files.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -47,7 +47,7 @@ impl Assets {
     }
 }
 
-/// Reports what is wrong with the SDL in a value of the scene.
+/// Reports mistakes in the SDL of a value.
 pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     let Some(text) = node.as_str() else {
         return context.diagnostics.push(super::read::wrong_type(node, &Kind::Sdl(place)));
@@ -71,7 +71,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     }
 }
 
-/// Reports what is wrong with the text of an include file, which `span` of the scene names.
+/// Reports mistakes in the text of an include file, which `span` of the scene names.
 pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     if context.trust {
         trusted(text, span, context);
@@ -91,7 +91,7 @@ pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Co
     }
 }
 
-/// Reports what is wrong with an asset that the scene lists, if it is SDL by its ending.
+/// Reports mistakes in an asset that the scene lists, if its ending makes it SDL.
 pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
     if ending.is_some_and(|ending| ENDINGS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
@@ -99,7 +99,7 @@ pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// Reads an asset as SDL, once, and reports what is wrong with it.
+/// Reads an asset as SDL, once, and reports mistakes.
 fn included(name: &str, span: Span, context: &mut Context<'_>) {
     let Some(path) = context.assets.path(name).map(Path::to_owned) else { return };
     if context.trust || !context.assets.read.insert(asset::below(name).unwrap_or_default()) {

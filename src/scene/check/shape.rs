@@ -8,7 +8,7 @@ use super::{Context, body, mesh};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Compound, Part, Shape};
 
-/// The shape of a body in mechanics. Where it is missing or wrong, which has been said, any other takes its place.
+/// The shape of a body in mechanics. A missing or wrong shape has been reported; another shape takes its place.
 pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(plane) = view.variant("plane") {
         let normal = plane.direction::<3>("normal").unwrap_or_default();

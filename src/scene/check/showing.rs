@@ -1,4 +1,4 @@
-//! What shows the physics of a body and of a spring.
+//! The physics shown beside a body or a spring.
 
 use super::Context;
 use super::view::View;
@@ -9,7 +9,7 @@ use crate::scene::{Arrow, BodyAxes, Ghosts, Quantity, Showing, Simulation, Sprin
 /// More ghosts of a body than a picture can show.
 const MAX_GHOSTS: f64 = 10_000.0;
 
-/// What is shown of a body; `fixed` says whether it stays where it is.
+/// The physics shown beside a body. `fixed` says whether the body stays where it is.
 pub(super) fn of_body(
     name: &str,
     view: &View<'_>,
@@ -76,7 +76,7 @@ fn loads_without_cause(
     }
 }
 
-/// The ghosts of a body; none where they are more than can be drawn, which is said.
+/// The ghosts of a body. If they are too many to be drawn, reports it and returns `None`.
 fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
     if simulation.duration / every <= MAX_GHOSTS {

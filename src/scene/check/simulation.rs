@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
-/// Reads it, and how many frames and timesteps that makes; none are taken without a body that `needs_steps`.
+/// Reads the simulation, with its numbers of frames and time steps. If no body `needs_steps`, there are no time steps.
 pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
     let mut simulation = Simulation {
@@ -24,7 +24,7 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let Simulation { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };
     if counts.are_too_many() {
-        // So that nothing later counts what cannot be counted.
+        // Without frames, nothing later counts them.
         simulation.duration = 0.0;
     }
     (simulation, counts)

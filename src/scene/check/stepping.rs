@@ -1,4 +1,4 @@
-//! What `simulation.contacts = "time-stepping"` cannot do, or does badly.
+//! Limits of `simulation.contacts = "time-stepping"`: what it cannot do, or does badly.
 
 use super::Context;
 use super::counts::Counts;
@@ -14,7 +14,7 @@ const ELASTIC: f64 = 0.9;
 /// The help that names the other scheme.
 const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
 
-/// Where the scene does not say a step, takes one that suits the thinnest body that others touch.
+/// If the scene gives no step, chooses one that suits the thinnest body that others touch.
 pub(super) fn choose_step(
     root: &View<'_>,
     simulation: Simulation,

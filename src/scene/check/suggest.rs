@@ -3,8 +3,8 @@
 pub(super) use crate::diagnostic::nearest;
 use crate::scene::grammar::{TableSpec, quoted};
 
-/// So many names are compared with unknown ones in one scene: a tenth of a second's work. Who has more unknown names
-/// has another problem than their spelling.
+/// The most comparisons of unknown names with known ones in one scene: a tenth of a second's work. A scene with more unknown
+/// names has another problem than spelling.
 pub(super) const MAX_COMPARISONS: usize = 200_000;
 
 /// The key of a table that an unknown one was meant to be.
@@ -40,8 +40,8 @@ pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&
     })
 }
 
-/// What to say of an unknown word, given those that the scene declares and those that every scene knows; `plural` is
-/// the word for all of them.
+/// The label for an unknown word, given the words that the scene declares and those that every scene knows. `plural` is the noun
+/// for all of them.
 pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {
     match (nearest(word, known.iter().chain(everywhere).copied()), known) {
         (Some(near), _) => format!("did you mean `{near}`?"),

@@ -85,5 +85,5 @@ fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Res
     Ok(())
 }
 
-/// What templates are called.
+/// The endings of templates.
 const TEMPLATE_ENDINGS: [&str; 3] = [".pov", ".inc", ".ini"];

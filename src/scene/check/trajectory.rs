@@ -30,7 +30,7 @@ pub(super) struct Recording {
     pub(super) is_turned: bool,
 }
 
-/// The files that have been read, and what could not be read of others has been said.
+/// The files that have been read. `None` for a file whose errors have been reported.
 pub(super) type Recordings = HashMap<(PathBuf, Columns), Option<Arc<Recording>>>;
 
 /// Reads a file, once for all bodies that have their motion from it.
@@ -77,7 +77,7 @@ pub(super) fn read(
     recording
 }
 
-/// That no row is of a body.
+/// The error for a recording without a row for the body.
 pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic {
     let mut names: Vec<&str> = recording.rows.keys().flatten().map(String::as_str).collect();
     names.sort_unstable();

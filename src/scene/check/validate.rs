@@ -15,7 +15,7 @@ pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
 
 /// Validates a table; `at` is where it is named, `path` how messages call it.
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
-    // What an unknown key was meant to be is not missing as well.
+    // A key that an unknown one was meant to be is not reported as missing as well.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
     let kind = habits::meant_kind(table, spec, path);
@@ -60,7 +60,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
             context.diagnostics.push(error);
         }
     }
-    // What is of no kind that there is has been said to be so.
+    // An unknown kind has been reported already.
     if !is_something_else || !matches!(spec.rule, Rule::ExactlyOne(_)) {
         rule(table, spec, &meant, at, path, context);
     }
@@ -97,7 +97,7 @@ fn rule(
         Rule::AtMostOne(groups) => {
             let mut said: Vec<Span> = Vec::new();
             for entries in groups.iter().map(|names| present(names)).filter(|entries| entries.len() > 1) {
-                // Groups overlap: of keys that have been named once, enough has been said.
+                // Groups overlap: each key is reported once.
                 if !entries.iter().any(|entry| said.contains(&entry.name.span)) {
                     said.extend(entries.iter().map(|entry| entry.name.span));
                     context.diagnostics.push(exclusive(&entries, path));
@@ -190,7 +190,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Reference(collection) => reference(node, kind, *collection, entry, context),
         Kind::List { of, .. } => match read::list(node, kind) {
             Ok(items) => {
-                // What stands in one place is the same for all copies of a body.
+                // Copies of a body share the text at one place.
                 let groups = items.chunk_by(|one, next| one.span == next.span);
                 groups.for_each(|group| value(&group[0], of, None, path, context));
             }
@@ -232,7 +232,7 @@ fn is_known(table: &Table, context: &mut Context<'_>) -> bool {
     table.entries.address().is_some_and(|address| !context.validated.insert((address, context.is_partial)))
 }
 
-/// Where a table is named: by its key if it has one.
+/// The place that names a table: its key, if it has one.
 fn at(node: &Node, entry: Option<&Entry>) -> Option<Span> {
     Some(entry.map_or(node.span, |entry| entry.name.span))
 }
@@ -389,7 +389,7 @@ fn reference(
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
     let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
-    // Of one letter, any other would be near.
+    // A single letter is near to every other one.
     let is_word = word.chars().nth(1).is_some() && !label.contains(['"', '\\']);
     let near = near.map(|near| format!("\"{near}\"")).filter(|_| is_word);
     let is_near = label.starts_with("did you mean");

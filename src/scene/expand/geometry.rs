@@ -1,4 +1,4 @@
-//! What the placing of copies must know of a body before there is one: how large it is, and how it is turned.
+//! The geometry that placing copies needs before there is a body: its size and orientation.
 
 use glam::DQuat;
 
@@ -13,8 +13,8 @@ pub(in crate::scene) struct Geometry {
     pub(in crate::scene) orientation: DQuat,
 }
 
-/// What reads the geometry of bodies before they are checked.
+/// Reads the geometry of bodies before they are checked.
 pub(in crate::scene) trait Geometer {
-    /// The geometry of a body that is described by a table. What is wrong with it is said later, when it is checked.
+    /// The geometry of a body from its table. The later check reports mistakes.
     fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry;
 }

@@ -9,10 +9,10 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
-/// So many names the lists of bodies have together, where a name that means several counts as all of them.
+/// The most names in all lists of bodies together. A name for several bodies counts once for each of them.
 const MAX_NAMES: usize = 2_000_000;
 
-/// What has a `repeat`, by its name.
+/// The things with a `repeat`, by name.
 #[derive(Default)]
 pub(in crate::scene) struct Groups {
     bodies: HashMap<String, Group>,

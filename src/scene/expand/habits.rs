@@ -1,4 +1,4 @@
-//! What people write where a formula stands and no formula can say: numbers with units, and places of bodies.
+//! Common mistakes in formulas: numbers with units, and places of bodies.
 
 use std::ops::Range;
 
@@ -66,7 +66,7 @@ impl Expander<'_> {
         self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
-    /// Where a formula of the time stands in the place of a body at the start: the key of that, and the key of a motion.
+    /// Recognizes a formula in the time for the place of a body at the start. Gives that key, and the key of a motion.
     pub(super) fn motion_meant(&self, name: &str, span: Span) -> Option<(Span, &'static str)> {
         let path = self.path.strip_prefix("body.").filter(|_| name == "t")?;
         let (key, motion) =
@@ -163,7 +163,7 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
     }
 }
 
-/// The places of a text where something of a body is asked for, as in `ball.x`: the whole, the body and what is asked.
+/// The places of a text that ask for a property of a body, as `ball.x` does: the whole, the body and the property.
 fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
     text.match_indices('.').filter_map(move |(at, _)| {

@@ -1,7 +1,7 @@
 //! `include`: other files of the scene language, as if they stood in this one.
 //!
-//! What a file says itself counts more than what it includes; what two included files say of one key is an error, unless
-//! the file that includes them decides. A file that is included in several ways is there once.
+//! A file's own values override those that it includes. If two included files give the same key, that is an error, unless the
+//! including file gives it too. A file that is included in several ways is read once.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -11,11 +11,11 @@ use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 use crate::scene::source::{self, Entry, Node, Table, Value};
 
-/// So deep files may include others.
+/// The greatest depth of files that include others.
 const MAX_DEPTH: usize = 50;
 
-/// Lays everything that a scene includes under what it says itself. `path` is that of its file, if it has one. The texts of the
-/// included files are returned.
+/// Fills in values from everything that a scene includes. `path` is that of the scene's file, if it has one. Returns the texts of
+/// the included files.
 pub(in crate::scene) fn include(
     root: &mut Table,
     path: Option<&Path>,
@@ -81,7 +81,7 @@ impl Includer<'_> {
         merge(own, &all, &SCENE);
     }
 
-    /// What a file says, with all that it includes; none if it has been included before.
+    /// The contents of a file, with all that it includes. `None` if it has been included before.
     fn file(&mut self, name: &str, span: Span, folder: Option<&Path>) -> Result<Option<Table>, Diagnostic> {
         let cannot = |message: String| Diagnostic::error(Code::CannotInclude, message).at(span, "");
         let Some(folder) = folder else {
@@ -150,7 +150,7 @@ impl Includer<'_> {
         table
     }
 
-    /// That a file includes itself by way of others.
+    /// The error for a file that includes itself by way of others.
     fn cycle(&self, first: usize, span: Span) -> Diagnostic {
         let name = |path: &PathBuf| {
             let name = path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default();

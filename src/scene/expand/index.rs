@@ -46,7 +46,7 @@ fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
 }
 
 impl Expander<'_> {
-    /// Replaces the formulas in the name of a copy by their values. The validation checks that there is such a copy.
+    /// Replaces the formulas in the name of a copy by their values. The validation checks that the copy exists.
     pub(super) fn index(&mut self, node: &mut Node, of: Collection) {
         let Value::String(name) = &node.value else { return };
         let name = name.clone();

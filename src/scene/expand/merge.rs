@@ -1,4 +1,4 @@
-//! One table laid over another: what it does not say is as in the other.
+//! One table laid over another, which fills in missing keys.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::scene::source::{Entry, Node, Table, Value};
 /// Completes a table by what another says of the same thing. Its own values count, and those that go with them: where it says
 /// `shape.box`, the `shape.sphere` of the other is not asked for.
 ///
-/// What the other has comes first, in its order.
+/// Fills in missing keys from `base`. Its entries come first, in its order.
 pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
     let base_entries = base.entries.iter().filter(|entry| !is_replaced(&entry.name.text, own, spec));
     let base_entries: Vec<Entry> = base_entries.cloned().collect();

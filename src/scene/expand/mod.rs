@@ -90,18 +90,18 @@ pub(super) fn expand(
     Expansion { groups: expander.groups, of_defaults: expander.of_defaults }
 }
 
-/// What is to be known of an expanded scene besides its values.
+/// Facts about an expanded scene besides its values.
 #[derive(Default)]
 pub(super) struct Expansion {
-    /// What is a copy.
+    /// The copies.
     pub(super) groups: Groups,
-    /// Where the keys and values of `[defaults]` stand.
+    /// The places of the keys and values of `[defaults]`.
     pub(super) of_defaults: HashSet<Span>,
 }
 
-/// What is known while formulas are evaluated.
+/// The state of the evaluation of formulas.
 struct Expander<'a> {
-    /// What tells how large bodies are.
+    /// Finds the size of bodies.
     geometer: &'a mut dyn Geometer,
     sources: &'a Sources,
     scope: Scope,
@@ -109,11 +109,11 @@ struct Expander<'a> {
     formulas: HashMap<Span, Arc<Formula>>,
     /// The formulas of the time that have been read.
     timed_formulas: Formulas,
-    /// What formulas have come to so far: see [`repeat::work_of_value`].
+    /// The work done for formulas so far: see [`repeat::work_of_value`].
     work: u64,
-    /// The variables that have no value, which has been said.
+    /// The variables without a value, all of which have been reported.
     broken: HashSet<String>,
-    /// What random numbers follow from, with the path of their place.
+    /// The seed of random numbers, together with the path of their place.
     seed: u64,
     /// The path of the value that is looked at: `body.ball.location[1]`.
     path: String,
@@ -125,11 +125,11 @@ struct Expander<'a> {
     names: usize,
     groups: Groups,
     of_defaults: HashSet<Span>,
-    /// Whether what is looked at are defaults: their formulas have values only where they are used.
+    /// Whether the current values are defaults: their formulas have values only where the defaults are used.
     is_default: bool,
-    /// Where the variables are named.
+    /// The places that name the variables.
     variable_spans: HashMap<String, Span>,
-    /// The formulas of which it has been said what is wrong: in all copies it is the same one.
+    /// The formulas whose errors have been reported. All copies share one formula.
     told: HashSet<Span>,
     /// The unit of the key that is looked at; empty where there is none.
     unit: &'static str,
@@ -156,7 +156,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Does what is to be done with the value of a key.
+    /// Works on the value of a key.
     fn below<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
         let length = self.path.len();
         if length > 0 {
@@ -227,7 +227,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Looks at the items of a list. Where one has no value, the list has none: enough has been said of it.
+    /// Visits the items of a list. If one has no value, which has been reported, the list has none.
     fn items(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
         let Value::Array(items) = &mut node.value else { return };
         let mut is_whole = true;
@@ -243,7 +243,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Replaces a formula by its value; what is no string stays as it is.
+    /// Replaces a formula by its value. A value that is no string stays.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         if self.is_hopeless(node.span)
@@ -261,7 +261,7 @@ impl Expander<'_> {
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
     }
 
-    /// Whether it has been said of another copy what is wrong with its formula, so that no copy needs its value.
+    /// Whether the error in the formula has been reported for another copy, so that no copy needs its value.
     fn is_hopeless(&self, span: Span) -> bool {
         self.copy.is_some() && self.told.contains(&span)
     }
@@ -304,7 +304,7 @@ impl Expander<'_> {
         Some(read)
     }
 
-    /// Like [`Expander::number`], where random numbers are drawn anew for each particle: such a formula is kept as a program.
+    /// Like [`Expander::number`], but for random numbers that each particle draws anew: such a formula is kept as a program.
     fn drawn_later(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
@@ -355,7 +355,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Says what is wrong with a formula whatever its indices are: nothing may have it for a value.
+    /// Reports errors of a formula that do not depend on its indices.
     fn look_over(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
         INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
@@ -364,14 +364,14 @@ impl Expander<'_> {
         }
     }
 
-    /// The value of a formula that stands somewhere; none after what is wrong has been said.
+    /// The value of the formula at a place. `None` after an error has been reported.
     fn evaluate(&mut self, text: &str, span: Span) -> Option<f64> {
         let formula = self.parsed(text, span)?;
         self.look_at_angles(&formula, span);
         self.value_of(&formula, span)
     }
 
-    /// The formula of a place; none after what is wrong has been said. All copies of a body have the same one.
+    /// The formula at a place. `None` after an error has been reported. All copies of a body share it.
     fn parsed(&mut self, text: &str, span: Span) -> Option<Arc<Formula>> {
         if let Some(known) = self.formulas.get(&span) {
             return Some(known.clone());
@@ -421,7 +421,7 @@ impl Expander<'_> {
         self.copy.as_ref().map_or_else(String::new, |name| format!(", in `{name}`"))
     }
 
-    /// Keeps what is wrong with a formula, at its place in the scene.
+    /// Reports the errors of a formula, at its place in the scene.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, text: &str, span: Span) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -452,7 +452,7 @@ impl Expander<'_> {
         None
     }
 
-    /// What is written at a place.
+    /// The text as written at a place.
     fn raw(&self, span: Span) -> &str {
         self.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
     }
@@ -469,7 +469,7 @@ fn is_list(node: &Node) -> bool {
     matches!(node.value, Value::Array(_))
 }
 
-/// Whether a value has neither a formula nor the name of several bodies in it. Copies of a body share what is settled.
+/// Whether a value holds neither a formula nor the name of several bodies. Copies of a body share such values.
 fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {

@@ -6,7 +6,8 @@ use crate::diagnostic::Span;
 
 /// The place of a part of a string. `raw` is what is written there, with its quotes, and `text` the string.
 ///
-/// Where something is escaped, a byte of the string is not a byte of the text, and the place is the whole string.
+/// The place of a range of a string. If the string has escapes, its bytes are not those of the text, and the place is the whole
+/// string.
 pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
     match offset(raw, text) {
         Some(offset) if !range.is_empty() => {
@@ -17,7 +18,7 @@ pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span
     }
 }
 
-/// Where the string begins in what is written, if it stands there as it is.
+/// The start of the string within the written text, if the text holds it literally.
 fn offset(raw: &str, text: &str) -> Option<usize> {
     // An argument of `--set` needs no quotes; a string of several lines may begin on the next one.
     ["", "\"", "'", "\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''"].into_iter().find_map(

@@ -11,7 +11,7 @@ use crate::scene::source::{Table, Value};
 /// A variable that is given by a formula.
 struct Variable {
     name: String,
-    /// Where its value stands.
+    /// The place of its value.
     span: Span,
     formula: Formula,
     /// The variables that it needs, each by its number, and where it does.
@@ -68,7 +68,7 @@ impl Expander<'_> {
                     }
                     None => None,
                 },
-                // What else is wrong with a number, the validation says.
+                // The validation reports other mistakes in a number.
                 _ => entry.node.as_number().filter(|number| number.is_finite()),
             };
             if value.is_none() {
@@ -130,7 +130,7 @@ impl Expander<'_> {
 
     /// Says that the variables of the way from `first` to its end need each other.
     fn cycle(&mut self, way: &[(usize, usize)], first: usize, variables: &[Variable]) {
-        /// So many variables of a cycle are shown.
+        /// The number of variables shown of a cycle.
         const SHOWN: usize = 6;
         let begin = way.iter().position(|(variable, _)| *variable == first).unwrap_or(0);
         let cycle = &way[begin..];

@@ -9,8 +9,8 @@ use super::parser::Part;
 const GIVES_RADIANS: [&str; 5] = ["asin", "acos", "atan", "atan2", "rad"];
 
 impl Formula {
-    /// Where an angle that looks like one in degrees is given to a function that takes radians, as in `cos(45)`. `value`
-    /// says what a name stands for.
+    /// Finds an angle that looks like degrees, given to a function that takes radians, as in `cos(45)`. `value` gives the value
+    /// of a name.
     pub(in crate::scene) fn degrees_for_radians(
         &self,
         value: impl Fn(&str) -> Option<f64>,

@@ -55,7 +55,7 @@ impl Resolved {
 struct Deriver {
     builder: Builder,
     slot: usize,
-    /// Where the part stands whose derivative is being made.
+    /// The place of the part that is being differentiated.
     range: Range<usize>,
     /// The derivatives of the parts; none where it is zero.
     slopes: Vec<Option<Id>>,

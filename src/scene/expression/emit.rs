@@ -10,15 +10,15 @@ impl Resolved {
     /// Makes a program.
     ///
     /// # Errors
-    /// Where the formula is nested too deeply.
+    /// If the formula is nested too deeply.
     pub fn compile(self) -> Result<Program, ExpressionError> {
         Ok(Program::new(self.code()?, self))
     }
 
-    /// Makes a program that cannot explain what is not finite.
+    /// Makes a program that cannot explain non-finite values.
     ///
     /// # Errors
-    /// Where the formula is nested too deeply.
+    /// If the formula is nested too deeply.
     pub fn code(&self) -> Result<Code, ExpressionError> {
         let mut emitter = Emitter {
             needs: needs(self),
@@ -42,11 +42,11 @@ impl Resolved {
     }
 }
 
-/// What is still to be emitted.
+/// Work that remains.
 #[derive(Clone, Copy)]
 enum Task {
-    /// What leaves the value of a part in the accumulator. `depth` places of the stack are taken, and what is in the
-    /// accumulator is to be saved at `to`.
+    /// Emits code that leaves the value of a part in the accumulator. `depth` places of the stack are taken. The accumulator's
+    /// old value is to be saved at `to`.
     Value {
         id: Id,
         depth: usize,
@@ -309,7 +309,7 @@ fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -
     })
 }
 
-/// What is computed first, and the instruction that has the other operand with it.
+/// The operand to compute first, and the instruction that brings the other operand.
 fn one(operation: Binary, a: Id, b: Id, left: Option<Leaf>, right: Option<Leaf>) -> Option<(Id, I)> {
     Some(match (operation, left, right) {
         (Binary::Add, _, Some(Leaf::V(v))) => (a, I::AddV { v }),

@@ -1,4 +1,4 @@
-//! What is wrong with a formula.
+//! Errors in formulas.
 
 use crate::diagnostic::Code;
 use std::ops::Range;
@@ -10,13 +10,13 @@ pub struct ExpressionError {
     pub code: Code,
     /// The bytes of the formula that are wrong.
     pub range: Range<usize>,
-    /// What is wrong, in one line.
+    /// The mistake, in one line.
     pub message: String,
-    /// What is said at the place; may be empty.
+    /// The remark at the place; may be empty.
     pub label: String,
     /// How to mend it, if there is more to say.
     pub help: Option<String>,
-    /// What belongs in the place of those bytes, if that is known.
+    /// The text that belongs in the place of those bytes, if it is known.
     pub fix: Option<Box<str>>,
 }
 
@@ -30,7 +30,7 @@ pub(super) fn syntax(range: Range<usize>, message: impl Into<String>) -> Express
     error(Code::FormulaSyntax, range, message)
 }
 
-/// That too much follows from a formula.
+/// The error for a formula whose consequences are too many to follow.
 pub(in crate::scene) fn too_intricate(range: Range<usize>, message: &str) -> ExpressionError {
     syntax(range, message).help("write it in a simpler way, or give the motion by keyframes or a file")
 }

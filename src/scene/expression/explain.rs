@@ -1,4 +1,4 @@
-//! Evaluation that looks at every step: the strict value, and what left the numbers.
+//! Evaluation that checks every operation: the strict value, and the operation that became non-finite.
 
 use super::error::{ExpressionError, error};
 use super::operation::{Binary, Ternary, Unary};
@@ -49,7 +49,7 @@ impl Resolved {
         self.culprit(&self.values(inputs))
     }
 
-    /// Of the parts that the result is made of, the first that is not finite.
+    /// The first non-finite value among those that the result depends on.
     fn culprit(&self, values: &[f64]) -> Option<ExpressionError> {
         let mut is_used = vec![false; self.nodes.len()];
         is_used[self.root] = true;

@@ -1,4 +1,4 @@
-//! What builds the tree of a resolved formula, and computes at once what is constant.
+//! Builds the tree of a resolved formula and folds constants.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::resolve::{Node, Value};
 
 /// A tree that is being built.
 ///
-/// What is not finite is left to be computed at every evaluation, where it is found and named.
+/// Non-finite constants are not folded: each evaluation computes them, and finds and names them.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) nodes: Vec<Node>,

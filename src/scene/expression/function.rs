@@ -16,17 +16,17 @@ pub static CONSTANTS: &[(&str, f64, &str)] = &[
 pub struct Function {
     /// Its name.
     pub name: &'static str,
-    /// What it is of, by names that say the order.
+    /// The names of its parameters, in order.
     pub parameters: &'static [&'static str],
     /// Whether more may follow, each like the last one.
     pub is_open: bool,
-    /// What it gives, in a phrase.
+    /// Its meaning, in a phrase.
     pub meaning: &'static str,
-    /// What it computes.
+    /// Its computation.
     pub(super) work: Work,
 }
 
-/// What a function computes.
+/// The computation of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Work {
     One(Unary),

@@ -1,8 +1,8 @@
-//! What people write in formulas from other programs' habits, and what it is here.
+//! Habits from other programs in formulas, and their equivalents here.
 
 use super::error::{ExpressionError, syntax};
 
-/// What stands at the start of a text and is no word of a formula.
+/// The error for a symbol at the start of a text that belongs to no formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     const SYMBOLS: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
@@ -75,7 +75,7 @@ pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
     }
 }
 
-/// What a function of another program is called here.
+/// The name here of a function of another program.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     const FUNCTIONS: [(&str, &str); 22] = [
         ("log", "write `ln` for the natural logarithm, `log10` or `log2`"),

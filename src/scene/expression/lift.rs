@@ -106,7 +106,7 @@ impl Resolved {
         words.extend([u64::MAX, self.root as u64]);
     }
 
-    /// Where its parts stand in the text.
+    /// The places of its parts in the text.
     pub fn ranges(&self) -> Box<[[u32; 2]]> {
         #[allow(clippy::cast_possible_truncation, reason = "a formula is at most ten thousand bytes long")]
         let range = |node: &Node| [node.range.start as u32, node.range.end as u32];

@@ -3,7 +3,7 @@
 //! A formula takes three steps. [`Formula::parse`] reads the text, [`Formula::resolve`] looks its names up in a
 //! [`Scope`] and folds what is constant, and [`Resolved::compile`] makes a [`Program`] of it, for what is evaluated in an inner
 //! loop; [`Program::compile`] does all three. What is needed only once is had from [`Resolved::value`], which is
-//! strict: the first operation that leaves the numbers is an error at its place.
+//! strict: the first operation with a non-finite result is an error at its place.
 //!
 //! ```
 //! use jabuka::scene::expression::{Program, Scope};

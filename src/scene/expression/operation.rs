@@ -1,7 +1,7 @@
 //! The operations on numbers that formulas are made of.
 //!
-//! Each is defined here once, for the folding of constants, the search for what left the numbers, and the compiled
-//! program, so that all of them give the same bits.
+//! Each is defined here once, for constant folding, for the search for the non-finite operation, and for the compiled program. So
+//! all three give the same bits.
 
 /// An operation on one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub(super) enum Ternary {
 }
 
 impl Unary {
-    /// What computes it.
+    /// The function that computes it.
     pub(super) fn function(self) -> fn(f64) -> f64 {
         match self {
             Unary::Negate => |x| -x,
@@ -104,7 +104,7 @@ impl Unary {
 }
 
 impl Binary {
-    /// What computes it.
+    /// The function that computes it.
     pub(super) fn function(self) -> fn(f64, f64) -> f64 {
         match self {
             Binary::Add => |x, y| x + y,
@@ -121,7 +121,7 @@ impl Binary {
             Binary::NotEqual => |x, y| truth(x != y),
             Binary::Atan2 => libm::atan2,
             Binary::Hypot => libm::hypot,
-            // What is no number stays none; `f64::min` would hide it.
+            // A NaN stays a NaN; `f64::min` would hide it.
             Binary::Min => |x, y| if x < y || x.is_nan() { x } else { y },
             Binary::Max => |x, y| if x > y || x.is_nan() { x } else { y },
             Binary::Step => |edge, x| if x < edge { 0.0 } else { 1.0 },
@@ -134,7 +134,7 @@ impl Binary {
 }
 
 impl Ternary {
-    /// What computes it.
+    /// The function that computes it.
     pub(super) fn function(self) -> fn(f64, f64, f64) -> f64 {
         match self {
             Ternary::Lerp => |from, to, part| from + (to - from) * part,

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, nearest};
 
 /// The longest text that is read as a formula, in bytes.
 pub const MAX_LENGTH: usize = 10_000;
-/// So many operands may stand in each other; a parenthesis behind an operator is two of them.
+/// The greatest nesting depth of operands. A parenthesis behind an operator counts as two.
 const MAX_DEPTH: usize = 200;
 
 /// A formula that has been read, and whose names have not been looked up.
@@ -38,7 +38,7 @@ pub(super) struct Node {
 #[derive(Clone, Debug)]
 pub(super) enum Part {
     Number(f64),
-    /// Where the name stands, without parentheses around it.
+    /// The place of the name, without parentheses around it.
     Name(Range<usize>),
     Unary(Unary, Id),
     Binary(Binary, Id, Id),
@@ -51,7 +51,7 @@ impl Formula {
     /// Reads a formula.
     ///
     /// # Errors
-    /// What is wrong with how it is written, functions that there are not, and functions of too many or too few numbers.
+    /// If the syntax is wrong, a function is unknown, or a function has too many or too few arguments.
     pub fn parse(text: &str) -> Result<Formula, Vec<ExpressionError>> {
         if text.len() > MAX_LENGTH {
             let message = format!("a formula is at most {MAX_LENGTH} characters long");
@@ -94,7 +94,7 @@ struct Parser<'a> {
     before: Range<usize>,
     nodes: Vec<Node>,
     depth: usize,
-    /// What is wrong and does not keep from reading on.
+    /// Errors that do not stop the parser.
     errors: Vec<ExpressionError>,
 }
 
@@ -239,7 +239,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What is wrong where one operand follows another.
+    /// The error for an operand that follows another.
     fn no_operator(&self) -> ExpressionError {
         let (first, second) = (&self.text[self.before.clone()], &self.text[self.range.clone()]);
         if Function::named(first).is_some() {
@@ -311,7 +311,7 @@ fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
     let folded = word.to_lowercase();
     match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
         (Some(habit), _) => {
-            // Where another name is all that it takes.
+            // The fix if only the name changes.
             let name = habit.strip_prefix("write `").and_then(|rest| rest.strip_suffix('`'));
             let name = name.filter(|name| FUNCTIONS.iter().any(|function| function.name == *name));
             let error = error.label(habit);

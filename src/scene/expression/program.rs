@@ -144,13 +144,13 @@ impl Program {
         Program { code, resolved: Box::new(resolved) }
     }
 
-    /// What it was compiled from.
+    /// The formula that it was compiled from.
     pub fn resolved(&self) -> &Resolved {
         &self.resolved
     }
 
-    /// The value, which may be infinite or no number: see [`Program::explain_non_finite`]. `inputs` are the numbers for the
-    /// slots of the scope, then those for the draws.
+    /// The value, which may be infinite or NaN: see [`Program::explain_non_finite`]. `inputs` are the numbers for the slots of
+    /// the scope, then those for the draws.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].

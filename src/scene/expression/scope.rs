@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::function::{CONSTANTS, Function};
 use crate::diagnostic::nearest;
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Binding {
     /// A number that is known when the formula is resolved.
@@ -83,7 +83,7 @@ impl Scope {
     /// # Errors
     /// Why it cannot.
     pub fn is_free(name: &str) -> Result<(), &'static str> {
-        /// What `t` means is the same everywhere, also where it is not known.
+        /// The name `t` means the same everywhere, also where it has no value.
         const WORDS: [&str; 4] = ["and", "or", "not", "t"];
         let mut bytes = name.bytes();
         let starts_well = bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_');
@@ -118,7 +118,7 @@ impl Scope {
         self.is_random
     }
 
-    /// What to say of an unknown name: what was meant by it, or what there is.
+    /// A suggestion for an unknown name: the name that was meant, or all names.
     pub(super) fn suggest(&self, name: &str) -> String {
         if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
@@ -130,7 +130,7 @@ impl Scope {
         // Always in the same order.
         names.sort_unstable();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
-        // Of one letter, any other would be near.
+        // A single letter is near to every other one.
         let near = if name.len() == 1 {
             all().find(|other| other.eq_ignore_ascii_case(name))
         } else {

@@ -1,7 +1,7 @@
 //! Formulas that are evaluated for many inputs at once: one instruction after another, each over whole columns of numbers.
 //!
-//! So the choice of an instruction costs a column once, and the compiler makes vector instructions of its loop. Each lane gets the
-//! bits that [`Program`](super::Program) gives.
+//! The program dispatches each instruction once per column, and the compiler vectorizes the loop over its lanes. Each lane gets
+//! the same bits as from [`Program`](super::Program).
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -23,7 +23,7 @@ thread_local! {
 /// Several formulas of the same names as one program. What stands in several of them is computed once.
 #[derive(Clone)]
 pub(in crate::scene) struct Wide {
-    /// What is computed, each step into a column of its own, behind those of the inputs.
+    /// The steps. Each writes a column of its own, behind those of the inputs.
     steps: Box<[Step]>,
     /// The values of the formulas.
     outputs: Box<[Operand]>,

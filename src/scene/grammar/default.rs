@@ -1,11 +1,11 @@
-//! What holds where a key is absent.
+//! Defaults of missing keys.
 
 use serde_json::{Value, json};
 
-/// What holds where a key is absent: a value, or what it follows from.
+/// The default of a missing key: a value, or its origin.
 #[derive(Clone, Copy, Debug)]
 pub enum DefaultValue {
-    /// Nothing holds: the key is required, or a table that may be empty.
+    /// No default: the key is required, or a table that may be empty.
     Nothing,
     /// A number.
     Number(f64),
@@ -34,7 +34,7 @@ impl DefaultValue {
         self.number().and_then(whole)
     }
 
-    /// So many numbers.
+    /// The default as N numbers.
     pub(in crate::scene) fn numbers<const N: usize>(self) -> Option<[f64; N]> {
         self.list()?.try_into().ok()
     }

@@ -51,7 +51,7 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         Key::new(
             "speed",
             Drawn(Bound::Any),
-            "How fast they leave; that of what sends them out comes on top",
+            "How fast they leave; the velocity of the body that sends them out is added",
         )
         .unit("m/s")
         .default_number(0.0)
@@ -70,7 +70,7 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         Key::new(
             "size",
             List { of: &NON_NEGATIVE, min: 1, max: 64 },
-            "How many times larger they are drawn, the first at birth and the last at death: `[1, 0]` lets them vanish",
+            "The factors by which they are drawn larger, from birth to death: `[1, 0]` lets them vanish",
         )
         .default_numbers(&[1.0])
         .also(&["sizes", "scale"]),

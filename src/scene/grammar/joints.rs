@@ -271,7 +271,7 @@ static GEAR: TableSpec = TableSpec {
         Key::new(
             "ratio",
             NUMBER_ANY,
-            "How much the second moves when the first moves by 1; negative where it moves the other way, as two wheels do that mesh",
+            "How much the second moves when the first moves by 1; negative if it moves the other way, as meshing wheels do",
         )
         .required()
         .also(&["factor"]),

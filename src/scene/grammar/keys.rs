@@ -66,7 +66,7 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new(
             "seed",
             Integer(0, 4_294_967_295),
-            "What the random numbers of formulas follow from: another seed, other numbers",
+            "The seed of the random numbers in formulas: another seed gives other numbers",
         )
         .default_number(0.0)
         .also(&["random_seed"]),
@@ -77,11 +77,7 @@ pub static SCENE: TableSpec = TableSpec {
             "parameters",
             "let",
         ]),
-        Key::new(
-            "simulation",
-            Table(&SIMULATION),
-            "How long, how finely and by which method the world is advanced",
-        ),
+        Key::new("simulation", Table(&SIMULATION), "The duration, time step and method of the simulation"),
         Key::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
         Key::new("force", Named(&FORCE), "The forces that are not a single body's own").also(&["forces"]),
         Key::new("joint", Named(&JOINT), "What holds bodies together").also(&[
@@ -108,7 +104,7 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new(
             "defaults",
             Table(&DEFAULTS),
-            "What bodies, forces, materials and lights are like that do not say it themselves",
+            "Defaults for missing keys of bodies, forces, materials and lights",
         )
         .also(&["default"]),
         Key::new(
@@ -302,7 +298,7 @@ static BODY_LOOK: TableSpec = TableSpec {
         Key::new(
             "scale",
             Number(Bound::From(1e-9, 1e9)),
-            "How many times larger than it is it is drawn, about its centre of mass",
+            "Draw it this many times its true size, about its centre of mass",
         )
         .default_number(1.0)
             .also(&["size", "magnification", "enlarge"]),

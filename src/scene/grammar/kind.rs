@@ -1,10 +1,10 @@
-//! What the value of a key may be.
+//! Types of values.
 
 use super::TableSpec;
 use crate::scene::sdl::Where;
 use crate::scene::source::Value;
 
-/// What the value of a key may be.
+/// The type of a value.
 #[derive(Debug)]
 pub enum Kind {
     /// A string that is shown to people.
@@ -51,7 +51,7 @@ pub enum Kind {
     Reference(Collection),
     /// A list of values of one kind; at least and at most so many.
     List {
-        /// What each value may be.
+        /// The type of each value.
         of: &'static Kind,
         /// The smallest number of values.
         min: usize,
@@ -107,7 +107,7 @@ impl Bound {
         }
     }
 
-    /// What the bound admits, to follow the words «a number»: ` greater than 0`.
+    /// The bound in words that follow «a number»: ` greater than 0`.
     pub fn in_words(self) -> String {
         match self {
             Bound::Any => String::new(),
@@ -197,7 +197,7 @@ impl Kind {
         }
     }
 
-    /// What is expected, in words: `a number greater than 0`.
+    /// The expected value in words: `a number greater than 0`.
     pub fn in_words(&self) -> String {
         match self {
             Kind::Text => "a string".to_owned(),

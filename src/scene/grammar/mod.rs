@@ -1,8 +1,7 @@
-//! What a scene may say: the description of every key.
+//! The grammar of scenes: the description of every key.
 //!
-//! One description of each key serves the validation of a scene, the reading of its values, and the suggestions
-//! for a key that does not exist. The description is data: [`SCENE`] is the root, and everything that a scene can
-//! hold is reached from it.
+//! One description of each key serves the validation of a scene, the reading of its values, and the suggestions for unknown keys.
+//! The description is data: [`SCENE`] is the root, and everything that a scene can hold is reached from there.
 
 mod camera;
 mod contact;
@@ -35,17 +34,17 @@ pub use schema::schema;
 pub struct Key {
     /// The key as it is written.
     pub name: &'static str,
-    /// What its value may be.
+    /// The type of its value.
     pub kind: Kind,
     /// The unit of its value; empty where there is none.
     pub unit: &'static str,
-    /// What holds where the key is absent.
+    /// The default for a missing key.
     pub default: DefaultValue,
-    /// What it means, in one sentence without a full stop.
+    /// Its meaning, in one sentence without a full stop.
     pub meaning: &'static str,
     /// Whether the table makes no sense without it.
     pub required: bool,
-    /// What people write instead of it, from other programs' habits.
+    /// Names for it in other programs.
     pub also: &'static [&'static str],
 }
 
@@ -89,7 +88,7 @@ impl Key {
         self
     }
 
-    /// What holds without it, where that is no value.
+    /// Describes the default in words, if it is no value.
     const fn default(self, words: &'static str) -> Key {
         self.or(DefaultValue::Words(words))
     }
@@ -180,7 +179,7 @@ mod tests {
         });
     }
 
-    /// What reads a key without a value gets its default: that must be one of its kind.
+    /// A reader of a missing key gets its default, so the default must be of the key's type.
     #[test]
     fn defaults_are_values_that_could_be_written() {
         fn fits(default: DefaultValue, kind: &Kind) -> bool {

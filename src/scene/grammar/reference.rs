@@ -25,7 +25,7 @@ pub fn reference() -> String {
     page.text
 }
 
-/// What there is to say of contacts.
+/// The section on contacts.
 const CONTACTS: &str = "
 ## Contacts
 
@@ -116,7 +116,7 @@ machines of thousands of bodies can be simulated. All keys mean the same as in t
 - **Forces** of all kinds act as in Euler–Cromer: they are evaluated at the beginning of each step.
 ";
 
-/// What there is to say of particles.
+/// The section on particles.
 const PARTICLES: &str = "
 ## Particles
 
@@ -180,7 +180,7 @@ bodies nor on each other. They pass through bodies unless the emitter says `coll
   SCENE -o FILE.csv --particles` writes a table of them. Models leave them out.
 ";
 
-/// What there is to say of formulas before their functions are listed.
+/// The section on formulas, before the list of functions.
 const FORMULAS: &str = "
 ## Formulas
 
@@ -218,7 +218,7 @@ Random numbers follow from the `seed` of the scene and the place where they stan
 same on every run and machine, and another body changes none of them.
 ";
 
-/// What there is to say of scenes of many bodies and several files.
+/// The section on scenes of many bodies and several files.
 const MANY: &str = "
 ## Many from few
 
@@ -301,16 +301,16 @@ location = [1, 0, 0]
 shape.box.size = [0.4, 0.4, 0.4]
 ```
 
-`[defaults.body]` says what all bodies are like that do not say it themselves, key by key; what a body says also replaces what cannot
-stand beside it, as a box does a sphere. Formulas of the defaults are evaluated for each body.
+`[defaults.body]` gives defaults for missing keys of all bodies, key by key. A body's own key also replaces a default that cannot
+stand beside it, as a box replaces a sphere. Formulas of the defaults are evaluated for each body.
 
-`include = [\"room.toml\", \"lamps/desk.toml\"]` is as if what these files say stood here, before all else. What this file says itself
-counts, also for `[defaults]`, which are those of all files together; where two included files disagree, this one has to decide. Their names
+`include = [\"room.toml\", \"lamps/desk.toml\"]` reads these files first. This file's own values override theirs, also in `[defaults]`, which all files
+share; if two included files disagree, this file has to give the value. Their names
 start from the folder of the file that they stand in, and stay in that of the scene without `--trust`. Other paths, as those of
 `povray.assets`, start from the folder of the scene in every file.
 ";
 
-/// What there is to say of motion that is given.
+/// The section on given motion.
 const MOTION: &str = "
 ## Motion that is given
 
@@ -342,7 +342,7 @@ A `motion.trajectory` is a CSV file with a row for each time and body: the colum
 writes the same table, so a run can be drawn with other bodies, and the run of any other program with jabuka.
 ";
 
-/// What there is to say of labels before their names are listed.
+/// The section on labels, before the list of names.
 const LABELS: &str = "
 ## Labels
 

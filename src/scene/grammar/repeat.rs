@@ -79,7 +79,7 @@ static RING: TableSpec = TableSpec {
         Key::new(
             "axis",
             AXIS,
-            "What the circle is around, by the right-hand rule; the first copy is towards x, or towards y if x is the axis",
+            "The axis of the circle, by the right-hand rule; the first copy is towards x, or towards y if x is the axis",
         )
         .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["normal"]),

@@ -14,7 +14,7 @@ use crate::scene::color::NAMES;
 /// the check of a scene knows.
 pub fn schema() -> Value {
     let mut schema = table(&SCENE, Whole::No);
-    // What a table lacks may be in the defaults, or in an included file.
+    // Keys missing in a table may come from the defaults, or from an included file.
     let by_itself =
         json!({ "not": { "anyOf": [{ "required": ["defaults"] }, { "required": ["include"] }] } });
     schema.insert("if".to_owned(), by_itself);
@@ -31,7 +31,7 @@ enum Whole {
     No,
 }
 
-/// That a table has what it needs, and those in it, and nothing else.
+/// A schema that requires the keys of a table and of the tables in it, and checks nothing else.
 fn requirements(spec: &TableSpec) -> Map<String, Value> {
     let inner = |key: &Key| {
         let required = match &key.kind {
@@ -92,7 +92,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
     schema
 }
 
-/// That two of the keys are there, for each two of them.
+/// For each two of the keys, a schema that requires both.
 fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     let with = |(i, name): (usize, &'static &str)| {
         names[i + 1..].iter().map(move |other| json!({ "required": [name, other] }))

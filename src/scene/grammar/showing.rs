@@ -9,7 +9,7 @@ static TRAIL_KINDS: [Kind; 2] = [Boolean, Table(&TRAIL_TABLE)];
 static COIL_KINDS: [Kind; 2] = [Boolean, Table(&COIL_TABLE)];
 static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 
-// What is shown of a body beside itself.
+// The keys for the physics shown beside a body.
 
 pub(super) const ARROWS: Key =
     Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it, where parallel ones stand side by side; and arrows for its weight and the forces of contacts, from where they act")
@@ -27,7 +27,7 @@ pub(super) const AXES: Key =
 pub(super) const GHOSTS: Key = Key::new(
     "ghosts",
     Table(&GHOSTS_TABLE),
-    "Where it has been, every so many seconds, paler, as a stroboscope shows it",
+    "Its earlier poses at regular intervals, drawn paler, as a stroboscope shows them",
 )
 .also(&["ghost", "strobe", "stroboscope", "onion_skin"]);
 pub(super) const TRAIL: Key =

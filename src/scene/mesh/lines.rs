@@ -22,7 +22,7 @@ pub(super) struct Lines<'a> {
 /// Changes a line into what a reader expects.
 type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, Place) + 'a;
 
-/// Where in the file.
+/// A place in the file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Place {
     /// At the line of this number, from 1.

@@ -21,7 +21,7 @@ pub(super) use heightfield::heightfield;
 /// Why a file is no mesh.
 #[derive(Debug)]
 pub(super) struct Unreadable {
-    /// What is wrong, as a clause.
+    /// The mistake, as a clause.
     pub(super) why: String,
     /// The number of the line at which that was noticed, from 1.
     pub(super) line: Option<usize>,

@@ -18,7 +18,7 @@ pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
     let models = tobj::load_obj_buf(&mut lines, &options, no_materials);
     let (models, _) = models.map_err(|error| {
         let unreadable = Unreadable::new(reason(error));
-        // What a face names is looked up when all lines have been read.
+        // References of faces are resolved after all lines have been read.
         if is_of_a_line(error) { unreadable.at(lines.number) } else { unreadable }
     })?;
     // Objects and groups make no difference, so there is one model.
@@ -29,8 +29,8 @@ pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
     Ok((positions, triangles))
 }
 
-/// Leaves nothing but vertices and faces, each face by the numbers of its vertices alone: what is wrong with textures,
-/// normals, names and materials does not concern the shape.
+/// Keeps only vertices and faces, and of each face only the numbers of its vertices. Mistakes in textures, normals, names and
+/// materials do not concern the shape.
 fn only_geometry(line: &mut Vec<u8>, _: Place) {
     let start = line.len() - line.trim_ascii_start().len();
     line.drain(..start);

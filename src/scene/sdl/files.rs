@@ -6,7 +6,7 @@ use super::standard::FONT_MACROS;
 use super::tokens::{Token, Tokens};
 use super::words::{FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS};
 
-/// What a file is read as.
+/// The way in which a file is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
     /// SDL: `#include`.
@@ -22,11 +22,11 @@ pub enum FileKind {
 /// The name of a file in SDL.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileName<'a> {
-    /// What the file is read as.
+    /// The way in which the file is read.
     pub kind: FileKind,
     /// The name as it stands between its quotes; `None` if it is computed, so that only POV-Ray knows it.
     pub literal: Option<&'a str>,
-    /// Where it stands: the string with its quotes, or else the word that reads the file.
+    /// Its place: the string with its quotes, or else the word that reads the file.
     pub range: Range<usize>,
 }
 
@@ -92,7 +92,7 @@ fn opens(after: &mut Tokens<'_>, bracket: char) -> bool {
 /// The name that stands next, if it is a plain string; else the place of the word that reads the file.
 fn named<'a>(kind: FileKind, word: &Range<usize>, mut after: Tokens<'a>) -> FileName<'a> {
     match after.next() {
-        // What a backslash means in the name of a file differs between systems.
+        // The meaning of a backslash in a file name differs between systems.
         Some((Token::Text(name), range)) if !name.contains('\\') => {
             FileName { kind, literal: Some(name), range }
         }

@@ -1,16 +1,16 @@
-//! What SDL may do without `--trust`.
+//! The filter for SDL without `--trust`.
 //!
-//! POV-Ray opens, overwrites and includes any file that its user can, and it does so in surprising places: `include`
-//! works without its `#`, and a macro may end between a `#` and its word. So the filter does not look for what is
-//! dangerous. It cuts a text into POV-Ray's own tokens and lets pass what it knows:
+//! POV-Ray opens, overwrites and includes any file that its user can, and does so in surprising places: `include` works without
+//! its `#`, and a macro may end between a `#` and its word. So the filter does not look for dangerous code. It splits a text into
+//! POV-Ray's own tokens and passes only those it knows:
 //!
 //! - reserved words that touch no file, and all identifiers but those of macros that write files;
-//! - directives, each directly behind its `#`, each `#if` or `#macro` with an `#end` of its own in the same text;
-//! - where the name of a file belongs, a plain string with the name of a file that the scene lists as an asset, or that
-//!   comes with POV-Ray. A name that is computed could be that of any file.
+//! - directives, each directly behind its `#`, each `#if` or `#macro` with its own `#end` in the same text;
+//! - as the name of a file, a plain string that names an asset of the scene or a file that comes with POV-Ray. A computed
+//!   name could be that of any file.
 //!
-//! `#include` may not stand in a macro: POV-Ray finds the end of a macro by its position, also in the file that is
-//! included, and may go on reading in the middle of a comment.
+//! `#include` may not stand in a macro: POV-Ray finds the end of a macro by its position, also in the included file, and may
+//! resume in the middle of a comment.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use super::standard::{WRITING_MACROS, is_standard, is_writing};
 use super::tokens::{Token, Tokens, Unclosed};
 use super::words::{DIRECTIVES, OTHERS, REFUSED};
 
-/// Where a text stands in the script.
+/// The place of a text in the script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
     /// Before the bodies, or in a file that is included there.
@@ -31,7 +31,7 @@ pub enum Where {
 /// Something that SDL may not do without `--trust`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// Where it stands in the text, bytes.
+    /// The place in the text, bytes.
     pub range: Range<usize>,
     /// Why it is refused.
     pub why: Why,
@@ -67,8 +67,8 @@ pub enum Why {
 /// The most refusals that are reported of one text.
 const MAX_REFUSALS: usize = 8;
 
-/// What a text may not do without `--trust`, in the order of the text, and the names of the assets that it includes.
-/// `is_asset` tells the names of the scene's assets.
+/// The parts of a text that need `--trust`, in order, and the names of the assets that the text includes. `is_asset` tells
+/// whether a name is an asset of the scene.
 pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (Vec<Refusal>, Vec<&str>) {
     let mut filter =
         Filter { place, is_asset, open: Vec::new(), macros: 0, refusals: Vec::new(), includes: Vec::new() };

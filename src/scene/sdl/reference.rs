@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::standard::{FONT_MACROS, FONTS, IMAGES, INCLUDES, MAPS, WRITING_INCLUDES, WRITING_MACROS};
 use super::words::{DIRECTIVES, FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, OTHERS, REFUSED};
 
-/// What passes without `--trust`, as Markdown.
+/// The words that pass without `--trust`, as Markdown.
 pub fn reference() -> String {
     let mut page = HEAD.to_owned();
     let includes: Vec<&str> =

@@ -1,4 +1,4 @@
-//! What comes with POV-Ray 3.7: include files, and the fonts and images beside them.
+//! The files that come with POV-Ray 3.7: include files, fonts and images.
 
 /// The include files. `makegrass.inc` and `meshmaker.inc` are among them.
 pub(crate) const INCLUDES: &[&str] = &[

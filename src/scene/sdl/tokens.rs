@@ -19,7 +19,7 @@ pub enum Token<'a> {
     Symbol(char),
 }
 
-/// What a text opens and does not close.
+/// A construct that a text opens and does not close.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unclosed {
     /// A `/*`.

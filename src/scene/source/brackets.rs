@@ -1,8 +1,8 @@
-//! What is to be said of a text's brackets, quotes and dotted keys, beyond what the parser says.
+//! Errors in a text's brackets, quotes and dotted keys, beyond those of the parser.
 //!
-//! The parser knows TOML 1.1, which editors and the schema's users do not: what is new in it is refused. And where a
-//! bracket is never closed, the parser reads on to the end of the file and finds fault with every line: the place to
-//! mend is the bracket. The parser also refuses a key of too many parts, but does not say where it stands.
+//! The parser reads TOML 1.1, which most editors and users of the schema do not know, so its additions are refused here. If a
+//! bracket is never closed, the parser reads on to the end of the file and reports every line; the place to mend is the bracket.
+//! The parser also refuses a key of too many parts, but without its place.
 
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
@@ -12,9 +12,9 @@ use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 /// As deep as the crate `toml` goes.
 const MAX_DEPTH: u32 = 80;
 
-/// What a text's brackets, quotes and dotted keys tell.
+/// Findings on a text's brackets, quotes and dotted keys.
 pub(super) struct Brackets {
-    /// What is new in TOML 1.1.
+    /// Additions of TOML 1.1.
     pub(super) too_new: Vec<Diagnostic>,
     /// The first bracket or quote that is never closed: what follows it cannot be trusted.
     pub(super) unclosed: Option<Diagnostic>,
@@ -67,7 +67,7 @@ impl Looker<'_> {
                 let is_list = kind == EventKind::ArrayOpen;
                 self.open.push(Open { start: span.start(), is_list, comma: None, several_lines: false });
             }
-            // Where the parser skips what it cannot read, brackets close that have not been opened.
+            // If the parser skips something unreadable, brackets may close that were never opened.
             EventKind::ArrayClose if self.open.last().is_some_and(|open| open.is_list) => {
                 self.close(span, "list", "]");
             }

@@ -8,7 +8,7 @@ use std::path::Path;
 /// somebody writes to it, and a device may have no end.
 ///
 /// # Errors
-/// Where it cannot be opened, is no regular file, or is too large. The message of the error says which, as a clause.
+/// If it cannot be opened, is no regular file, or is too large. The message of the error says which, as a clause.
 pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
     // Opening a device may have effects of its own, so it is not even opened.
     accept(&std::fs::metadata(path)?, most)?;
@@ -47,7 +47,7 @@ pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> 
     })
 }
 
-/// What a file is, if it is no regular file, in words: `a named pipe`.
+/// The kind of a file that is no regular file, in words: `a named pipe`.
 pub(in crate::scene) fn irregular(kind: FileType) -> Option<&'static str> {
     #[cfg(unix)]
     {

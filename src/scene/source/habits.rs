@@ -1,4 +1,4 @@
-//! What people write from the habits of other languages where TOML stands, and what it is in TOML.
+//! Habits from other languages, and their equivalents in TOML.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ pub(super) struct Mended {
     pub(super) why: &'static str,
 }
 
-/// What a value should be, and why.
+/// A better value, and the reason.
 type Better = (String, &'static str);
 
 const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
@@ -27,7 +27,7 @@ const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
 const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
 const HEADER: &str = "a dot stands between the parts of a header";
 
-/// What a line that is no TOML should have been, if that can be told.
+/// The correction of a line that is no TOML, if it can be told.
 pub(super) fn mend(line: &str) -> Option<Mended> {
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
@@ -209,7 +209,7 @@ fn table(inner: &str) -> Option<Better> {
     Some((format!("{{ {} }}", entries.join(", ")), TABLE))
 }
 
-/// Where one of some signs stands outside of quotes and brackets.
+/// The places of some signs outside of quotes and brackets.
 pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
     let (mut depth, mut quote, mut found) = (0usize, None, Vec::new());
     for (at, c) in text.char_indices() {

@@ -14,7 +14,7 @@ impl<T> Shared<T> {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// What tells the list from all others while it is there; none where it has no clones.
+    /// The address that identifies the list while it exists. `None` if it has no clones.
     pub(in crate::scene) fn address(&self) -> Option<usize> {
         (Arc::strong_count(&self.0) > 1).then(|| Arc::as_ptr(&self.0).addr())
     }

@@ -1,10 +1,10 @@
-//! What is no TOML, in the words of the other messages.
+//! Syntax errors of TOML, in the words of the other messages.
 
 use toml::de::Error;
 
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// What the parser says of a key of too many parts, without a place. `brackets` says it with one.
+/// The parser's message for a key of too many parts, which has no place. `brackets` reports it with one.
 pub(super) const DEEP_KEY: &str = "recursion limit";
 
 /// An error of the parser as a diagnostic. What the parser says in words that are not known here is said as it is.
@@ -37,7 +37,7 @@ fn is_unclosed(expected: &str) -> bool {
     matches!(expected, "`\"`" | "`'`" | "'''")
 }
 
-/// What is wrong, and how to mend it; `found` is the text that is wrong, `next` the first character there.
+/// The message and the help of a syntax error. `found` is the wrong text, `next` the first character there.
 fn words(what: &str, expected: &str, found: &str, next: Option<char>) -> (String, String) {
     let (message, help): (&str, &str) = match what {
         "string values must be quoted" | "missing value for key" if found.is_empty() => {

@@ -29,7 +29,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     let end = brackets.unclosed.as_ref().and_then(Diagnostic::span).map_or(text.len() + 1, |span| span.start);
     let mut last_line = None;
     for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
-        // What comes second on a line is mostly a consequence of what comes first.
+        // The second error of a line mostly follows from the first.
         let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
         let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
         if line.is_none() || line != last_line {
@@ -47,7 +47,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     root
 }
 
-/// That a text is YAML, with the TOML that says the same.
+/// The error for a text that is YAML, with the equivalent TOML.
 fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, error.span().map_or(0, |range| range.start));
     let (start, end) = (line.start, line.end);
@@ -89,7 +89,7 @@ pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Dia
 
 struct Reader<'a> {
     source: SourceId,
-    /// Where syntax errors stand, in order: a value that one touches is not to be trusted.
+    /// The places of syntax errors, in order. A value that touches one is not to be trusted.
     wrong: Vec<usize>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -109,7 +109,7 @@ impl Reader<'_> {
         let value = match value.get_ref() {
             DeValue::Array(items) => self.list(items),
             DeValue::Table(table) => Value::Table(self.table(table)),
-            // Where there is no value at all, the parser makes one up, without extent.
+            // If a value is missing, the parser invents one without extent.
             _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
             DeValue::String(text) => Value::String(text.as_ref().into()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {

@@ -12,9 +12,9 @@ use crate::scene::timed::TimeFormula;
 /// A value and where it stands.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// What it is.
+    /// Its value.
     pub value: Value,
 }
 
@@ -43,7 +43,7 @@ pub enum Value {
     Table(Table),
     /// A table that is the copy of another: see [`Node::table`].
     Copied(CopiedTable),
-    /// What could not be read; that has been said already.
+    /// An unreadable value, which has been reported already.
     Invalid,
 }
 
@@ -66,7 +66,7 @@ pub struct Entry {
 /// A key and where it stands.
 #[derive(Clone, Debug)]
 pub struct Name {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The key, without quotes.
     pub text: Arc<str>,
@@ -124,7 +124,7 @@ impl Node {
         }
     }
 
-    /// What the value is, in words: `a string`.
+    /// The type of the value, in words: `a string`.
     pub fn in_words(&self) -> &'static str {
         match &self.value {
             Value::String(_) => "a string",

@@ -15,7 +15,7 @@ use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, L
 use crate::scene::source::Node;
 use crate::scene::{Body, Emitter, Force, ForceKind, Simulation};
 
-/// What every kind of force is read with.
+/// The inputs for reading a force of any kind.
 struct Reader<'a, 'c> {
     /// The name of the force, and where it stands.
     name: &'a str,
@@ -25,16 +25,16 @@ struct Reader<'a, 'c> {
     simulation: &'a Simulation,
     /// Whether it acts on particles.
     has_particles: bool,
-    /// What a body lacks that a force between pairs does not act on.
+    /// The property that a body needs for this force between pairs, in words: why the force does not act on it.
     lack: &'static str,
     /// Whether the force can have a softening.
     softens: bool,
-    /// What has been said of which name: that of a body with a `repeat` means all of its copies, of which one is enough.
+    /// The names and codes reported so far. The name of a body with a `repeat` means all of its copies, and one report is enough.
     told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
-/// What a body lacks that an electric force does not act on.
+/// Why an electric force does not act on a body.
 const NO_CHARGE: &str = "it has no charge";
 
 pub(super) fn read(
@@ -63,7 +63,7 @@ pub(super) fn read(
         reader.has_particles = !emitters.is_empty();
         let kind = reader.kind(&view);
         if context.wrong_forces.contains(name) {
-            // What is wrong about it may be what it lacks.
+            // The wrong key may be the one whose absence `NoEffect` reports.
             let mut said = context.diagnostics.split_off(before);
             said.retain(|it| it.code != Code::NoEffect || it.span() != Some(span));
             context.diagnostics.append(&mut said);
@@ -173,7 +173,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Says something of the name at a place, unless the like has been said of it, or of the force as a whole.
+    /// Reports a diagnostic for the name at a place, unless that name or the whole force has the like already.
     fn say(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
         if span == self.span || self.told.insert((code, span)) {
             self.context.diagnostics.push(diagnostic());

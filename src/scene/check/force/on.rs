@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
     }
 
-    /// Those of [`movable`](Self::movable) that have a charge; a body that is named and has none is a warning.
+    /// The charged bodies among [`movable`](Self::movable). Naming a body without charge gives a warning.
     pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let mut on = self.movable(view);
@@ -117,7 +117,7 @@ impl Reader<'_, '_> {
         self.say(Code::NamedTwice, span, || error().at(span, "the second time"));
     }
 
-    /// Warns that the force acts on no body, unless the scene has none at all, which is said elsewhere.
+    /// Warns that the force acts on no body. A scene without any bodies is reported elsewhere.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() && !self.has_particles {
             let name = self.name;

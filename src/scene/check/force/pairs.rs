@@ -50,7 +50,7 @@ impl Reader<'_, '_> {
             return (numbers(&first), Some(numbers(&second)));
         }
         if view.has("between") {
-            // What is wrong with it has been said.
+            // The error in it has been reported.
             return (Vec::new(), None);
         }
         let on: Vec<Member> = match self.named(view) {
@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         (numbers(&on), None)
     }
 
-    /// Those bodies that a force can act between; what keeps the others from it is said.
+    /// The bodies that the force can act between. Reports why the others are excluded.
     fn usable(&mut self, named: Vec<(usize, Span)>, able: impl Fn(usize) -> bool) -> Vec<Member> {
         let bodies = self.bodies;
         for &(body, span) in &named {
@@ -146,7 +146,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);
-            // Of the copies of a body, two are enough.
+            // Two copies of a body are enough.
             let groups = &self.context.groups;
             if !said.insert([one, two].map(|name| groups.original(name).unwrap_or(name))) {
                 continue;

@@ -8,7 +8,7 @@ use super::together::{Together, joined};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// What the ends are called in other programs.
+/// Names of the ends in other programs.
 const ENDS: [&str; 34] = [
     "from",
     "to",
@@ -51,7 +51,7 @@ pub(super) fn is_end(entry: &Entry) -> bool {
     ENDS.contains(&entry.name.text.to_lowercase().as_str())
 }
 
-/// What is said of keys that name the ends, where `between` should, and where they stand.
+/// Reports keys that name the ends where `between` should, and their places.
 pub(super) fn mend_ends(
     table: &Table,
     spec: &'static TableSpec,
@@ -74,7 +74,7 @@ pub(super) fn mend_ends(
     let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
     entries.sort_by_key(|entry| entry.name.span);
     if entries.len() > 2 {
-        // What else the table has a key for is that: the `anchor` of a hinge.
+        // A key that the table has for something else keeps its meaning, as the `anchor` of a hinge.
         entries.retain(|entry| key_of(&entry.name.text, inner).is_none_or(|key| key.name == between.name));
     }
     let (first, second) = match entries.as_slice() {
@@ -106,7 +106,7 @@ fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     }
 }
 
-/// Both ends, where somebody has given one: another body, or else a point of the world.
+/// Both ends, if the user has given one: the other is another body, or else a point of the world.
 pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<String> {
     let (one, name) = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -125,7 +125,7 @@ pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<Strin
     Some(format!("[{one}, {other}]"))
 }
 
-/// Both ends, where somebody has given none.
+/// Both ends, if the user has given none.
 pub(super) fn example(context: &Context<'_>) -> Option<String> {
     match bodies(context).as_slice() {
         [] => None,

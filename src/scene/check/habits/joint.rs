@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Collection, Kind, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// What other programs call the world as an end.
+/// Names of the world as an end in other programs.
 const WORLD: [&str; 10] =
     ["world", "ground", "origin", "ceiling", "wall", "space", "fixed", "static", "anchor", "none"];
 
@@ -72,7 +72,7 @@ fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])
 }
 
-/// The line that a motor lacks, by what it has.
+/// The missing line of a motor, chosen by its other keys.
 pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     let [value, speed] = values(spec)?;
     let has = |names: [&str; 2]| names.iter().any(|name| table.get(name).is_some());

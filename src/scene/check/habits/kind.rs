@@ -29,7 +29,7 @@ impl MeantKind {
     }
 }
 
-/// The kind that a table was meant to be: by a word, by a kind that is there already, or by its name and its keys.
+/// The kind that a table was meant to be: by a word, by a kind it has already, or by its name and its keys.
 pub(in crate::scene::check) fn meant_kind(
     table: &Table,
     spec: &'static TableSpec,
@@ -87,7 +87,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         None => Some(table),
     };
     let is_there = |name: &str| present.is_some_and(|table| table.get(name).is_some());
-    // A second kind would exclude the one that is there.
+    // A second kind would exclude the present one.
     let is_table = |name: &str| kinds.key(name).is_some_and(|key| key.kind.table().is_some());
     let is_full = names.iter().any(|name| is_there(name) && is_table(name));
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
@@ -125,8 +125,7 @@ pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     required.peek().is_none() || has_ends || required.any(is_said)
 }
 
-/// Adds what belongs in the place of the word that names a kind, to what has been said since there were `before`
-/// diagnostics.
+/// Adds a correction of the word that names a kind to the diagnostics since there were `before`.
 pub(in crate::scene::check) fn mend_word(
     meant: &MeantKind,
     table: &Table,

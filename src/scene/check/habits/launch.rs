@@ -1,4 +1,4 @@
-//! A velocity that somebody has given by its size and its angle above the ground.
+//! A velocity given by its magnitude and its angle above the ground.
 
 use super::super::Context;
 use super::text::operand;

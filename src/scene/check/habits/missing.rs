@@ -58,7 +58,7 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
     let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {
-        // What does nothing without it.
+        // Keys that have no effect without the missing one.
         keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
     }
     let values: Vec<(&str, String)> =
@@ -95,7 +95,7 @@ pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
     Some(text.to_owned())
 }
 
-/// Where a line belongs that is to stand in a table which is named at a place, and the text that does it.
+/// The place for a missing line of a named table, and the text to insert there.
 pub(in crate::scene::check) fn insertion(
     at: Span,
     line: &str,

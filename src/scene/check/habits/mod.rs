@@ -1,4 +1,4 @@
-//! What should have been written in the place of a key or a value, as text that can be pasted.
+//! Corrections for a wrong key or value, as text that can be pasted.
 
 mod ends;
 mod joint;

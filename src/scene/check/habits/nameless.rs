@@ -10,8 +10,8 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// What is said of a table that stands in the scene without its kind, `[ball]` for `[body.ball]`, or of a key of bodies
-/// that does, and the key of the scene that was meant.
+/// The error for a table that stands in the scene without its kind (`[ball]` for `[body.ball]`), or for a key of bodies that
+/// does; and the key of the scene that was meant.
 pub(in crate::scene::check) fn nameless(
     entry: &Entry,
     context: &Context<'_>,

@@ -1,4 +1,4 @@
-//! What people look for in vain: what jabuka does not do yet, or does in another way.
+//! Features that people look for in vain: jabuka lacks them so far, or has them in another form.
 
 use crate::scene::grammar::{SCENE, TableSpec};
 
@@ -6,9 +6,9 @@ use crate::scene::grammar::{SCENE, TableSpec};
 pub(in crate::scene::check) struct NotBuilt {
     /// The table that it is looked for in, by the noun of its description.
     of: &'static str,
-    /// What it is called.
+    /// The words for it.
     words: &'static [&'static str],
-    /// What holds today, and what to write instead.
+    /// The state today, and what to write instead.
     pub(super) help: &'static str,
     /// The key by which the language will have it, of the table or of the scene; empty where it will not.
     pub(super) comes_with: &'static str,
@@ -16,7 +16,7 @@ pub(in crate::scene::check) struct NotBuilt {
     pub(super) can_go: bool,
 }
 
-/// What such a key stands for; none where the language has it.
+/// The feature that such a key asks for. `None` if the language has the key.
 pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option<&'static NotBuilt> {
     let folded = word.to_lowercase();
     let is_it = |thing: &&NotBuilt| thing.of == spec.noun && thing.words.contains(&folded.as_str());

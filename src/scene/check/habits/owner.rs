@@ -12,7 +12,7 @@ use crate::scene::source::{Entry, Table};
 pub(in crate::scene::check) struct Owner<'a> {
     pub(in crate::scene::check) table: &'a Table,
     pub(in crate::scene::check) spec: &'static TableSpec,
-    /// Where its name stands.
+    /// The place of its name.
     pub(in crate::scene::check) at: Span,
     /// Its header: `[joint.string]`.
     pub(in crate::scene::check) path: &'a str,

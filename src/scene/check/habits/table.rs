@@ -1,4 +1,4 @@
-//! A table for a value that somebody has given in its place: `trail = 2`, `follow = "ball"`.
+//! A value given in the place of a table: `trail = 2`, `follow = "ball"`.
 
 use super::super::Context;
 use super::missing::example_of;

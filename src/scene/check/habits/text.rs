@@ -39,7 +39,7 @@ pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     alone.then_some(Span { start, end, ..entry })
 }
 
-/// What goes with an entry that is left out: its line, or the comma beside it in an inline table.
+/// The text to remove along with an entry: its line, or the comma beside it in an inline table.
 pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     whole_line(entry, context).or_else(|| {
         let text = &context.sources.get(entry.source).text;

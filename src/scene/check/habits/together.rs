@@ -12,9 +12,9 @@ use crate::scene::units;
 
 /// Keys that belong together.
 pub(in crate::scene::check) struct Together {
-    /// What is said of them.
+    /// The error for them.
     pub(in crate::scene::check) error: Diagnostic,
-    /// Where they stand.
+    /// Their places.
     pub(in crate::scene::check) spans: Vec<Span>,
     /// The key that was meant.
     pub(in crate::scene::check) key: &'static str,
@@ -192,7 +192,7 @@ fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     let mut entries = vec![coefficient, area];
     entries.extend(density);
     entries.sort_by_key(|entry| entry.name.span);
-    // That of air at 20 °C and at the level of the sea, where none is given.
+    // Without a density: that of air at 20 °C and sea level.
     let of_air = match density {
         Some(entry) => operand(entry, "kg/m³", context)?,
         None => "1.2".to_owned(),

@@ -11,8 +11,7 @@ use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::units;
 
-/// What is said of an unknown key, with the text that belongs in its place if that can be told; and the key of the table
-/// that was meant.
+/// The error for an unknown key, with the right text if that can be told; and the key of the table that was meant.
 pub(in crate::scene::check) fn unknown(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -100,7 +99,7 @@ fn mended(
     }
 }
 
-/// Where a word is another measure of the same thing, the value changes as well: a diameter is two radii.
+/// Converts the value if the word means another measure of the same thing: a diameter is two radii.
 fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     let factor = match &*entry.name.text {
         "diameter" => "0.5",

@@ -8,8 +8,7 @@ use crate::scene::Color;
 use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
-/// Adds what belongs in the place of values of a wrong type or length, to what has been said since there were `before`
-/// diagnostics.
+/// Adds corrections of values of a wrong type or length to the diagnostics since there were `before`.
 pub(in crate::scene::check) fn mend_value(
     before: usize,
     node: &Node,
@@ -78,7 +77,7 @@ fn numbers_of(text: &str, count: usize) -> Option<String> {
     (are_whole && numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
-/// That a color stands where a material should.
+/// The error for a color that stands in the place of a material.
 pub(in crate::scene::check) fn color_for_material(
     error: Diagnostic,
     word: &str,

@@ -1,4 +1,4 @@
-//! Three numbers that somebody has given in another way.
+//! Three numbers given in another form.
 
 use super::super::Context;
 use super::launch;
@@ -6,7 +6,7 @@ use super::text::raw;
 use crate::scene::source::{Node, Table, Value, habits};
 use crate::scene::units;
 
-/// A list of so many numbers for a value that is something else.
+/// A list of this many numbers for a value of another type.
 pub(super) fn list(
     node: &Node,
     key: &str,
@@ -61,7 +61,7 @@ pub(super) fn axis(text: &str) -> Option<String> {
     }
 }
 
-/// A vector for a number that somebody has given in its place: along the axis that is most likely meant.
+/// A vector for a single number: along the axis that is most likely meant.
 pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     match key {
         "gravity" if number > 0.0 => format!("[0, -{raw}, 0]"),
@@ -111,7 +111,7 @@ fn by_axis(table: &Table, unit: &str) -> Option<String> {
     is_direction.then(|| format!("[{}]", parts.collect::<Vec<_>>().join(", ")))
 }
 
-/// So many numbers of a text, whatever stands between them.
+/// The list of exactly `count` numbers in a text, with any separators between them.
 fn listed(inner: &str, key: &str, count: usize) -> Option<String> {
     let (text, _) = habits::list(inner, key)?;
     let numbers =

@@ -1,4 +1,4 @@
-//! Where the key is that an unknown one was meant to be.
+//! The path from a table to the key that an unknown one was meant to be.
 
 use super::super::{Context, suggest};
 use super::key_of;
@@ -55,7 +55,7 @@ pub(super) fn way(
         .or_else(|| suggest::deeper_also(word, spec).filter(fits))
 }
 
-/// Whether a way leads to another kind than the one that is there or was meant: the two exclude each other.
+/// Whether a path leads to another kind than the present or intended one: the two exclude each other.
 fn is_excluded(
     way: &[&'static str],
     meant: Option<&MeantKind>,

@@ -10,9 +10,9 @@ use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
 use crate::scene::joint::Course;
 
-/// What differs between an angle and a way.
+/// The words that differ between an angle and a distance.
 struct Words {
-    /// What the unit of the scene is in that of the dynamics.
+    /// One unit of the scene, in that of the dynamics.
     unit: f64,
     /// The unit, as it is written.
     symbol: &'static str,
@@ -30,7 +30,7 @@ const MOVING: Words = Words { unit: 1.0, symbol: " m", strength: "force", value:
 const TURN: f64 = 360.0;
 
 impl Reader<'_, '_> {
-    /// Reads what is done with the coordinate that a joint leaves free.
+    /// Reads the keys for the coordinate that a joint leaves free.
     pub(super) fn freedom(&mut self, view: &View<'_>, coordinate: Coordinate) -> (Freedom, Option<Servo>) {
         let words = if coordinate.is_angle() { &TURNING } else { &MOVING };
         let limits = self.limits(view, words);

@@ -96,7 +96,7 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
         .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })
 }
 
-/// What a joint is read with.
+/// The inputs for reading a joint.
 struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use crate::Scene;
 use crate::diagnostic::Report;
 
-/// What is said of a scene whose only label is this text.
+/// The diagnostics of a scene whose only label is this text.
 fn said_of(label: &str) -> Report {
     let scene = format!(
         "[variables]\n'K' = 1\n[body.b]\nshape.sphere.radius = 1\n[label.note]\ntext = {}\n",

@@ -1,4 +1,4 @@
-//! What other programs call the measures of a label.
+//! Names of a label's measures in other programs.
 
 /// The measure of a body that a word means, with the coordinate behind it, if there is one: `velocity` and `x` mean `vx`.
 pub(super) fn of_body(word: &str, axis: Option<&str>) -> Option<String> {

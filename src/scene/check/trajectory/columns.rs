@@ -1,4 +1,4 @@
-//! The columns of a CSV file: what they are called, where they stand, and their units.
+//! The columns of a CSV file: their names, places and units.
 
 use csv::StringRecord;
 
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, nearest};
 use crate::scene::grammar::quoted;
 use crate::scene::units;
 
-/// What columns are called.
+/// The names of the columns.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(in super::super) struct Columns {
     pub(super) time: String,
@@ -41,7 +41,7 @@ impl Columns {
     }
 }
 
-/// A column with numbers: its place, and what its unit is worth in that of SI.
+/// A column of numbers: its place, and its unit in SI units.
 pub(super) type Column = (usize, f64);
 
 /// The quantities of columns: by the scene language's unit for them, empty for one without a unit.
@@ -92,7 +92,7 @@ impl Reader<'_> {
         Some((i, factor?))
     }
 
-    /// Columns that are there together, or not at all.
+    /// Columns that must be given all together, or not at all.
     pub(super) fn columns(
         &mut self,
         header: &StringRecord,
@@ -120,19 +120,19 @@ impl Reader<'_> {
         }
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
-        // Of one letter, any other would be near.
+        // A single letter is near to every other one.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
             wrong.label = match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "these are the columns".to_owned(),
             };
-            wrong.help = Some("`columns` says what columns are called in the file".to_owned());
+            wrong.help = Some("`columns` gives the names of the columns in the file".to_owned());
         }
     }
 }
 
-/// What is wrong with a first line that names no columns, and what it should be.
+/// The error for a first line that names no columns, and a correction.
 fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> {
     let words: Vec<&str> = header.iter().flat_map(str::split_whitespace).collect();
     let are_numbers = !words.is_empty() && words.iter().all(|word| word.parse::<f64>().is_ok());

@@ -1,11 +1,11 @@
-//! Where the lines and fields of a CSV file stand in its text, to say where a mistake is.
+//! The places of lines and fields in the text of a CSV file, for locating mistakes.
 
 use std::ops::Range;
 
 /// The text of a CSV file.
 pub(super) struct Fields<'a> {
     pub(super) text: &'a str,
-    /// What stands between the fields.
+    /// The character between the fields.
     pub(super) delimiter: u8,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// What stands between the fields of the first line.
+/// The character between the fields of the first line.
 fn delimiter(text: &str) -> u8 {
     let header =
         text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();

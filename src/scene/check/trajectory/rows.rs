@@ -20,13 +20,13 @@ pub(super) struct Wrong {
     pub(super) help: Option<String>,
 }
 
-/// Reads a file, and notes what is wrong in it.
+/// Reads a file, and collects its errors.
 pub(super) struct Reader<'a> {
     pub(super) fields: Fields<'a>,
     pub(super) wrong: Vec<Wrong>,
 }
 
-/// So many mistakes are shown of a file.
+/// The most mistakes shown for one file.
 const SHOWN: usize = 20;
 
 impl<'a> Reader<'a> {

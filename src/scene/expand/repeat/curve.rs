@@ -85,9 +85,9 @@ impl Expander<'_> {
         self.keep(compiled, text, span)
     }
 
-    /// Points of the curve, close enough to measure it. It is said where it has none.
+    /// Points of the curve, dense enough to measure it. Reports an error if the curve has no finite value.
     fn samples(&mut self, path: &Path, at: Option<&Node>, count: usize) -> Option<Vec<Sample>> {
-        /// The places along the curve are as exact as chords between so many points a copy are arcs.
+        /// This many chords for each copy approximate the arc length well enough.
         const PER_COPY: usize = 32;
         let number = (PER_COPY * count).clamp(4096, 1 << 20);
         let mut samples: Vec<Sample> = Vec::with_capacity(number + 1);

@@ -23,27 +23,27 @@ use crate::scene::source::{CopiedTable, Entry, Name, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 use crate::scene::view::View;
 
-/// What formulas call the index of a copy in each direction.
+/// The names that formulas use for the index of a copy in each direction.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
 
-/// What copies with formulas may come to together, in units of some ten bytes: it is less memory than a usual machine has, and
-/// takes some seconds.
+/// The most work for all copies with formulas, in units of about ten bytes. It needs less memory than a usual machine has, and
+/// some seconds.
 const MAX_WORK: u64 = 100_000_000;
 
-/// What a copy costs beside its formulas.
+/// The work for a copy besides its formulas.
 const WORK_OF_COPY: u64 = 100;
 
-/// What a formula costs that is evaluated once: so many letters are read, and the value is kept.
+/// The work for a formula that is evaluated once: reading its letters, and keeping the value.
 pub(super) fn work_of_value(text: &str) -> u64 {
     25 + text.len() as u64
 }
 
-/// What a formula of the time costs: it and its derivatives are kept as programs.
+/// The work for a formula in the time, which is kept as programs with its derivatives.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
     100 + 10 * formula.operations()
 }
 
-/// Where a pattern puts a copy, from the location of its body.
+/// The place of a copy, relative to the location of its body.
 pub(super) struct Place {
     offset: DVec3,
     turn: DQuat,
@@ -83,7 +83,7 @@ impl Expander<'_> {
         let counts = pattern.as_ref().map(Pattern::counts);
         let counts = counts.filter(|counts| self.is_affordable(counts, "bodies", name, repeat.node.span));
         let mut is_known = counts.is_some();
-        // Of what is counted wrongly one copy is looked at, for what else is wrong with it.
+        // With a wrong count, one copy is still examined for other mistakes.
         let mut counts = counts.unwrap_or_else(|| vec![1]);
         self.collisions(&counts, name, repeat.name.span);
 
@@ -128,7 +128,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Whether there is room for so many copies; it is said if there is none.
+    /// Whether there is room for this many copies. Reports an error if not.
     pub(super) fn is_affordable(&mut self, counts: &[usize], what: &str, name: &str, span: Span) -> bool {
         let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
         let number = counts.iter().fold(1usize, |product, count| product.saturating_mul(*count));
@@ -143,8 +143,8 @@ impl Expander<'_> {
         false
     }
 
-    /// Whether the formulas of so many copies are affordable, by what the one came to that has been made since `before`; it is
-    /// said if they are not.
+    /// Whether the formulas of this many copies are affordable, measured by the copy made since `before`. Reports an error if
+    /// not.
     pub(super) fn is_workable(&mut self, number: usize, before: u64, name: &str, span: Span) -> bool {
         let one = self.work - before;
         if one == 0 || (one + WORK_OF_COPY).saturating_mul(number as u64) <= MAX_WORK.saturating_sub(before) {
@@ -237,7 +237,7 @@ impl Expander<'_> {
         if is_whole(copy, "location") {
             let own = View::new(spec, Some(copy)).vector("location").unwrap_or_default();
             let location = numbers(&(own + offset).to_array(), repeat.node.span);
-            // What is wrong is left for the validation to see.
+            // The validation reports a wrong value.
             if copy.get("location").is_none_or(|own| read::vector(&own.node, Bound::Any).is_some()) {
                 put(copy, "location", location.value, repeat);
             }
@@ -254,7 +254,7 @@ struct Keeper {
 impl Keeper {
     /// The value for the table of a copy. That of the first is the table itself.
     fn keep(&mut self, table: Table) -> Value {
-        /// Copies may take turns with so many sets of keys.
+        /// The most sets of keys that copies may take in turn.
         const MOST: usize = 4;
         if self.templates.iter().any(|template| template.entries.is_same(&table.entries)) {
             return Value::Table(table);

@@ -13,7 +13,7 @@ use crate::scene::view::View;
 
 /// How copies stand.
 pub(super) enum Pattern {
-    /// So many, where their formulas have them.
+    /// This many copies, each placed by its formulas.
     Count(usize),
     Grid {
         counts: Vec<usize>,
@@ -34,7 +34,7 @@ pub(super) enum Pattern {
     Scatter(Scatter),
 }
 
-/// Of a positive number of copies.
+/// The number of copies, which is positive.
 fn number(count: i64) -> usize {
     usize::try_from(count).unwrap_or(1)
 }
@@ -45,7 +45,7 @@ pub(super) fn fraction(n: usize, of: usize) -> f64 {
 }
 
 impl Expander<'_> {
-    /// The pattern of a repeat; none where it is wrong, which the validation says, or has been said.
+    /// The pattern of a repeat. `None` if it is wrong; the error is reported here or by the validation.
     pub(super) fn pattern(&mut self, repeat: &Entry, spec: &'static TableSpec) -> Option<Pattern> {
         let alone = Table { entries: vec![repeat.clone()].into() };
         let body = View::new(spec, Some(&alone));
@@ -96,7 +96,7 @@ impl Expander<'_> {
                 Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
             let (spacings, spacing, count) = (spacing.len(), view.span("spacing")?, view.span("count")?);
             let error = error.at(spacing, "").at(count, format!("the grid has {directions}"));
-            // A grid of so many directions, with one copy along those that are not given.
+            // A grid with this many directions, with one copy along each missing one.
             let padded = counts.iter().map(usize::to_string).chain(std::iter::repeat("1".to_owned()));
             let padded: Vec<String> = padded.take(spacings).collect();
             let is_short = counts.len() < spacings && spacings <= 3;
@@ -122,7 +122,7 @@ impl Pattern {
         }
     }
 
-    /// Where a copy stands. (Those that are scattered are placed together.)
+    /// The place of a copy. (Scattered copies are placed together.)
     pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> Place {
         let here = |offset: DVec3| Place { offset, turn: DQuat::IDENTITY };
         match self {

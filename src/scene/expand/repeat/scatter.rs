@@ -25,7 +25,7 @@ enum Volume {
     Cylinder { radius: f64, height: f64 },
 }
 
-/// That not all copies can be scattered.
+/// The reason why not all copies have a place.
 pub(super) struct Full {
     /// The number of copies that have a place.
     placed: usize,
@@ -40,7 +40,7 @@ enum Why {
     TooLarge,
     /// No place for it has been found among the others.
     Crowded,
-    /// So many comparisons with others have not been enough.
+    /// This many comparisons with other copies found no place.
     Costly(u64),
 }
 
@@ -63,8 +63,8 @@ impl Scatter {
         })
     }
 
-    /// Where copies of these sizes stand: each is placed at random until it overlaps none of those before it, so that what
-    /// comes after a copy never moves it. Each draws from a stream of its own.
+    /// The places of copies of these sizes. Each is placed at random until it overlaps none of those before it, so later copies
+    /// never move it. Each draws from its own random stream.
     pub(super) fn places(
         &self,
         sizes: &[Option<f64>],
@@ -102,7 +102,7 @@ impl Scatter {
 }
 
 impl Full {
-    /// What is to be said of it, at the repeat.
+    /// The error, at the `repeat`.
     pub(super) fn diagnostic(&self, name: &str, count: usize, span: Span) -> Diagnostic {
         let Full { placed, why } = self;
         let (message, label) = match why {
@@ -172,8 +172,8 @@ fn any_turn(stream: &mut Stream) -> DQuat {
     }
 }
 
-/// So many comparisons are made for a number of copies. Where balls fill a third of the volume, one copy takes some
-/// hundred; forty million take some seconds.
+/// The most comparisons made for a number of copies. Where balls fill a third of the volume, one copy takes a few hundred; forty
+/// million take some seconds.
 fn most_looks(copies: usize) -> u64 {
     5_000_000 + (1_000 * copies as u64).min(40_000_000)
 }
@@ -182,7 +182,7 @@ fn most_looks(copies: usize) -> u64 {
 /// with each other.
 #[derive(Default)]
 struct Taken {
-    /// By the exponent of the power of two at or above their radius.
+    /// The copies by size: by the exponent of the power of two at or above their radius.
     sizes: BTreeMap<i32, OfSize>,
     /// How many cells and balls have been looked at.
     looks: u64,
@@ -260,7 +260,7 @@ impl OfSize {
 mod tests {
     use super::*;
 
-    /// Where the cells are as large as the largest ball, all small balls stand in a few of them.
+    /// With cells as large as the largest ball, all small balls would share a few of them.
     #[test]
     fn one_large_ball_does_not_make_small_ones_be_compared_with_each_other() {
         let looks = |count: usize| {

@@ -1,4 +1,4 @@
-//! What is said of formulas that are wrong, and where.
+//! Errors of wrong formulas, and their places.
 
 use super::super::{Formula, MAX_LENGTH, Program, Scope};
 use super::said;

@@ -1,4 +1,4 @@
-//! What the language of formulas promises.
+//! Promises of the formula language.
 
 mod derivatives;
 mod errors;
@@ -27,8 +27,8 @@ fn value(text: &str) -> f64 {
     strict
 }
 
-/// What is said of a formula that cannot be compiled, or has no value at x = 3, y = -2, z = 0.5: the place that is marked,
-/// the code, the message, and the label or the help.
+/// The error of a formula that cannot be compiled, or has no value at x = 3, y = -2, z = 0.5: the marked place, the code, the
+/// message, and the label or the help.
 fn said(text: &str) -> Vec<String> {
     let errors = match Program::compile(text, &scope()) {
         Err(errors) => errors,

@@ -1,5 +1,5 @@
-//! What holds for all formulas: they are read as they are printed, compiled ones give the bits that the tree gives, and no text
-//! whatever stops the program.
+//! Properties of all formulas: they parse as they are printed, compiled ones give the same bits as the tree, and no text crashes
+//! the program.
 
 use crate::diagnostic::Code;
 use proptest::prelude::*;
@@ -60,7 +60,7 @@ impl Tree {
             Tree::Name(name) => (*name).to_owned(),
             Tree::Sign(tree) => format!("-{}", inner(tree, 7)),
             Tree::Not(tree) => format!("not {}", inner(tree, 3)),
-            // What binds from the right has its like on the right, and a sign in a power needs no parentheses.
+            // A right-associative operator takes its like on the right, and a sign in a power needs no parentheses.
             Tree::Two("^", both) => format!("{}^{}", inner(&both[0], 9), inner(&both[1], 7)),
             Tree::Two(operator, both) => {
                 let level = self.level();
@@ -189,7 +189,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// Of what is no number, only that counts.
+/// All NaNs count as one value.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
