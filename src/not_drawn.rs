@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::{Asking, NotDrawn, Why, number};
 use crate::scene::Quantity;
 
-/// That something is asked for and not drawn: what, from when on, why, and what to write.
+/// The warning that something the scene asks for is not drawn: what, from when on, why, and what to write.
 pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     let NotDrawn { what, name, why, others } = missing;
     let (what, key) = match what {

@@ -108,7 +108,7 @@ impl Kept {
     /// Adds a folder that the command fills with scripts or images. None of these may replace what the command reads.
     ///
     /// # Errors
-    /// Where a file that is read has the name of one that is going to be written there.
+    /// If a file that is read has the name of one that is going to be written there.
     pub fn and_folder(mut self, folder: &Path) -> Result<Kept, CannotOverwrite> {
         let resolved = resolved(folder);
         let is_replaced = |input: &&Input| {
@@ -130,7 +130,7 @@ impl Kept {
     /// Whether a file may be written here, and replace what there is.
     ///
     /// # Errors
-    /// Where it may not.
+    /// If it may not.
     pub fn check(&self, path: &Path) -> Result<(), CannotOverwrite> {
         let cannot = |why: String| Err(CannotOverwrite { path: path.to_owned(), why });
         let identity = Identity::of(path);
@@ -138,7 +138,7 @@ impl Kept {
         {
             return cannot(input.use_of_it.to_owned());
         }
-        // Of a link, both the link and the file that it leads to have a place.
+        // For a link, both the link itself and its target count.
         let beside = path.parent().map(|parent| resolved(parent).join(path.file_name().unwrap_or_default()));
         for place in beside.into_iter().chain([resolved(path)]) {
             let Some(folder) = place.parent() else { continue };

@@ -35,15 +35,15 @@ impl<'a> Run<'a> {
     /// Simulates the scene. What the recording takes beyond a megabyte goes to a file without a name.
     ///
     /// # Errors
-    /// Where the run leaves the numbers, there is no room for its recording, or a template fails.
+    /// If the run becomes non-finite, there is no room for its recording, or a template fails.
     pub fn new(scene: &'a Scene) -> Result<Run<'a>, RunError> {
         Run::of(Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})?)
     }
 
-    /// The run of a scene that somebody has simulated.
+    /// The run of a scene that has been simulated already.
     ///
     /// # Errors
-    /// Where a template fails.
+    /// If a template fails.
     pub fn of(recorded: Recorded<'a>) -> Result<Run<'a>, RunError> {
         let scene = recorded.scene();
         let emitter = Emitter::new(scene, &scene.camera, recorded.survey())?;
@@ -53,7 +53,7 @@ impl<'a> Run<'a> {
     /// The same run, seen by one of the scene's other cameras.
     ///
     /// # Errors
-    /// Where a template fails.
+    /// If a template fails.
     pub fn seen_by(&self, view: &View) -> Result<Run<'a>, RunError> {
         let emitter = Emitter::new(self.scene(), &view.camera, self.survey())?;
         let (view, shutter) = (Some(view.name.clone()), view.camera.shutter);
@@ -80,18 +80,18 @@ impl<'a> Run<'a> {
         self.shutter
     }
 
-    /// What is known of the run as a whole.
+    /// Figures on the whole run.
     pub fn survey(&self) -> &Survey {
         self.recorded.survey()
     }
 
-    /// What turns frames into scripts.
+    /// The emitter, which turns frames into scripts.
     pub fn emitter(&self) -> &Emitter {
         &self.emitter
     }
 
-    /// What was noticed of the run and is no error: bodies that go through planes or each other, bodies too thin or too small to be
-    /// seen, an energy that drifts.
+    /// The warnings of the run, such as bodies that go through planes or each other, bodies too thin or too small to be seen, or
+    /// an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         let crossings = self.survey().crossings.iter().map(crossing);
         let thin = self.emitter.too_thin().map(|body| {
@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
     /// beginning, one after the end is the end.
     ///
     /// # Errors
-    /// Where the run leaves the numbers, or its recording cannot be read.
+    /// If the run becomes non-finite, or its recording cannot be read.
     pub fn at(&self, time: f64) -> Result<Exposure, RunError> {
         Ok(self.recorded.at(time)?)
     }
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
     /// The script of a frame.
     ///
     /// # Errors
-    /// Where a body is at a place that cannot be written, or a template fails.
+    /// If a body is at a place that cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         self.emitter.script(frame)
     }
@@ -150,7 +150,7 @@ impl<'a> Run<'a> {
     /// moves.
     ///
     /// # Errors
-    /// Where a body is at a place that cannot be written, a template fails, or the recording cannot be read.
+    /// If a body is at a place that cannot be written, a template fails, or the recording cannot be read.
     pub fn shutter_script(&self, exposure: &Exposure) -> Result<Option<String>, RunError> {
         let Some(shutter) = self.shutter else { return Ok(None) };
         let mut script = String::new();
@@ -176,7 +176,7 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::FirstOrder,
 ];
 
-/// That the energy is wrong by more than anyone would draw knowingly.
+/// The warning that the energy error is larger than anyone would accept knowingly.
 fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
     let (drift, of, help) = match scene.simulation.contacts {
@@ -193,7 +193,7 @@ fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 
-/// That contacts go with a method of first order, which is not exact enough for them; by how much the energy is wrong.
+/// The warning that a method of first order is too inaccurate for the contacts. It gives the energy error.
 fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 1e-6;
     let simulation = &scene.simulation;
@@ -210,7 +210,7 @@ fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     is_said.then(|| warning.help(help))
 }
 
-/// That the largest body is too small to be seen in the picture, or would be in one of the whole run.
+/// The warning that the largest body is too small to be seen, in this picture or in one of the whole run.
 fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let name = &largest.name;
     let in_whole = |does: String| {
@@ -234,11 +234,11 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     Diagnostic::warning(Code::TooSmall, message).help(help)
 }
 
-/// That a grid has fewer lines than the scene asks for.
+/// The warning that a grid has fewer lines than the scene asks for.
 fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
     let (given, drawn) = (rounded(given), rounded(drawn));
     let message =
-        format!("the grid has a line every {drawn} m, not every {given} m: those would be too many");
+        format!("the grid has a line every {drawn} m, not every {given} m, which would be too many");
     Diagnostic::warning(Code::TooFine, message).help(format!("give `spacing = {drawn}` or more in [grid]"))
 }
 
@@ -249,7 +249,7 @@ fn rounded(number: f64) -> String {
     out
 }
 
-/// That a body starts otherwise than the scene says.
+/// The warning that a body starts with another velocity than the scene gives it.
 fn corrected(corrected: &Corrected) -> Diagnostic {
     let vector = |vector: glam::DVec3| vector.to_array().map(rounded).join(", ");
     let others = match corrected.others {
@@ -268,10 +268,10 @@ fn corrected(corrected: &Corrected) -> Diagnostic {
     Diagnostic::warning(Code::CorrectedStart, message).help(help)
 }
 
-/// What stops bodies where they touch.
+/// The setting that stops bodies where they touch.
 const STOPS: &str = "`simulation.contacts = \"event-driven\"` stops bodies where they touch";
 
-/// That a body goes through a plane.
+/// The warning that a body goes through a plane.
 fn crossing(crossing: &Crossing) -> Diagnostic {
     let plane = crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
     let others = match crossing.others {
@@ -283,7 +283,7 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
     Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
 }
 
-/// That two bodies go into each other.
+/// The warning that two bodies overlap.
 fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);

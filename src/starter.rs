@@ -10,7 +10,7 @@ pub const STARTER: &str = include_str!("starter.toml");
 /// Writes the starter into a new file, and returns its path: the given one, with `.toml` where that is missing.
 ///
 /// # Errors
-/// Where there is such a file already, or none can be written.
+/// If there is such a file already, or none can be written.
 pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     if path.extension().is_none_or(|extension| extension != "toml") {

@@ -28,7 +28,7 @@ const FORMAT: &[u8; 8] = b"jabuka c";
 /// The bytes before the table of pages.
 const HEAD: usize = 56;
 
-/// Where the checkpoint of a run is whose pages are in a file.
+/// The path of the checkpoint for a run whose pages are in a file.
 pub(super) fn beside(part: &Path) -> PathBuf {
     part.with_extension(STOPPED)
 }
@@ -46,7 +46,7 @@ pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint
     bytes.extend(digest);
     let temporary = part.with_extension(SAVING);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, beside(part))).inspect_err(|_| {
-        // What stays is swept by the next run.
+        // The next run sweeps up a file that stays.
         let _: io::Result<()> = fs::remove_file(&temporary);
     })
 }
@@ -68,7 +68,7 @@ fn read(part: &Path, key: Key) -> io::Result<(Vec<At>, Checkpoint)> {
     Ok((pages, Checkpoint { index: index.to_owned(), simulation: simulation.to_owned() }))
 }
 
-/// A run that was stopped: its file of pages, which this process has locked, and what is known of it.
+/// A stopped run: its file of pages, which this process has locked, and its checkpoint.
 pub(super) struct Stopped {
     pub(super) part: PathBuf,
     pub(super) file: File,
@@ -76,8 +76,8 @@ pub(super) struct Stopped {
     pub(super) checkpoint: Checkpoint,
 }
 
-/// Of the runs of a key that were stopped, the one that got farthest. One that another process goes on with does not count. What is
-/// damaged is removed.
+/// Finds, among the stopped runs of a key, the one that got farthest. Runs that another process continues do not count. Damaged
+/// ones are removed.
 pub(super) fn find(folder: &Path, key: Key) -> Option<Stopped> {
     let name = super::file::name(key);
     let stem = Path::new(&name).file_stem()?.to_str()?;

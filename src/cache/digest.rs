@@ -1,4 +1,4 @@
-//! What moves bodies, as a number.
+//! A digest of everything that moves bodies.
 
 use std::fmt::{self, Write};
 

@@ -29,7 +29,7 @@ const TAIL: usize = 48;
 /// No page is larger, bytes: one has a single moment of all bodies, or about 1 MB.
 const LARGEST: u64 = 4 << 30;
 
-/// Where a page is.
+/// The place of a page in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct At {
     pub(super) offset: u64,
@@ -67,12 +67,12 @@ pub(super) fn name(key: Key) -> String {
     format!("{hex}.{KEPT}")
 }
 
-/// What stands before the pages.
+/// The bytes in front of the pages.
 pub(super) fn begin(key: Key) -> Vec<u8> {
     [&FORMAT[..], &key].concat()
 }
 
-/// What stands behind the pages, which end at an offset.
+/// The bytes behind the pages, which end at an offset.
 pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
     let mut bytes: Vec<u8> = pages.iter().flat_map(|at| at.to_bytes()).collect();
     bytes.extend_from_slice(index);
@@ -108,7 +108,7 @@ pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recordin
     let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
     let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
     let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
-    // Where it cannot be noted, the run counts as older than it is.
+    // If the time cannot be noted, the run counts as older than it is.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
     Recording::with_index(counts, index, Box::new(Kept { file, pages }))
 }

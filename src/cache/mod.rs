@@ -6,9 +6,9 @@
 //! | what | where |
 //! | --- | --- |
 //! | what the name of a file says | `digest` |
-//! | what is in a file | `file` |
+//! | the contents of a file | `file` |
 //! | the pages of a run while it is simulated | `spill` |
-//! | from where a run goes on that was stopped | `checkpoint` |
+//! | the point at which a stopped run resumes | `checkpoint` |
 
 mod checkpoint;
 mod digest;
@@ -41,20 +41,20 @@ const SAVING: &str = "saving";
 /// A run that takes long is saved so often, unless the user says otherwise.
 const USUAL_INTERVAL: Duration = Duration::from_secs(30);
 
-/// Where runs are kept, and how much.
+/// A folder that keeps runs, with its limits.
 #[derive(Clone, Debug)]
 pub struct Cache {
     /// None: nothing is kept.
     folder: Option<PathBuf>,
     /// The most that is kept, bytes.
     limit: u64,
-    /// What is simulated faster is not kept.
+    /// Runs that took less time than this are not kept.
     quick: Duration,
     /// How often a run is saved that takes long.
     interval: Duration,
 }
 
-/// What a cache holds.
+/// The contents of a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Holding {
     /// The number of runs.
@@ -72,7 +72,7 @@ impl Cache {
         Cache { folder: None, limit: 0, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
-    /// One that keeps at most so many bytes in a folder, which is made when it is needed.
+    /// A cache that keeps at most this many bytes in a folder. The folder is made when it is needed.
     #[must_use]
     pub fn new(folder: PathBuf, limit: u64) -> Cache {
         Cache { folder: Some(folder), limit, quick: QUICK, interval: USUAL_INTERVAL }
@@ -94,7 +94,7 @@ impl Cache {
     /// or 2 GB. With `JABUKA_CACHE_ALL=1`, runs are kept however fast they were simulated.
     ///
     /// # Errors
-    /// Where `JABUKA_CACHE_SIZE` or `JABUKA_CHECKPOINT_SECONDS` is not a number; the message says so.
+    /// If `JABUKA_CACHE_SIZE` or `JABUKA_CHECKPOINT_SECONDS` is not a number; the message says so.
     pub fn of_user() -> Result<Cache, String> {
         let limit = match env::var("JABUKA_CACHE_SIZE") {
             Err(env::VarError::NotPresent) => USUAL_LIMIT,
@@ -132,7 +132,7 @@ impl Cache {
     /// told of every frame.
     ///
     /// # Errors
-    /// Where the run leaves the numbers, or there is no room for its recording.
+    /// If the run becomes non-finite, or there is no room for its recording.
     pub fn run<'a>(
         &self,
         scene: &'a Scene,
@@ -149,7 +149,7 @@ impl Cache {
     /// run is not kept.
     ///
     /// # Errors
-    /// Where there is no frame before the breakdown, or there is no room for the recording.
+    /// If there is no frame before the breakdown, or there is no room for the recording.
     pub fn run_to_breakdown<'a>(
         &self,
         scene: &'a Scene,
@@ -226,7 +226,7 @@ impl Cache {
         }
     }
 
-    /// Where the pages of a new run go.
+    /// The store for the pages of a new run.
     #[must_use]
     pub fn spill(&self, scene: &Scene, moments: &Moments) -> Spill {
         match &self.folder {
@@ -249,10 +249,10 @@ impl Cache {
         }
     }
 
-    /// What is kept.
+    /// The contents of the cache.
     ///
     /// # Errors
-    /// Where the folder cannot be read.
+    /// If the folder cannot be read.
     pub fn holding(&self) -> io::Result<Holding> {
         let Some(folder) = &self.folder else { return Ok(Holding::default()) };
         let (kept, stopped) = (files(folder, KEPT)?, stopped(folder)?);
@@ -263,7 +263,7 @@ impl Cache {
     /// Removes all that is kept, and says what that was.
     ///
     /// # Errors
-    /// Where a file cannot be removed.
+    /// If a file cannot be removed.
     pub fn clear(&self) -> io::Result<Holding> {
         let held = self.holding()?;
         let Some(folder) = &self.folder else { return Ok(held) };

@@ -15,7 +15,7 @@ use super::file::{self, At};
 use super::{PART, SAVING};
 use crate::simulate::{Checkpoint, Store};
 
-/// So much of a run stays in memory, bytes.
+/// A run stays in memory up to this size, bytes.
 const IN_MEMORY: usize = 1 << 20;
 /// A disk is full when it has no more room than this, bytes: to find out by filling it would hurt others.
 const RESERVE: u64 = 32 << 20;
@@ -25,7 +25,7 @@ const RESERVE: u64 = 32 << 20;
 pub struct Spill(Arc<Shared>);
 
 struct Shared {
-    /// Where the run is to be kept in the end, and its key.
+    /// The folder and the key under which the run will be kept.
     to_keep: Option<(PathBuf, Key)>,
     inner: Mutex<Inner>,
 }
@@ -88,8 +88,8 @@ impl Spill {
         Ok(true)
     }
 
-    /// Makes the pages a file of the cache, with the description of what is where. False if they are not to be kept, or the
-    /// folder has no room.
+    /// Turns the pages into a file of the cache, with their index. Returns false if they are not to be kept, or the folder has no
+    /// room.
     pub(super) fn keep(&self, index: &[u8]) -> io::Result<bool> {
         let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
         let inner = &mut *self.inner();
@@ -97,7 +97,7 @@ impl Spill {
         let part = &mut inner.files[0];
         let end = file::end(&pages, index, part.end);
         part.file.write_all_at(&end, part.end)?;
-        // What was written behind the checkpoint of a run that was stopped may be longer.
+        // A stopped run may have written pages behind its checkpoint, which make the file longer.
         part.file.set_len(part.end + end.len() as u64)?;
         fs::rename(&path, folder.join(file::name(*key)))?;
         part.path = None;
@@ -184,7 +184,7 @@ impl Part {
             folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
         file.try_lock().map_err(io::Error::from)?;
-        // What a run has left here that was killed is of no use now.
+        // A checkpoint left by a killed run is of no use now.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         file.set_len(0)?;
         let begin = file::begin(key);
@@ -229,7 +229,7 @@ fn full() -> io::Error {
     )
 }
 
-/// Where large files go: the usual folder is in memory on some systems.
+/// The folder for large files. On some systems, the usual temporary folder is in memory.
 fn temporary_folder() -> PathBuf {
     let large = PathBuf::from("/var/tmp");
     match std::env::var_os("TMPDIR") {

@@ -22,7 +22,7 @@ pub(super) struct Arguments {
     /// The scene file, or a folder that `jabuka compile` has written
     #[arg(value_name = "SCENE|DIR")]
     scene: PathBuf,
-    /// What distributes the frames
+    /// The program that distributes the frames
     #[arg(long, value_enum)]
     engine: Engine,
     /// The folder for the job [default: out/<name of the scene file>-job]
@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     picture: PictureArguments,
     #[command(flatten)]
     film: VideoArguments,
-    /// So many frames are one job of the cluster [default: 10, or more where there are very many]
+    /// Frames per cluster job [default: 10, or more where there are very many]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     chunk: Option<u32>,
     /// The longest that one frame may take, in seconds
@@ -68,7 +68,7 @@ enum Engine {
     Openjd,
 }
 
-/// What becomes the value of an option in a script: one word.
+/// Parses one word that becomes the value of an option in a script.
 fn parse_word(argument: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || ",.:/_+=%@-".contains(c);
     match !argument.is_empty() && argument.chars().all(plain) {
@@ -77,7 +77,7 @@ fn parse_word(argument: &str) -> Result<String, String> {
     }
 }
 
-/// What becomes words of a command in a script: words between spaces, none of them an option.
+/// Parses words of a command in a script: words between spaces, none of them an option.
 fn parse_words(argument: &str) -> Result<String, String> {
     let words: Vec<&str> = argument.split(' ').filter(|word| !word.is_empty()).collect();
     if words.is_empty() || words.iter().any(|word| word.starts_with('-')) {
@@ -127,7 +127,7 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A job from scripts that are there.
+/// A job from existing scripts.
 fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.of_scene.change_the_scene() {
         let message =
@@ -135,7 +135,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let from = &arguments.scene;
-    // Nothing is written for scripts that cannot be sent.
+    // Scripts that cannot be sent are not written.
     let frames = arguments.of_scene.frames.as_ref();
     let settings = batch::settings(from, frames, String::new(), None).map_err(|error| failed(&error))?;
     if settings.frames.is_empty() {
@@ -177,8 +177,8 @@ fn folder(arguments: &Arguments, name: &str) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| Path::new("out").join(format!("{name}-job")))
 }
 
-/// Makes a job folder, and says what it comes to. `write` puts the scripts into it, and says the size of their images, and
-/// whether these have alpha.
+/// Makes a job folder, and prints a summary. `write` puts the scripts into it, and returns the size of their images, and whether
+/// these have alpha.
 fn make(
     arguments: &Arguments,
     folder: &Path,

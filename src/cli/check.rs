@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
 }
 
-/// What is said of a scene, and of its run where that is asked for.
+/// The diagnostics of a scene, and of its run if the options ask for it.
 fn look_at(path: &Path, options: &Options, cache: Option<&Cache>) -> Report {
     let scene = match Scene::from_path_with(path, options) {
         Ok(scene) => scene,

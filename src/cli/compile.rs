@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_arguments::broken_down(run.recorded(), &whole).and(result)
 }
 
-/// Writes the scripts of one camera, and says what they come to.
+/// Writes the scripts of one camera, and prints a summary.
 fn write(
     run: &Run<'_>,
     path: &Path,
@@ -83,7 +83,7 @@ fn write(
 }
 
 fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progress) -> Result<(), Failure> {
-    /// So many frames are shown in full.
+    /// The number of frames that are shown in full.
     const SHOWN: usize = 3;
     let differences = output::compare(run, folder, selection, &|| progress.step());
     let differences = differences.map_err(|error| progress.failed(&error))?;

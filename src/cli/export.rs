@@ -49,7 +49,7 @@ pub(super) struct Arguments {
     of_scene: SceneArguments,
 }
 
-/// What is read and what is written.
+/// The files to read and to write.
 struct Files<'a> {
     scene: &'a Path,
     output: &'a Path,
@@ -73,7 +73,7 @@ impl Arguments {
     }
 }
 
-/// What a run can be written as.
+/// The formats of an export.
 enum Format {
     Csv,
     Glb,
@@ -190,7 +190,7 @@ fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<Str
         bodies => format!("{bodies} bodies"),
     };
     let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
-    // What is too slow or too fast to be seen is shown at the rate of a film.
+    // A run that is too slow or too fast to watch is shown at the frame rate of a film.
     let shown = match faster {
         1.0 => String::new(),
         _ => format!(" ({} times as fast as in life)", two_digits(faster)),
@@ -224,13 +224,13 @@ pub(super) fn whole<T>(
 ) -> Result<T, ExportError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-    // What a killed run has left.
+    // A killed run may have left this file.
     let _ = fs::remove_file(&temporary);
     let done = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(ExportError::from);
     let done = done.and_then(|file| write(BufWriter::new(file)));
     let done = done.and_then(|what| fs::rename(&temporary, path).map(|()| what).map_err(ExportError::from));
     done.inspect_err(|_| {
-        // What could not be written may not be there.
+        // If the file was never written, there is nothing to remove.
         let _: io::Result<()> = fs::remove_file(&temporary);
     })
 }

@@ -11,7 +11,7 @@ pub(super) fn watched() -> &'static AtomicBool {
             std::process::exit(130);
         }
     };
-    // Where there can be no handler, Ctrl-C ends the process as it always did; the next run sweeps up.
+    // Without a handler, Ctrl-C ends the process as usual, and the next run sweeps up.
     let _ = ctrlc::set_handler(handler);
     &STOP
 }

@@ -8,7 +8,7 @@ use super::{Failure, say};
 /// List what there is to choose from in scenes: integrators, shapes, colors, …
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// What is listed, as in `shapes`; without it, what can be
+    /// The category to list, as in `shapes`; without it, the categories
     category: Option<String>,
 }
 

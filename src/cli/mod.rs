@@ -79,7 +79,7 @@ enum Command {
 enum Failure {
     /// The scene or the run has errors, and they have been said.
     Errors,
-    /// Somebody has stopped the command, and that has been said.
+    /// The user has stopped the command, which has been reported.
     Interrupted,
     /// The command was used wrongly, in this way.
     Usage(String),

@@ -50,7 +50,7 @@ impl PovRayArguments {
         Ok(povray)
     }
 
-    /// What it is to render.
+    /// The job of rendering these images.
     pub(super) fn job<'a>(
         &self,
         sequence: &'a Sequence,

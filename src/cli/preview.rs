@@ -56,6 +56,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::error(&format!("error: the page cannot be served{port}: {error}\n"));
         Failure::Errors
     })?;
-    // Nothing else ends it.
+    // Only an interrupt ends the preview.
     Err(Failure::Interrupted)
 }

@@ -1,4 +1,4 @@
-//! What is made of the images: a film, a contact sheet.
+//! Products made from the images: a film, a contact sheet.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,7 +11,7 @@ use jabuka::sandbox::{Confinement, Launcher};
 use super::progress::Progress;
 use super::{Failure, render, say};
 
-/// What is to be made of the images.
+/// The products to make from the images.
 pub(super) struct Products {
     film: Option<(Film, Ffmpeg)>,
     /// The frames per second of the film, if they are given.
@@ -20,7 +20,7 @@ pub(super) struct Products {
 }
 
 impl Products {
-    /// What the arguments ask for. What is missing for it is said now, not after the last frame.
+    /// Reads the products from the arguments. Reports a missing program now, and not after the last frame.
     pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
         if arguments.video.is_none() && arguments.film.are_given() {
             let message = "`--video-rate` and `--video-quality` are of a film: name it with `--video FILE`";
@@ -65,7 +65,7 @@ impl Products {
         self.film.is_some() || self.sheet.is_some()
     }
 
-    /// Makes them of the images of a sequence, of which only every so many-th frame may be there.
+    /// Makes the products from the images of a sequence. The sequence may hold only every n-th frame.
     #[allow(clippy::cast_precision_loss, reason = "numbers of frames are small")]
     pub(super) fn make(
         &self,

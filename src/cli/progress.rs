@@ -13,7 +13,7 @@ use jabuka::simulate::Labour;
 
 use super::{Failure, say};
 
-/// What takes longer than this gets a bar.
+/// Work that takes longer than this gets a bar.
 const LATE: Duration = Duration::from_secs(1);
 /// How often the bar looks how far a step is.
 const LOOK: Duration = Duration::from_millis(200);
@@ -37,7 +37,7 @@ struct Shared {
 struct Steps {
     /// How many are done.
     done: usize,
-    /// What they and those before them have moved the bar by.
+    /// How far the finished steps have moved the bar.
     position: u64,
     /// How many interactions had been computed when the last one was done.
     before: u64,
@@ -46,12 +46,12 @@ struct Steps {
 }
 
 impl Progress {
-    /// A bar of so many steps, not yet shown.
+    /// A bar with this many steps, not yet shown.
     pub(super) fn new(steps: usize) -> Progress {
         Progress::with(steps as u64, Labour::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
-    /// A bar of a run that is simulated, and then of so many scripts.
+    /// A bar for a run that is simulated, followed by this many scripts.
     pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
         let labour = Labour::of(scene);
         let steps = scene.simulation.frames() + scripts;
@@ -59,7 +59,7 @@ impl Progress {
         Progress::with(length, labour, "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
-    /// A bar of so many frames that are rendered.
+    /// A bar for rendering this many frames.
     pub(super) fn of_frames(frames: usize) -> Progress {
         let template = "rendering    {wide_bar} {pos} of {len}  {per_sec}  {left}  {msg}";
         Progress::with(frames as u64, Labour::default(), template)
@@ -94,12 +94,12 @@ impl Progress {
         Progress(shared)
     }
 
-    /// What counts the interactions of pairs, for the run whose progress this is.
+    /// The counter of pair interactions, for the run whose progress the bar shows.
     pub(super) fn effort(&self) -> &Effort {
         &self.0.effort
     }
 
-    /// Says what is being done now.
+    /// Shows the current phase.
     pub(super) fn phase(&self, what: impl Into<Cow<'static, str>>) {
         self.0.bar.set_message(what);
     }
@@ -124,7 +124,7 @@ impl Progress {
         self.0.bar.finish_and_clear();
     }
 
-    /// It failed: the bar goes, and the reason is said.
+    /// Records a failure: removes the bar, and reports the reason.
     pub(super) fn failed(&self, error: &OutputError) -> Failure {
         self.finish();
         say::report(&error.report());
@@ -146,7 +146,7 @@ impl Shared {
     }
 }
 
-/// What a step moves the bar by: the interactions that its frame takes, or 1 where there are none.
+/// How far a step moves the bar: the number of interactions in its frame, or 1 if there are none.
 fn weight(labour: Labour, step: usize) -> u64 {
     if labour.is_empty() { 1 } else { labour.of_step(step).max(1) }
 }
@@ -163,7 +163,7 @@ fn look(bar: &Weak<Shared>) {
 
 /// The time that is left. Before anything is done, nobody knows.
 fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
-    // What cannot be written to the bar is not shown.
+    // If the bar cannot be written to, it is not shown.
     let _ = match state.pos() {
         0 => write!(out, "time left unknown"),
         _ => write!(out, "{:#} left", HumanDuration(state.eta())),

@@ -71,7 +71,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
-    // What is not there is said before anything is done.
+    // Missing programs are reported before any work is done.
     arguments.povray.look().map_err(|error| failed(&error))?;
     let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
@@ -216,7 +216,7 @@ fn render_scripts(
 
 /// Renders, and says how it goes.
 pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
-    /// So many failures are shown in full.
+    /// The number of failures that are shown in full.
     const SHOWN: usize = 3;
     let mut progress = None;
     let mut failures = 0;
@@ -261,7 +261,7 @@ pub(super) fn failed(error: &RenderError) -> Failure {
     Failure::Errors
 }
 
-/// What was made, in a few lines.
+/// A summary of the products in a few lines.
 fn summed_up(images: &Images, sequence: &Sequence, known: &str, outcome: &Outcome, took: Duration) -> String {
     let frames = sequence.scripts().len();
     let there = frames - outcome.failed.len();

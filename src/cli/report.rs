@@ -48,7 +48,7 @@ enum Format {
     Json,
 }
 
-/// What a plot can be written as.
+/// The formats of a plot.
 #[derive(Clone, Copy)]
 enum Plot {
     Svg,
@@ -78,7 +78,7 @@ fn parse_accuracy(argument: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    /// What the bar counts of each of the two phases.
+    /// The length of the bar in each of the two phases.
     const STEPS: usize = 500;
     let stop = interrupt::watched();
     let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;

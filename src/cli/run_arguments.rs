@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, say};
 
-/// What changes a scene, and which frames are taken, by which cameras.
+/// Arguments that change a scene, and select frames and cameras.
 #[derive(clap::Args)]
 pub(super) struct RunArguments {
     #[command(flatten)]
@@ -37,12 +37,12 @@ impl RunArguments {
         self.scene.read_with(path, overrides)
     }
 
-    /// Whether something is said that only a scene has, not a folder of scripts.
+    /// Whether an argument applies only to a scene, and not to a folder of scripts.
     pub(super) fn change_the_scene(&self) -> bool {
         self.scene.change_the_scene() || !self.view.is_empty()
     }
 
-    /// Where runs are kept between commands.
+    /// The cache that keeps runs between commands.
     pub(super) fn cache(&self) -> Result<Cache, Failure> {
         self.scene.cache()
     }
@@ -52,12 +52,12 @@ impl RunArguments {
         self.scene.trust()
     }
 
-    /// What POV-Ray may do for the scene; `None` stands for scripts without their scene. `folders` are those of the results.
+    /// What POV-Ray may do for the scene. `None` means scripts without a scene. `folders` are those of the results.
     pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         self.scene.confinement(scene, folders)
     }
 
-    /// The frames that are asked for, of so many.
+    /// The selected frames, out of this many.
     pub(super) fn selection(&self, frames: usize) -> Result<Selection, Failure> {
         let Some(selection) = &self.frames else { return Ok(Selection::first(frames)) };
         match selection.last() {

@@ -14,10 +14,10 @@ use super::say;
 /// system. It ends when the process that started it ends. Without a program, it says what the system enforces.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// What it may read and run: a file, or a folder with all that is below it; may be repeated
+    /// A path that the program may read and run: a file, or a folder with its contents; may be repeated
     #[arg(long, value_name = "PATH")]
     read: Vec<PathBuf>,
-    /// What it may read and write; the first folder also takes its temporary files; may be repeated
+    /// A path that the program may read and write; temporary files go to the first folder; may be repeated
     #[arg(long, value_name = "PATH")]
     write: Vec<PathBuf>,
     /// The process that must be its parent

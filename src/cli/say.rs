@@ -1,9 +1,9 @@
-//! What is said to people: results to standard output, the rest to standard error.
+//! Output to people: results to standard output, the rest to standard error.
 //!
-//! All that goes to a terminal passes here, and nothing in it can command the terminal. Where a line break in a name would
-//! start a line of its own, the caller makes the name visible.
+//! All terminal output passes through this module, and no text in it can send commands to the terminal. If a line break in a name
+//! could start a new line, the caller makes the name visible first.
 //!
-//! A reader that has gone away (`jabuka … | head`) is no error of ours, so failures to write are of no account.
+//! A closed reader (`jabuka … | head`) is no error, so failed writes are ignored.
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(super) fn result(text: &str) {
     write(std::io::stdout().lock(), &visible_lines(text));
 }
 
-/// Says a result in JSON, which has escapes of its own for what is not visible.
+/// Prints a result in JSON, which escapes invisible characters itself.
 pub(super) fn json(text: &str) {
     // Such characters stand in strings only; the serializer has escaped those below U+0020.
     let escape = |c: char| match c {
@@ -33,13 +33,13 @@ pub(super) fn json(text: &str) {
     write(std::io::stdout().lock(), &text.chars().map(escape).collect::<String>());
 }
 
-/// Says a result in place of one of so many lines above it, on a terminal.
+/// Prints a result over this many lines above it, on a terminal.
 pub(super) fn in_place_of(lines: usize, text: &str) {
     let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
     write(std::io::stdout().lock(), &(up + &visible_lines(text)));
 }
 
-/// Says what is no result.
+/// Prints something that is no result.
 pub(super) fn error(text: &str) {
     write(std::io::stderr().lock(), &visible_lines(text));
 }
@@ -54,7 +54,7 @@ pub(super) fn report(report: &Report) {
     write(std::io::stderr().lock(), &report.to_text(color));
 }
 
-/// Says that a file may not be replaced, if that is so.
+/// Reports a file that may not be replaced.
 pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
     checked.map_err(|error| {
         report(&error.report());
@@ -81,7 +81,7 @@ pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
     Failure::Errors
 }
 
-/// Says what is wrong with the arguments, or the help that they ask for.
+/// Prints the error in the arguments, or the help that they ask for.
 pub(super) fn misused(error: &clap::Error) -> ExitCode {
     let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {

@@ -10,7 +10,7 @@ use jabuka::scene::{Options, Override};
 
 use super::{Failure, say};
 
-/// What changes a scene.
+/// Arguments that change a scene.
 #[derive(clap::Args)]
 pub(super) struct SceneArguments {
     /// Replace a value of the scene: a TOML value, or else a string; may be repeated
@@ -58,7 +58,7 @@ impl SceneArguments {
         !self.set.is_empty() || self.templates.is_some()
     }
 
-    /// Where runs are kept between commands.
+    /// The cache that keeps runs between commands.
     pub(super) fn cache(&self) -> Result<Cache, Failure> {
         if self.no_cache { Ok(Cache::none()) } else { Cache::of_user().map_err(Failure::Usage) }
     }
@@ -68,7 +68,7 @@ impl SceneArguments {
         self.trust
     }
 
-    /// What POV-Ray may do for the scene; `None` stands for scripts without their scene. `folders` are those of the results.
+    /// What POV-Ray may do for the scene. `None` means scripts without a scene. `folders` are those of the results.
     pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         let confinement = Confinement::new(Launcher::of_this_program());
         if self.trust { confinement.trusting(scene, folders) } else { confinement }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use jabuka::diagnostic::is_invisible;
 
-/// A path as one word of a command for bash or zsh. It is never taken for an option, and what is not visible in it is
-/// written as an escape.
+/// A path as one word of a command for bash or zsh. A shell never takes it for an option, and its invisible characters are
+/// escaped.
 pub(super) fn path(path: &Path) -> String {
     let bytes = path.as_os_str().as_encoded_bytes();
     let prefix = if bytes.starts_with(b"-") { "./" } else { "" };

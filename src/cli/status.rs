@@ -1,4 +1,4 @@
-//! `jabuka status`: what is there of the images.
+//! `jabuka status`: the state of the images.
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ enum Format {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     /// How long a look lasts.
     const PAUSE: Duration = Duration::from_secs(2);
-    // Where people look, the new status takes the place of the old one.
+    // On a terminal, the new status replaces the old one.
     let redraw = std::io::stdout().is_terminal() && arguments.format == Format::Text;
     let mut shown = String::new();
     let read = if arguments.verify { Status::verified } else { Status::read };

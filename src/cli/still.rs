@@ -119,7 +119,7 @@ fn write_script(
     Ok(folder)
 }
 
-/// That the run has such a moment.
+/// Fails if the run does not reach this time.
 fn check_time(scene: &Scene, time: f64) -> Result<(), Failure> {
     let simulation = &scene.simulation;
     let end = simulation.duration.max(simulation.time(simulation.frames() - 1));

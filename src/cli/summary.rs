@@ -1,4 +1,4 @@
-//! What a run comes to, in a few lines.
+//! The summary of a run, in a few lines.
 
 use std::path::Path;
 use std::time::Duration;
@@ -14,7 +14,7 @@ use super::shell;
 /// From this drift on, a summary says how to find out how right the run is.
 const DOUBTFUL: f64 = 0.01;
 
-/// What was written, and how right it is. `path` is that of the scene.
+/// Summarizes the written files and the accuracy of the run. `path` is that of the scene.
 pub(super) fn summary(
     run: &Run<'_>,
     path: &Path,

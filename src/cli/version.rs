@@ -1,4 +1,4 @@
-//! `jabuka --version --verbose`: what is there to render with.
+//! `jabuka --version --verbose`: the programs available for rendering.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

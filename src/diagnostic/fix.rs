@@ -2,7 +2,7 @@
 
 use super::{Report, SourceId, Span};
 
-/// What should have been written.
+/// The correction of a mistake.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fix {
     /// The pieces of text to replace; they do not overlap.
@@ -16,7 +16,7 @@ pub struct Fix {
 pub struct Edit {
     /// The piece to replace; an empty one is a place to insert at.
     pub span: Span,
-    /// What belongs there.
+    /// The new text.
     pub text: String,
 }
 

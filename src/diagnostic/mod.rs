@@ -1,4 +1,4 @@
-//! What jabuka has to say about a scene or a run: errors and warnings, each at its place.
+//! Errors and warnings about a scene or a run, each at its place.
 
 mod code;
 mod fix;
@@ -29,7 +29,7 @@ pub enum Severity {
 pub struct Label {
     /// The place.
     pub span: Span,
-    /// What is said there; may be empty.
+    /// The remark; may be empty.
     pub text: String,
 }
 
@@ -40,7 +40,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// The kind of mistake.
     pub code: Code,
-    /// What is wrong, in one line.
+    /// The mistake, in one line.
     pub message: String,
     /// The places: first the one that is wrong, then those that it has to do with.
     pub labels: Vec<Label>,
@@ -96,7 +96,7 @@ impl Diagnostic {
         self
     }
 
-    /// Where the mistake is, if it is at a place.
+    /// The place of the mistake, if it has one.
     pub fn span(&self) -> Option<Span> {
         self.labels.first().map(|label| label.span)
     }

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 /// One text that values come from: the scene's file, or one `--set` argument.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// What a reader sees in front of line and column: the file's path as it was given, or `--set`.
+    /// The name shown in front of line and column: the file's path as it was given, or `--set`.
     pub name: String,
     /// The whole text.
     pub text: String,
-    /// Where its lines start.
+    /// The first byte of each line.
     lines: Vec<usize>,
 }
 

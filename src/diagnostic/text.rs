@@ -7,7 +7,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
 use super::{Diagnostic, Edit, Label, Report, Severity, SourceId, Sources, is_invisible, visible};
 
-/// So many diagnostics are shown of one line; each shows the line, which may be very long.
+/// The most diagnostics shown for one line. Each of them shows the line, which may be very long.
 const MOST_OF_A_LINE: usize = 50;
 
 /// Renders every diagnostic of a report, with an empty line after each.

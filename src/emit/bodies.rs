@@ -40,7 +40,7 @@ struct Item {
     name: Arc<str>,
 }
 
-/// What is written of bodies that differ in place and name alone: two texts, with the place between them.
+/// The text that bodies share if they differ in place and name alone: one part before the place, and one after it.
 #[derive(PartialEq)]
 struct Form {
     before: String,
@@ -52,11 +52,11 @@ struct Form {
 /// How the place of a body is written.
 #[derive(PartialEq)]
 enum Place {
-    /// By its centre.
+    /// The centre.
     Centre,
-    /// By a matrix; the shape is first turned by the quaternion.
+    /// A matrix. The shape is first turned by the quaternion.
     Matrix(DQuat),
-    /// By the normal and the distance from the origin of a plane, whose normal this is in the body's own axes.
+    /// The normal and the distance from the origin, for a plane. The normal given here is in the body's own axes.
     Plane(DVec3),
 }
 
@@ -88,7 +88,7 @@ impl Block {
         Block { style, groups, forms }
     }
 
-    /// Appends the bodies that are there in a frame. The first body that cannot be written in these units is an error.
+    /// Appends the bodies present in a frame. The first body that cannot be written in these units is an error.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
         for Group { bodies, shared } in &self.groups {
             let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
@@ -119,7 +119,7 @@ impl Block {
     /// Appends the single body of a block at a place of its own.
     pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
-            // What cannot be written is left out: where a body has been is no reason to have no picture.
+            // Trails that cannot be written are left out: the past of a body is no reason to refuse the picture.
             let _ = self.item(out, item, body);
         }
     }
@@ -194,7 +194,7 @@ fn single(
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         return group(Form { before, place, after: " }) // ".to_owned() });
     }
-    // What words of the scene's own make of a body may look different when it turns.
+    // An object from the scene's own POV-Ray code may look different when it turns.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
     let (mut before, place, mut after) = shape(body, uniform, meshes, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
@@ -222,7 +222,7 @@ fn in_comment(body: &Body) -> Arc<str> {
 
 /// The number of a form among those that there are, or of a new one.
 fn number(form: Form, forms: &mut Vec<Form>) -> usize {
-    /// So many of the latest forms are looked through.
+    /// The search looks at this many of the latest forms.
     const LATEST: usize = 16;
     if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {
         return known.0;

@@ -1,7 +1,7 @@
-//! What POV-Ray cannot tell apart: it would refuse the script, or draw nothing.
+//! Checks for differences too small for POV-Ray: it would refuse the script, or draw nothing.
 //!
-//! POV-Ray's parser takes everything below 10⁻¹⁰ of its units for nothing, and its tracer takes places for the same that
-//! are less than a step of single precision apart. Both are errors here, before a script is written.
+//! POV-Ray's parser takes everything below 10⁻¹⁰ of its units for zero. Its tracer takes two places for the same if they are less
+//! than one step of single precision apart. Both are errors here, before a script is written.
 
 use super::EmitError;
 use super::unit::{Reach, reach};
@@ -12,7 +12,7 @@ use crate::scene::{Camera, Scene};
 /// A step of single precision, relative to the number.
 const STEP: f64 = 1.0 / 16_777_216.0;
 
-/// What is smaller is nothing to POV-Ray's parser, in its units; its own limit is 10⁻¹⁰.
+/// Lengths below this count as zero, in POV-Ray's units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NOTHING: f64 = 1e-8;
 
 /// A camera that is nearer to the point that it looks at has no direction, in POV-Ray's units: the square is compared
@@ -22,14 +22,14 @@ const NEAREST: f64 = 2e-5;
 /// How many of POV-Ray's units a scene may reach, from the first to the second.
 const UNITS: [f64; 2] = [1e-3, 1e9];
 
-/// Checks that POV-Ray can tell apart what a camera of the scene sees, in units of so many metres.
+/// Checks that POV-Ray can tell apart what a camera of the scene sees. `unit` is in metres.
 ///
 /// # Errors
 /// [`EmitError::Indistinct`], at the body, the camera, or the unit.
 pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> Result<(), EmitError> {
     let reach = reach(plan);
     if !(reach.metres / unit).is_finite() || reach.metres == f64::INFINITY {
-        // Which body is there is said when its frame is written.
+        // The bodies present are checked when their frame is written.
         return Ok(());
     }
     let error = unit_of(scene, &reach, unit)
@@ -40,7 +40,7 @@ pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> R
     Err(EmitError::Indistinct(Report { sources, diagnostics: vec![error] }))
 }
 
-/// Whether a camera that moves and what it looks at are different points to POV-Ray.
+/// Whether POV-Ray can tell a moving camera from the point that it looks at.
 pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
     let [from, to] = [camera.location(), camera.look_at()].map(|point| point / unit);
     let farthest = from.abs().max_element().max(to.abs().max_element());
@@ -61,7 +61,7 @@ fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
     }
 }
 
-/// That the unit that the scene gives is too large or too small for it.
+/// The error for a `unit` in the scene that is too large or too small for it.
 fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     scene.povray.unit?;
     let units = reach.metres / unit;
@@ -74,7 +74,7 @@ fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     Some(indistinct(message, scene.places.unit, &label).help(help))
 }
 
-/// That a body is a point to POV-Ray, or thinner than nothing. The smallest one is named.
+/// The error for a body that POV-Ray takes for a point, or for thinner than nothing. It names the smallest such body.
 fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     let bodies = scene.bodies.iter().enumerate();
     let too_small = bodies.filter_map(|(id, body)| {
@@ -92,14 +92,14 @@ fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     let mut error = indistinct(message, scene.places.bodies.get(id).copied(), &label);
     let far = format!("the scene reaches {} from the origin", metres(reach.metres));
     if let Some(camera) = scene.places.camera.filter(|_| reach.by_camera) {
-        error = error.at(camera, format!("with what this camera sees, {far}"));
+        error = error.at(camera, format!("with the view of this camera, {far}"));
     }
     let help =
         format!("{far}; draw the body larger by `look.scale`, or bring everything nearer to the origin");
     Some(error.help(help))
 }
 
-/// That the camera has no direction, or sees nothing of any size.
+/// The error for a camera that has no direction, or whose picture has no size.
 fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<Diagnostic> {
     let distance = placed.location().distance(placed.look_at());
     let place = scene.places.camera;

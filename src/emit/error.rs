@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, Report, Span};
 pub enum EmitError {
     /// A place is not a number in POV-Ray's units.
     OutOfRange {
-        /// What is there: a body, a light, or the camera.
+        /// The thing at that place: a body, a light, or the camera.
         what: String,
         /// The time, s.
         time: f64,
@@ -29,7 +29,7 @@ impl EmitError {
         error: &minijinja::Error,
         text_of: impl Fn(&str) -> Option<(String, String)>,
     ) -> EmitError {
-        // The innermost cause says what is wrong; the others say on the way from which template to which.
+        // The innermost cause is the mistake; the others name the templates on the way.
         let mut innermost = error;
         let mut message = error.to_string();
         let mut cause = std::error::Error::source(error);

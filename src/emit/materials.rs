@@ -18,15 +18,15 @@ pub(super) struct MaterialText {
     pub(super) identifier: String,
     /// `plain`, `library`, `checkered`, `texture` or `sdl`.
     kind: &'static str,
-    /// Of a plain one and one of the library: its color in sRGB.
+    /// The color in sRGB, for a plain material or one of the library.
     pub(super) color: Option<[f64; 3]>,
-    /// Of a plain one: the name of its finish.
+    /// The name of the finish, for a plain material.
     finish: Option<&'static str>,
-    /// Of one of the library: its name there.
+    /// The name in the library, for a material of the library.
     like: Option<&'static str>,
-    /// Of one of the library: the template of its family.
+    /// The template of the family, for a material of the library.
     family: Option<&'static str>,
-    /// Of a clear one of the library: how strongly it refracts light.
+    /// The index of refraction, for a clear material of the library.
     ior: Option<f64>,
     /// Whether it shines by itself, and casts no shadow.
     glows: bool,
@@ -135,7 +135,7 @@ impl MaterialText {
         }
     }
 
-    /// What stands in an object that is made of it, for all bodies alike.
+    /// The text inside an object of this material, equal for all bodies.
     pub(super) fn usage(&self) -> String {
         match self.kind {
             // Raw SDL may hold more than a texture, so it is a macro, whose text stands wherever it is called.
@@ -145,10 +145,10 @@ impl MaterialText {
         }
     }
 
-    /// What stands in a body that is made of it.
+    /// The text inside a body of this material.
     ///
-    /// A pattern is made for a ball of radius 1. On a body it is as large as for a ball of the volume that is drawn: a
-    /// crate has as many rings of wood as a matchbox.
+    /// A pattern is made for a ball of radius 1. Its size on a body is that for a ball of the same drawn volume: a crate has as
+    /// many rings of wood as a matchbox.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
         let (Pattern::Centred | Pattern::Cut, Some(volume)) = (self.pattern, body.drawn().volume()) else {
             return self.usage();

@@ -51,7 +51,7 @@ impl Meshes {
                 self.numbers.insert(Arc::as_ptr(mesh), self.all.len());
                 let reach = |p: &DVec3| p.abs().max_element();
                 let reach = mesh.vertices().iter().map(reach).fold(0.0, f64::max);
-                // POV-Ray takes triangles for none that are very small as numbers, and what is very near for here.
+                // POV-Ray drops triangles with very small coordinates, and takes very near points for the origin of the ray.
                 let unit = decimal_step(reach.max(f64::MIN_POSITIVE)) / 10.0;
                 let identifier = identifiers.add("Mesh", mesh.name());
                 self.all.push(Known { mesh: Arc::clone(mesh), identifier, unit });
@@ -83,7 +83,7 @@ impl Meshes {
             } else {
                 list(out, "face_indices", mesh.triangles(), corners);
             }
-            // By looking along a direction, POV-Ray finds out what is inside. One that no face or edge is likely to have.
+            // POV-Ray looks along a direction to find out what is inside. This direction is unlikely to lie in any face or edge.
             if mesh.flaw().is_none() {
                 out.push_str("  inside_vector <0.31, 0.83, 0.47>\n");
             }

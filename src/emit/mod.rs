@@ -46,13 +46,13 @@ pub(crate) use text::comment;
 /// Turns the frames of one scene into scripts.
 pub struct Emitter {
     templates: Templates,
-    /// What all scripts have in common, if it is a file of its own.
+    /// The part common to all scripts, if it is a file of its own.
     shared: Option<String>,
     constants: FrameConstants,
     block: Block,
     showing: Showing,
     particles: Particles,
-    /// What the pictures show.
+    /// The contents of the pictures.
     plan: Plan,
     unit: Unit,
     digits: usize,
@@ -62,7 +62,7 @@ pub struct Emitter {
     emitters: Vec<Arc<str>>,
     /// The bytes of the longest block of bodies so far.
     longest: AtomicUsize,
-    /// The bytes of the longest block of what is beside them.
+    /// The length of the longest block of things beside the bodies, bytes.
     longest_beside: AtomicUsize,
 }
 
@@ -70,7 +70,7 @@ impl Emitter {
     /// Prepares everything that the scripts of a scene have in common.
     ///
     /// # Errors
-    /// Where a template fails, or POV-Ray could not tell a body, or the camera and what it looks at, apart.
+    /// If a template fails, or POV-Ray could not tell a body, or the camera and what it looks at, apart.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let plan = Plan::new(scene, camera, survey);
@@ -110,7 +110,7 @@ impl Emitter {
         self.unit.length
     }
 
-    /// What the pictures show.
+    /// The contents of the pictures.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -125,7 +125,7 @@ impl Emitter {
     /// The script of a frame.
     ///
     /// # Errors
-    /// Where a body is at a place that cannot be written, or a template fails.
+    /// If a body is at a place that cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
@@ -179,7 +179,7 @@ impl Emitter {
     /// sequence, and what the scripts share, if that is a file of its own.
     ///
     /// # Errors
-    /// Where a template fails.
+    /// If a template fails.
     pub fn sequence(&self, scene: &Scene) -> Result<Vec<(&'static str, String)>, EmitError> {
         let values = values::sequence(scene);
         let shared = self.shared.iter().map(|text| Ok((COMMON, text.clone())));

@@ -5,24 +5,24 @@ pub const MASTER: &str = "animation.pov";
 /// The options for that command.
 pub const INI: &str = "animation.ini";
 
-/// What all scripts have in common, where it is a file of its own.
+/// The file with the part common to all scripts, if it is a file of its own.
 pub const COMMON: &str = "common.inc";
 
 /// The folder with the files that scripts read, where there are any.
 pub const ASSETS: &str = "assets";
 
-/// The number of digits in the names of the scripts of so many frames: at least 4.
+/// The number of digits in the names of this many scripts: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
     const LEAST: usize = 4;
     frames.saturating_sub(1).to_string().len().max(LEAST)
 }
 
-/// The name of the script of a frame, in a sequence of so many: `frame_0050.pov`.
+/// The name of a frame's script, in a sequence of this many frames: `frame_0050.pov`.
 pub fn frame_name(index: usize, frames: usize) -> String {
     format!("frame_{index:0width$}.pov", width = width(frames))
 }
 
-/// The name of the script of an image with motion blur, in a sequence of so many: `shutter_0050.pov`.
+/// The name of the script of an image with motion blur, in a sequence of this many frames: `shutter_0050.pov`.
 pub fn shutter_name(index: usize, frames: usize) -> String {
     format!("shutter_{index:0width$}.pov", width = width(frames))
 }

@@ -14,18 +14,18 @@ use crate::picture::decimal_step;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;
 
-/// So many groups show how particles change over their lives.
+/// The number of groups that show how particles change over their lives.
 const GROUPS: usize = 32;
 /// The part of the radius to which places are rounded.
 const PRECISION: f64 = 0.01;
 
-/// What is the same in all frames about the particles of a scene.
+/// The part of the particles that is equal in all frames.
 pub(super) struct Particles {
     style: Style,
     emitters: Vec<Looks>,
 }
 
-/// What the particles of an emitter look like.
+/// The looks of an emitter's particles.
 struct Looks {
     name: Arc<str>,
     /// From birth to death.
@@ -37,7 +37,7 @@ struct Looks {
 struct Look {
     /// m.
     radius: f64,
-    /// What stands behind the last particle.
+    /// The text behind the last particle.
     usage: String,
 }
 

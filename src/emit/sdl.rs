@@ -45,7 +45,7 @@ impl Style {
         out.push_str("matrix <");
         for column in [rotation.x_axis, rotation.y_axis, rotation.z_axis] {
             for entry in column.to_array() {
-                // What rounding leaves of a zero would be the longest number of the line.
+                // A zero with a rounding error would be the longest number of the line.
                 let entry = if entry.abs() < 1e-12 { 0.0 } else { entry };
                 number::write(out, entry, self.digits);
                 out.push_str(", ");

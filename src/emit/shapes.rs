@@ -24,7 +24,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         Shape::Sphere { radius } => format!("sphere {{ 0, {} ", length(radius)),
         Shape::Box { size } => format!("box {{ {}, {} ", point(-size / 2.0), point(size / 2.0)),
         Shape::RoundedBox { size, rounding } => {
-            // What is left but for rounding is nothing, which POV-Ray would refuse.
+            // An edge that is zero up to rounding counts as zero; POV-Ray would refuse it.
             let inner = |edge: f64| if edge < 1e-6 * rounding { 0.0 } else { edge };
             let half = (size / 2.0 - rounding).map(inner);
             format!("object {{ Rounded_box({}, {}) ", point(half), length(rounding))
@@ -82,7 +82,7 @@ fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: St
     out
 }
 
-/// An object in the scene's own words, whose lengths are metres, so many times larger; like [`open`].
+/// An object from the scene's own POV-Ray code, with lengths in metres, enlarged by a factor; like [`open`].
 pub(super) fn open_sdl(object: &str, scale: f64, style: Style) -> String {
     // On lines of their own, since the words may end with a comment.
     let mut out = format!("object {{\n{object}\n");

@@ -7,8 +7,8 @@ use crate::picture::number;
 use crate::scene::Shutter;
 use crate::simulate::Frame;
 
-/// What stands before the first moment. To the words of a scene, `frame_number` is the number of the frame, as in its
-/// sharp script, and not that of the moment.
+/// The text before the first moment. For the scene's own POV-Ray code, `frame_number` is the number of the frame, as in its sharp
+/// script, and not that of the moment.
 pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
     let mut time = String::new();
     number::write(&mut time, frame.time, digits);
@@ -34,7 +34,7 @@ pub(super) fn moment(number: usize, script: &str) -> String {
     format!("#case ({number})\n{script}{end}#break\n")
 }
 
-/// What stands after the last moment.
+/// The text behind the last moment.
 pub(super) fn end(shutter: Shutter) -> String {
     let last = shutter.samples - 1;
     format!("#else\n#error \"Shutter_Sample goes from 0 to {last}\"\n#end\n")

@@ -1,10 +1,10 @@
-//! What surrounds the bodies, as templates see it: lengths are in POV-Ray's units.
+//! The surroundings of the bodies, as templates see them: lengths are in POV-Ray's units.
 
 use serde::Serialize;
 
 use crate::picture::{Lens, Placed, PlacedLight, Plan};
 
-/// What surrounds the bodies.
+/// The surroundings of the bodies.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct StageText {
     /// The length of one unit, m.
@@ -59,9 +59,9 @@ pub(super) struct LightText {
     name: String,
     /// `point`, `area` or `sun`.
     kind: &'static str,
-    /// Where it is; of a sun: a point that its light comes from.
+    /// The place of the light; for a sun, a point that its light comes from.
     location: [f64; 3],
-    /// Of an area light: its diameter.
+    /// The diameter of an area light.
     size: Option<f64>,
     /// Its color times its intensity, linear.
     color: [f64; 3],
@@ -83,7 +83,7 @@ struct SkyText {
 }
 
 impl StageText {
-    /// The surroundings of a plan's frames, for a unit of so many metres.
+    /// The surroundings of a plan's frames, for a unit in metres.
     pub(super) fn new(plan: &Plan, unit: f64) -> StageText {
         let stage = plan.stage();
         StageText {
@@ -110,7 +110,7 @@ impl StageText {
 }
 
 impl CameraText {
-    /// A camera, for a unit of so many metres.
+    /// A camera, for a unit in metres.
     pub(super) fn new(camera: &Placed, unit: f64) -> CameraText {
         let (angle, width) = match camera.lens() {
             Lens::Perspective { angle } => (Some(angle), None),
@@ -130,7 +130,7 @@ impl CameraText {
     }
 }
 
-/// The lights of a plan at a time (s), for a unit of so many metres.
+/// The lights of a plan at a time (s), for a unit in metres.
 pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
     let text = |light: PlacedLight| LightText {
         name: light.name,
@@ -165,7 +165,7 @@ mod tests {
         }
     }
 
-    /// What a script says of a light: location, linear color, diameter, and whether it casts shadows.
+    /// Reads a light from a script: location, linear color, diameter, and whether it casts shadows.
     fn said(light: &str) -> (DVec3, [f64; 3], Option<f64>, bool) {
         let (_, color) = light.split_once("color ").unwrap();
         let color = match color.strip_prefix("srgb ") {

@@ -35,13 +35,13 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("animation.ini", include_str!("../../templates/animation.ini")),
 ];
 
-/// What the templates are about: the names of the files, and the values that they see.
+/// The documentation of the templates: the names of the files, and the values that they see.
 const README: &str = include_str!("../../templates/README.md");
 
 /// Writes the built-in templates into a folder, which is made if need be, and tells how many there are.
 ///
 /// # Errors
-/// Where a file cannot be written, or one of the names is there already; then nothing is written.
+/// If a file cannot be written, or one of the names is there already; then nothing is written.
 pub fn write_templates(folder: &Path) -> io::Result<usize> {
     let files = || TEMPLATES.iter().copied().chain([("README.md", README)]);
     if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
@@ -66,7 +66,7 @@ pub(super) struct Templates {
 }
 
 impl Templates {
-    /// The built-in templates, with those of the user's own in their place; numbers get so many significant digits.
+    /// The built-in templates, with the user's own in their places. `digits` is the number of significant digits.
     pub(super) fn new(own: &[OwnTemplate], digits: usize) -> Result<Templates, EmitError> {
         let templates = |environment| Templates { environment, own: own.to_vec() };
         let mut environment =
@@ -105,7 +105,7 @@ impl Templates {
 /// POV-Ray uses `{`, `{#` and `#` for itself, so a template says `<% %>`, `${ }` and `<%# %>`.
 fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     let mut environment = Environment::new();
-    // So that errors know their place.
+    // With this, errors know their place.
     environment.set_debug(true);
     let syntax = SyntaxConfig::builder()
         .block_delimiters("<%", "%>")

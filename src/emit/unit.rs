@@ -70,7 +70,7 @@ fn parallel(plan: &Plan) -> f64 {
 
 /// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.
 ///
-/// What is farther than 10⁵ comes near to the 10⁷ at which POV-Ray 3.7 stops to look.
+/// Distances beyond 10⁵ come near to 10⁷, where POV-Ray 3.7 stops looking for intersections.
 fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
     const FARTHEST: f64 = 1e5;
     let thinnest = thinnest.unwrap_or(THINNEST);

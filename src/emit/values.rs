@@ -75,7 +75,7 @@ pub(super) struct FrameConstants {
     with_all: bool,
 }
 
-/// What stays the same about a body.
+/// The constant values of a body.
 #[derive(Serialize)]
 struct BodyConstants {
     name: String,
@@ -120,14 +120,14 @@ impl FrameConstants {
         }
     }
 
-    /// All values of a frame: `solids_sdl` is the block of its bodies, `showing_sdl` that of what is shown beside them.
+    /// All values of a frame. `solids_sdl` is the block of its bodies, `showing_sdl` that of the things shown beside them.
     pub(super) fn of(&self, plan: &Plan, frame: &Frame, solids_sdl: String, showing_sdl: String) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
         });
         let unit = self.style.unit;
-        // What does not move stands in what all scripts have in common.
+        // A camera that does not move stands in the part common to all scripts.
         let camera = plan.camera_moves().then(|| CameraText::new(&plan.camera(frame), unit));
         let lights = plan.lights_move().then(|| stage::lights(plan, frame.time, unit));
         let center = plan.lights_move().then(|| (plan.stage().center / unit).to_array());

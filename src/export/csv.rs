@@ -30,7 +30,7 @@ pub const HEADER: [&str; 15] = [
 /// velocity, and angular velocity in world axes. Every number is the shortest that reads back as the same bits.
 ///
 /// # Errors
-/// Where it cannot be written, or the recording cannot be read.
+/// If it cannot be written, or the recording cannot be read.
 pub fn write_csv(run: &Recorded<'_>, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
     let mut csv = WriterBuilder::new().from_writer(out);

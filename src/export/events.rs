@@ -29,7 +29,7 @@ pub const EVENT_HEADER: [&str; 13] = [
 /// same bits.
 ///
 /// # Errors
-/// Where it cannot be written, or the recording cannot be read.
+/// If it cannot be written, or the recording cannot be read.
 pub fn write_events(run: &Recorded<'_>, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
     let mut csv = WriterBuilder::new().from_writer(out);

@@ -15,7 +15,7 @@ pub const JOINT_HEADER: [&str; 8] =
 /// body of the joint is away. Every number is the shortest that reads back as the same bits.
 ///
 /// # Errors
-/// Where it cannot be written, or the recording cannot be read.
+/// If it cannot be written, or the recording cannot be read.
 pub fn write_joints(
     run: &Recorded<'_>,
     selection: &Selection,

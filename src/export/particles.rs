@@ -18,7 +18,7 @@ pub const PARTICLE_HEADER: [&str; 11] = [
 /// back as the same bits.
 ///
 /// # Errors
-/// Where it cannot be written, or the recording cannot be read.
+/// If it cannot be written, or the recording cannot be read.
 pub fn write_particles(
     run: &Recorded<'_>,
     selection: &Selection,

@@ -13,7 +13,7 @@ use crate::scene::Asset;
 /// them from files of somebody else's.
 ///
 /// # Errors
-/// Where an asset cannot be read or its copy not be written, or a folder on the way is a link.
+/// If an asset cannot be read or its copy not be written, or a folder on the way is a link.
 pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
     let copy = |asset: &Asset| {
         let name = format!("{ASSETS}/{}", asset.name);

@@ -50,7 +50,7 @@ pub struct Line {
 /// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is told of every script.
 ///
 /// # Errors
-/// Where the folder cannot be read, the run leaves the numbers, or a script cannot be made.
+/// If the folder cannot be read, the run becomes non-finite, or a script cannot be made.
 pub fn compare(
     run: &Run<'_>,
     path: &Path,

@@ -25,7 +25,7 @@ impl Folder {
     /// jabuka has written, as its manifest says.
     ///
     /// # Errors
-    /// Where a file cannot be read or renamed.
+    /// If a file cannot be read or renamed.
     pub(crate) fn set_aside<'a>(&self, files: impl Iterator<Item = &'a Entry>) -> Result<(), OutputError> {
         let files: Vec<&Entry> = files.collect();
         let is_edited = |entry: &&Entry| {
@@ -44,7 +44,7 @@ impl Folder {
     /// written anew belong to the same scene, they get their names back.
     ///
     /// # Errors
-    /// Where a file cannot be removed or renamed.
+    /// If a file cannot be removed or renamed.
     pub(crate) fn settle(&self, same_scene: bool) -> Result<(), OutputError> {
         let mut set_aside = self.lock_set_aside();
         for file in std::mem::take(&mut *set_aside) {
@@ -67,7 +67,7 @@ impl Folder {
 
     /// The edited files that were set aside, as a warning; it names the first of them.
     pub fn edits(&self) -> Option<Diagnostic> {
-        /// So many are named.
+        /// The number of files that are named.
         const SHOWN: usize = 3;
         let set_aside = self.lock_set_aside();
         let moves =

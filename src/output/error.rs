@@ -28,7 +28,7 @@ pub enum OutputError {
     Locked(PathBuf),
     /// A file could not be read, written or removed.
     Io(PathBuf, io::Error),
-    /// The run left the numbers.
+    /// The state became non-finite.
     Diverged(Diverged),
     /// A force has no finite value.
     Undefined(Box<Undefined>),

@@ -28,7 +28,7 @@ impl Folder {
     /// killed run has left half-written.
     ///
     /// # Errors
-    /// Where the folder is somebody else's, is being written to, or cannot be used.
+    /// If the folder is somebody else's, is being written to, or cannot be used.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
         Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
     }
@@ -61,7 +61,7 @@ impl Folder {
     /// Puts a file into the folder, whole or not at all.
     ///
     /// # Errors
-    /// Where it cannot be written; then a file of that name is as it was before.
+    /// If it cannot be written; then a file of that name is as it was before.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         self.write_with(name, |file| file.write_all(bytes))
     }
@@ -110,7 +110,7 @@ impl Folder {
         trail_files(&self.path).map_err(|error| OutputError::Io(self.path.clone(), error))
     }
 
-    /// Removes scripts and what belongs to them, and tells the numbers of the frames of which there was one.
+    /// Removes scripts and their files. Returns the numbers of the frames that had a script.
     pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
         let scripts = self.scripts(|_| true)?;
         let mut numbers: Vec<usize> = scripts.iter().map(|(number, _)| *number).collect();

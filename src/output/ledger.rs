@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// So many are kept in memory. Of more, all are kept in a file without a name: memory does not grow with the number of frames.
+/// The most entries kept in memory. If there are more, all of them go to an unnamed file, so that memory does not grow with the
+/// number of frames.
 const IN_MEMORY: usize = 16_384;
 
 /// The size of a script and its SHA-256.

@@ -66,7 +66,7 @@ impl Manifest {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(from = "Line")]
 pub struct Entry {
-    /// Of a script, the number of its frame.
+    /// The number of the frame, for a script.
     pub frame: Option<usize>,
     /// Its name; of a file in a folder of the folder, its path with `/`.
     pub name: String,

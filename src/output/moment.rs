@@ -11,7 +11,7 @@ use crate::emit::frame_name;
 /// number of the frame at or before it, by which the script is named.
 ///
 /// # Errors
-/// Where a file cannot be written, the run leaves the numbers before, or the script cannot be made.
+/// If a file cannot be written, the run becomes non-finite before that time, or the script cannot be made.
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
     // What cannot be made takes nothing away.

@@ -34,7 +34,7 @@ pub struct Written {
 /// The manifest is there from the first moment to the last: a run that is killed leaves a folder that says so.
 ///
 /// # Errors
-/// Where a file cannot be written, the run leaves the numbers, or a script cannot be made.
+/// If a file cannot be written, the run becomes non-finite, or a script cannot be made.
 pub fn write(
     run: &Run<'_>,
     folder: &Folder,

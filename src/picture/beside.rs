@@ -40,7 +40,7 @@ pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera
     }
 }
 
-/// By how much two arrows lie on each other, from 0 to 1.
+/// The share by which two arrows overlap, from 0 to 1.
 fn overlap(one: &Arrow, other: &Arrow) -> f64 {
     let [a, b] = [one, other].map(|arrow| arrow.to - arrow.from);
     let angle = a.angle_between(b);

@@ -28,7 +28,7 @@ pub enum Lens {
         /// The horizontal field of view, degrees.
         angle: f64,
     },
-    /// By parallel rays, as in a technical drawing.
+    /// Parallel rays, as in a technical drawing.
     Orthographic {
         /// The width that is seen, m.
         width: f64,
@@ -179,7 +179,7 @@ pub(super) struct Eye {
 #[derive(Clone, Debug)]
 struct Moving {
     camera: Camera,
-    /// Of the body that it follows: its number, where it is at the start, and its size, m.
+    /// The body that it follows: its number, its place at the start, and its size, m.
     followed: Option<(usize, DVec3, f64)>,
     /// The box that what it follows does not leave for it.
     within: Option<Bounds>,

@@ -100,7 +100,7 @@ pub(super) fn orthographic(
 /// Right, up and back of a camera that is seen in a direction from what it looks at.
 fn axes(towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
     let back = towards_camera.normalize();
-    // Of a camera that looks straight down, «up» is away from the viewer.
+    // A camera that looks straight down has «up» pointing away from the viewer.
     let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
     (right, back.cross(right), back)
 }

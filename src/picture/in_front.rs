@@ -34,7 +34,7 @@ impl Planes {
         for (point, normal) in &self.planes {
             let above = |place: DVec3| (place - *point).dot(*normal);
             let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
-            // Of the shaft and of the head, so much is to be above the plane.
+            // This much of the shaft and of the head must lie above the plane.
             let lacking = (HEAD * shaft - above(arrow.to)).max(shaft - above(arrow.from));
             let eye = above(camera.location());
             if lacking > 0.0 && eye > 0.0 {

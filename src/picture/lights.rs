@@ -14,7 +14,7 @@ pub struct PlacedLight {
     pub kind: Lamp,
     /// Where it is, m; of a sun: a point that its light comes from.
     pub location: DVec3,
-    /// Of an area light: its diameter, m.
+    /// The diameter of an area light, m.
     pub size: Option<f64>,
     /// Its color times its intensity, linear.
     pub color: [f64; 3],
@@ -49,7 +49,7 @@ struct Usual {
     name: &'static str,
     /// From the middle of the stage.
     location: [f64; 3],
-    /// Of an area light: its diameter.
+    /// The diameter of an area light.
     size: Option<f64>,
     color: UsualColor,
     shadows: bool,

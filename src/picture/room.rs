@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::screen::Screen;
 use super::text::Text;
 
-/// So many cells side by side are as wide as the picture.
+/// The width of the picture in cells.
 const CELLS: f64 = 48.0;
 
 /// A part of the picture, whose width is 2; the middle of the picture is 0.

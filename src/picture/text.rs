@@ -16,7 +16,7 @@ const BELOW: f64 = 0.25;
 /// right one. Its y has the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text<'a> {
-    /// Of what it is: the name of the label, `grid`, or `scale bar`.
+    /// The source of the text: the name of the label, `grid`, or `scale bar`.
     pub name: &'a str,
     /// What it says.
     pub says: Cow<'a, str>,

@@ -18,9 +18,9 @@ const MOST_PIECES: f64 = 16.0;
 
 /// The width of a trail is so many times what can be told apart in it, at least. A trail is some pixels wide.
 const FINEST: f64 = 50.0;
-/// So many pieces of a way, from one kept frame to the next, make a stretch.
+/// The number of pieces in a stretch. A piece goes from one kept frame to the next.
 const STRETCH: usize = 32;
-/// So many stretches of a trail are remembered: twice as many as a frame has at most.
+/// The number of stretches of a trail that are remembered: twice the most that one frame has.
 const REMEMBERED: usize = 32;
 
 /// The trail of a body up to a moment.
@@ -208,7 +208,7 @@ impl Line {
             line.reach = line.reach.max(reach);
             match number {
                 Some(number) if points.len() > 1 => {
-                    // Of two points at the same place, the first is the last of what was before.
+                    // Where two points coincide, the first one ends the previous stretch.
                     if line.points.last() == points.first() {
                         line.points.pop();
                     }

@@ -1,14 +1,14 @@
-//! Who may ask: nobody but the page that the user has opened.
+//! Access control: only the page that the user has opened may send requests.
 //!
-//! The server listens on the loopback address alone, but pages of the web run on the same machine. A page elsewhere
-//! may send requests here, and by a name that it lets point to 127.0.0.1 even read the answers. So the host must be a
-//! name of this machine, the origin (where a browser says one) must be that host, and all but the empty page asks for
-//! a token that is made anew by each start.
+//! The server listens on the loopback address alone, but web pages run on the same machine. Any of them may send requests here.
+//! If its own host name resolves to 127.0.0.1, it may even read the answers. So a request passes only if its host is a name of
+//! this machine, its origin (where the browser sends one) is that host, and it carries the token. Each start makes a new token.
+//! Only the empty page needs none.
 
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
 
-/// What is needed to be let in.
+/// The secret that a request must carry.
 #[derive(Clone)]
 pub(super) struct Token(String);
 

@@ -1,4 +1,4 @@
-//! What the page is told of a run: all that stays the same.
+//! The description of a run for the page: all that stays the same.
 
 use std::collections::HashMap;
 
@@ -39,7 +39,7 @@ pub(super) struct Description<'a> {
     shows: bool,
     /// Whether there are emitters.
     particles: bool,
-    /// What is known when the run is finished.
+    /// The stage, which is known when the run is finished.
     stage: Option<Stage>,
 }
 
@@ -118,11 +118,11 @@ struct Stage {
     timestep: f64,
     steps_per_frame: u32,
     drift: f64,
-    /// The trails, with colors in sRGB, by the numbers of their bodies.
+    /// The trails by the numbers of their bodies, with colors in sRGB.
     trails: Vec<Trail>,
-    /// Of each camera: the grid that it sees, if it stands still.
+    /// For each camera that stands still, the grid that it sees.
     grids: Vec<Vec<super::shown::Line>>,
-    /// Of each camera: where it stands before it moves.
+    /// For each camera, its place before it moves.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
 }
@@ -138,7 +138,7 @@ struct Ground {
 #[derive(Serialize)]
 struct Trail {
     body: usize,
-    /// None where the width is not given: then it is a stroke of the frame.
+    /// `None` if no width is given: the trail is then as wide as the frame's strokes.
     radius: Option<f64>,
     color: Color3,
     tapers: bool,

@@ -11,7 +11,7 @@ use crate::render::RenderError;
 pub(super) enum Failed {
     /// The run is not kept any more, or has no such frame or body.
     Gone,
-    /// What the terminal would show.
+    /// The report that the terminal would show.
     Report(Report),
     /// Something of this machine.
     Io(std::io::Error),

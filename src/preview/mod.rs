@@ -44,20 +44,20 @@ use crate::diagnostic::Report;
 use crate::sandbox::{Confinement, Launcher};
 use crate::scene::Options;
 
-/// What is previewed, and how.
+/// The scene to preview, and settings.
 #[derive(Clone, Debug)]
 pub struct Preview {
     /// The scene's file.
     pub scene: PathBuf,
     /// How it is read.
     pub options: Options,
-    /// Where runs are kept.
+    /// The cache that keeps runs.
     pub cache: Cache,
     /// The port; none: any that is free.
     pub port: Option<u16>,
     /// The program POV-Ray; none: that of the `PATH`.
     pub povray: Option<PathBuf>,
-    /// What confines POV-Ray; none: nothing does.
+    /// The launcher that confines POV-Ray. `None`: POV-Ray is not confined.
     pub launcher: Option<Launcher>,
 }
 
@@ -66,7 +66,7 @@ impl Preview {
     /// is wrong with the scene whenever that changes.
     ///
     /// # Errors
-    /// Where the port is taken, or the system refuses.
+    /// If the port is taken, or the system refuses.
     pub fn serve(
         self,
         stop: &'static AtomicBool,

@@ -21,8 +21,8 @@ pub(super) fn pose_bytes(bodies: usize) -> usize {
     POSE * bodies * NUMBER
 }
 
-/// Where all bodies are in some frames: of each frame, the locations of all, then the orientations of all, x y z w. Those of a
-/// body that is not there are not numbers.
+/// The poses of all bodies in some frames: for each frame, all locations, then all orientations, x y z w. An absent body has
+/// NaNs.
 pub(super) fn poses(
     reader: &mut Reader,
     bodies: usize,

@@ -35,7 +35,7 @@ pub(super) const FILES: &[(&str, &str, &str)] = &[
 mod tests {
     use super::*;
 
-    /// What the page's own policy would forbid is not in it.
+    /// The page contains nothing that its own policy would forbid.
     #[test]
     fn nothing_comes_from_elsewhere() {
         for (path, _, text) in FILES {

@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 
 /// Does a piece of work. If it panics, the report says so, and the thread goes on.
 ///
-/// What the work leaves half done must not be used again, or it must be fit for use at any moment.
+/// Runs work that may panic. Data that the work leaves half done must not be used again, unless they are valid at every moment.
 pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -> Result<T, Report> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let message = format!("jabuka failed while {doing}: {}", message_of(&*panic));

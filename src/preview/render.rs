@@ -21,11 +21,11 @@ pub(super) struct Renderer {
     povray: Option<PathBuf>,
     confinement: Confinement,
     one_at_a_time: Mutex<()>,
-    /// What somebody waits for, or has waited for.
+    /// Requests that a client waits for, or has waited for.
     wishes: Mutex<Vec<Weak<AtomicBool>>>,
 }
 
-/// What is wanted of POV-Ray.
+/// A request to POV-Ray.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Wanted {
     run: String,
@@ -42,7 +42,7 @@ pub(super) struct Wanted {
 pub(super) struct Wish(Arc<AtomicBool>);
 
 impl Wish {
-    /// What tells that nobody waits any more.
+    /// A flag that becomes true when no client waits any more.
     pub(super) fn stop(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
@@ -67,7 +67,7 @@ impl Renderer {
         Renderer { povray, confinement, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
-    /// Ends what is being rendered: the server ends.
+    /// Ends the current rendering, since the server ends.
     pub(super) fn end(&self) {
         let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
         wishes.iter().filter_map(Weak::upgrade).for_each(|stop| stop.store(true, Ordering::Relaxed));
@@ -103,7 +103,7 @@ impl Renderer {
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen.map_err(OutputError::from)?.unwrap_or(whole);
-        // Scripts of no scene go there: what is in that folder is no script.
+        // Scripts that belong to no scene go to this folder: nothing in it is a script.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
         output::write_moment(&seen, &folder, time)?;

@@ -1,4 +1,4 @@
-//! What the server answers.
+//! The routes of the server.
 //!
 //! | path | what |
 //! | --- | --- |
@@ -37,7 +37,7 @@ use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
 
-/// What all answers are made from.
+/// The state that all answers are made from.
 #[derive(Clone)]
 pub(super) struct Server {
     pub(super) session: Arc<Session>,
@@ -194,7 +194,7 @@ async fn poses(
 ) -> Result<Response, Failed> {
     /// Several small frames go together.
     const TOGETHER: usize = 1 << 16;
-    /// So often it is seen whether there are more.
+    /// The interval between checks for new frames.
     const LOOK: Duration = Duration::from_millis(4);
     let run = server.run(id)?;
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);

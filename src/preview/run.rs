@@ -21,14 +21,14 @@ use crate::simulate::{
 };
 use crate::{Run, RunError, Scene};
 
-/// The number of a run: no two runs of a server have the same, so what is known of one never passes for another's.
+/// The number of a run, unique within a server, so that data of one run never pass for another's.
 pub(super) type RunId = u64;
 
 /// A run, from the moment on in which it is begun.
 pub(super) struct Simulation {
     pub(super) id: RunId,
     pub(super) scene: Arc<Scene>,
-    /// What has been simulated so far.
+    /// The part that has been simulated so far.
     recording: Mutex<Arc<Recording>>,
     cache: Cache,
     moments: Moments,
@@ -38,21 +38,21 @@ pub(super) struct Simulation {
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
-/// What trails behind the frames of a run.
+/// The past of the frames of a run, for trails.
 #[derive(Default)]
 struct PastOfRun {
     ghosts: Vec<Arc<Ghost>>,
-    /// Of each frame, if there are cameras that lag.
+    /// The lagging cameras of each frame, if there are any.
     lagging: Vec<Vec<Lagging>>,
     bounds: Option<Bounds>,
 }
 
-/// What is known after the last frame.
+/// The results that are known after the last frame.
 pub(super) struct Outcome {
     pub(super) survey: Survey,
     /// How the main camera sees the run, and then each view.
     pub(super) plans: Vec<Plan>,
-    /// What was noticed of the run.
+    /// The warnings of the run.
     pub(super) warnings: Report,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Progress {
     warnings: Option<String>,
 }
 
-/// So often somebody is told that there are more frames.
+/// The interval between notices that there are more frames.
 const PULSE: Duration = Duration::from_millis(40);
 
 impl Simulation {
@@ -106,7 +106,7 @@ impl Simulation {
         Ok(run)
     }
 
-    /// What has been simulated so far.
+    /// The part that has been simulated so far.
     pub(super) fn recording(&self) -> Arc<Recording> {
         Arc::clone(&self.recording.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -121,7 +121,7 @@ impl Simulation {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// What is known after the last frame, if it was reached; or why it was not.
+    /// The results after the last frame, if the run reached it; or the reason why it did not.
     pub(super) fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
         self.outcome.get().map(Result::as_ref)
     }

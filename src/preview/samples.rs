@@ -1,4 +1,4 @@
-//! What the plots are drawn from: numbers of frames, little-endian 64-bit.
+//! Data for the plots: numbers of frames, little-endian 64-bit.
 
 use std::io;
 
@@ -8,7 +8,7 @@ use super::numbers::{put, put_balance};
 use super::run::Simulation;
 use crate::dynamics::{BodySnapshot, RigidBody};
 
-/// Of each frame what is said of all bodies together, as [`put_balance`] writes it.
+/// The balances of all bodies together, for each frame, as [`put_balance`] writes them.
 pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
@@ -22,9 +22,9 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
     Ok(all)
 }
 
-/// Of a body in each frame: the time; its location, velocity, angular velocity, the force on it, 3 numbers each; its
-/// kinetic energy; the number of its impacts. Where it is not there, all but the time are not numbers, nor is the last without
-/// contacts.
+/// The samples of a body in each frame: the time; its location, velocity, angular velocity and the force on it, 3 numbers each;
+/// its kinetic energy; its number of impacts. While the body is absent, all but the time are NaN. Without contacts, the number of
+/// impacts is NaN.
 pub(super) fn of_body(
     run: &Simulation,
     body: usize,

@@ -1,4 +1,4 @@
-//! What is previewed: the scene's last good run, what is wrong with the scene now, and runs by other methods.
+//! A session: the scene's last good run, the current errors of the scene, and runs by other methods.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
@@ -22,7 +22,7 @@ use crate::scene::{Options, Override};
 /// Reads a scene from its file.
 type Reader = dyn Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync;
 
-/// What is previewed. All pages that are open see the same.
+/// The state of a preview. All open pages see the same.
 pub(super) struct Session {
     path: PathBuf,
     pub(super) options: Options,
@@ -55,25 +55,25 @@ pub(super) struct Variant {
     step: String,
 }
 
-/// What the page is told whenever something changes.
+/// The state that the page receives whenever something changes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct State {
     /// The run of the scene as it last was without errors.
     current: Option<String>,
     /// The method that the scene itself names.
     integrator: Option<&'static str>,
-    /// What is wrong with the scene now, as the terminal shows it.
+    /// The current errors of the scene, as the terminal shows them.
     problem: Option<String>,
-    /// What was noticed of the scene and is no error.
+    /// The warnings of the scene.
     warnings: Option<String>,
     /// All runs that can be asked for.
     runs: BTreeMap<String, Progress>,
 }
 
-/// So many runs by other methods are kept.
+/// The most runs by other methods that are kept.
 const VARIANTS: usize = 8;
 
-/// So long a new run may take before it is shown unfinished.
+/// A new run that takes longer than this is shown unfinished.
 const QUICK: Duration = Duration::from_millis(150);
 
 impl Inner {
@@ -157,7 +157,7 @@ impl Session {
     /// A run of the scene by another method; the same for everyone who asks for the same.
     ///
     /// # Errors
-    /// What is wrong with the scene, or with the method or the step.
+    /// If the scene, the method or the step is wrong.
     pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<Simulation>, Report> {
         loop {
             let begun_with = {
@@ -229,7 +229,7 @@ impl Session {
             Ok(run) => run,
             Err(error) => return self.complain(&no_room(&error)),
         };
-        // What is there in the twinkling of an eye need not be seen half done.
+        // A run that finishes at once need not be shown unfinished.
         let begun = Instant::now();
         while run.outcome().is_none() && begun.elapsed() < QUICK {
             thread::sleep(Duration::from_millis(2));

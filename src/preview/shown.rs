@@ -1,4 +1,4 @@
-//! What is seen in a frame beside its bodies, as the page is told: lengths in metres, colors in sRGB.
+//! The things shown beside the bodies in a frame, as the page receives them: lengths in metres, colors in sRGB.
 
 use std::io;
 
@@ -12,7 +12,7 @@ use crate::simulate::Frame;
 
 type Vector = [f64; 3];
 
-/// What is seen in a frame beside its bodies.
+/// The things shown beside the bodies in a frame.
 #[derive(Serialize)]
 pub(super) struct Shown {
     camera: Camera,
@@ -144,7 +144,7 @@ impl Light {
     }
 }
 
-/// What a camera sees in some frames; none where the run is not finished, since its cameras have no place yet.
+/// The view of a camera in some frames. `None` if the run is not finished, since its cameras have no place yet.
 pub(super) fn frames(
     run: &Simulation,
     view: usize,

@@ -12,7 +12,7 @@ use crate::simulate::Swarms;
 /// All emitters together show about so many particles at once: the page draws them anew in each frame.
 const MOST: f64 = 10_000.0;
 
-/// What computes the particles of a run, once somebody asks for them.
+/// Computes the particles of a run when a page first asks for them.
 #[derive(Default)]
 pub(super) struct Kept(Mutex<Option<Swarms>>);
 
@@ -55,7 +55,7 @@ pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> i
     Ok(bytes)
 }
 
-/// What a particle looks like at a time, s.
+/// The numbers that show a particle at a time, s: its two ends, radius and color, and whether it shines.
 fn seen(emitter: &Emitter, particle: &Particle, time: f64) -> impl Iterator<Item = f64> {
     let age = if particle.dies.is_finite() { particle.age(time) } else { 0.0 };
     let past = emitter.streak.min(time - particle.born).max(0.0);

@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// So often the files are looked at.
+/// The interval at which the files are checked.
 pub(super) const INTERVAL: Duration = Duration::from_millis(60);
 
-/// What tells whether a file is another one than before; none where there is no file.
+/// A mark that tells whether a file has changed. `None` if there is no file.
 type Mark = Option<(u64, u64, SystemTime)>;
 
 /// The files that a scene was read from, as they were.

@@ -31,7 +31,7 @@ const FAINT_INK: Rgb = [122, 118, 110];
 /// An image that may stand on a contact sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
-    /// Where the image is.
+    /// The path of the image.
     pub image: PathBuf,
     /// The number of its frame.
     pub frame: usize,
@@ -47,13 +47,13 @@ pub struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// How many images a sheet has, unless it is told otherwise and if there are so many.
+    /// The number of images on a sheet, unless the user gives another or there are fewer.
     pub const USUAL: usize = 12;
 
     /// A contact sheet of this name.
     ///
     /// # Errors
-    /// Where it does not end in `.png`, or there is a folder of this name.
+    /// If it does not end in `.png`, or there is a folder of this name.
     pub fn new(path: impl Into<PathBuf>) -> Result<ContactSheet, FilmError> {
         let path = path.into();
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
@@ -65,13 +65,13 @@ impl ContactSheet {
         Ok(ContactSheet { path, most: ContactSheet::USUAL })
     }
 
-    /// The same with at most so many images, at least one.
+    /// The same sheet with at most this many images, and at least one.
     #[must_use]
     pub fn of_at_most(self, images: usize) -> ContactSheet {
         ContactSheet { most: images.max(1), ..self }
     }
 
-    /// Where it will be.
+    /// The path of the sheet.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -79,7 +79,7 @@ impl ContactSheet {
     /// Whether the sheet can be written where it is to be. This makes its folder, if need be.
     ///
     /// # Errors
-    /// Where no file can be written there, or another process writes it.
+    /// If no file can be written there, or another process writes it.
     pub fn check_place(&self) -> Result<(), FilmError> {
         Target::create(&self.path).map(drop)
     }
@@ -88,7 +88,7 @@ impl ContactSheet {
     /// them, evenly spaced. What is transparent is shown before white. A sheet that was there stays until the new one is whole.
     ///
     /// # Errors
-    /// Where one of these images cannot be read or differs in size, or the sheet cannot be written.
+    /// If one of these images cannot be read or differs in size, or the sheet cannot be written.
     pub fn make(&self, shots: &[Shot]) -> Result<(), FilmError> {
         let chosen: Vec<&Shot> = evenly(shots.len(), self.most).into_iter().map(|i| &shots[i]).collect();
         let size = picture::common_size(chosen.iter().map(|shot| &shot.image))?;
@@ -113,7 +113,7 @@ impl ContactSheet {
     }
 }
 
-/// The indices of at most so many of some things: the first, the last, and some between them, evenly spaced.
+/// The indices of at most `most` things out of `count`: the first, the last, and some between them, evenly spaced.
 pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
@@ -122,7 +122,7 @@ pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|i| (i * (count - 1) + last / 2) / last).collect()
 }
 
-/// Where everything stands.
+/// The layout of a sheet.
 struct Layout {
     page: Size,
     columns: usize,
@@ -174,7 +174,7 @@ fn columns(count: usize, (width, height): Size) -> usize {
     (1..=count).min_by(|a, b| badness(*a).total_cmp(&badness(*b))).unwrap_or(1)
 }
 
-/// What stands under the images: the number of the frame, and its time with as many digits as tell it from its neighbours.
+/// The captions under the images: the number of the frame, and its time with enough digits to tell it from its neighbours.
 fn captions(shots: &[&Shot]) -> Vec<[String; 2]> {
     let gaps = shots.windows(2).map(|pair| (pair[1].time - pair[0].time).abs()).filter(|gap| *gap > 0.0);
     let largest = shots.iter().map(|shot| shot.time.abs()).fold(0.0, f64::max);
@@ -185,7 +185,7 @@ fn captions(shots: &[&Shot]) -> Vec<[String; 2]> {
         |digits: &usize| plain(*digits).zip(shots).all(|(text, shot)| error(&text, shot.time) <= tolerance);
     let times: Vec<String> = match (0..=6).find(is_enough) {
         Some(digits) if plain(digits).all(|text| text.len() <= 9) => plain(digits).collect(),
-        // Of planets and atoms.
+        // Very long or very short times, as for planets and atoms.
         _ => shots.iter().map(|shot| scientific(shot.time)).collect(),
     };
     shots
@@ -199,7 +199,7 @@ fn scientific(time: f64) -> String {
     if time == 0.0 { "0".to_owned() } else { format!("{time:.3e}") }
 }
 
-/// Three bytes for each pixel of an image that is made smaller: in light, not in bytes of sRGB, which would darken what is fine.
+/// Three bytes for each pixel of a reduced image. It averages light, and not bytes of sRGB, which would darken fine details.
 fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let picture = Picture::read(path)?;
     let (from_width, from_height) = picture.size;

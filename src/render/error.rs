@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 pub enum RenderError {
     /// There is no POV-Ray: what was looked for.
     NoPovray(PathBuf),
-    /// What was found is no POV-Ray, or none of a version that is known: its path and what it says of itself.
+    /// The program found is not POV-Ray, or its version is unknown: its path and its answer.
     NotPovray(PathBuf, String),
     /// The folder has no scripts.
     NoScripts(PathBuf),
@@ -29,7 +29,7 @@ pub enum RenderError {
     DiskFull(PathBuf),
     /// A file could not be read, written or removed.
     Io(PathBuf, io::Error),
-    /// So many frames failed, and none succeeded.
+    /// No frame succeeded, and this many failed.
     AllFail(usize),
 }
 

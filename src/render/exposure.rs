@@ -10,7 +10,7 @@ use super::{Images, RenderError};
 pub(super) struct Exposure {
     folder: PathBuf,
     images: Vec<PathBuf>,
-    /// What they have cost together, s.
+    /// The total cost of the images, s.
     pub(super) seconds: f64,
 }
 
@@ -20,7 +20,7 @@ impl Exposure {
         Ok(Exposure { folder: images.exposure_folder(index)?, images: Vec::new(), seconds: 0.0 })
     }
 
-    /// Takes in the image of one of so many moments, and says whether all are there.
+    /// Takes in the image of one of this many moments, and returns whether all are there.
     pub(super) fn add(
         &mut self,
         image: &Path,
@@ -51,7 +51,7 @@ impl Exposure {
 
 impl Drop for Exposure {
     fn drop(&mut self) {
-        // What cannot be removed now is swept by the next run.
+        // The next run sweeps up a folder that stays.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

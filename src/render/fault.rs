@@ -18,7 +18,7 @@ pub struct Fault {
     pub line: Option<usize>,
     /// The body that is drawn there.
     pub body: Option<String>,
-    /// What is wrong.
+    /// The message.
     pub message: String,
     /// Whether the sandbox refused a file.
     pub outside: bool,
@@ -49,7 +49,7 @@ impl Fault {
             fs::read(&script).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
         let (line, message) = match place {
             Some((file, line)) if file == name => (Some(line), text),
-            // Where something is left open, POV-Ray finds out behind the end.
+            // POV-Ray notices an unclosed block only behind the end of the script.
             Some(("run.pov", _)) => (Some(source.lines().count()), text),
             Some((file, line)) => (None, format!("in {file}, line {line}: {text}")),
             None => (None, text),
@@ -113,7 +113,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// What POV-Ray could not open.
+/// Something that POV-Ray could not open.
 enum Opened<'a> {
     /// A file to be read, if POV-Ray tells which.
     ToRead(Option<&'a str>),

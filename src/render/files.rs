@@ -8,11 +8,11 @@ use crate::emit::COMMON;
 /// The folder of assets beside the scripts.
 pub const ASSETS: &str = "assets";
 
-/// The files that the scripts of a folder read, by their names in it: what they share, then their assets in the order of
+/// The files that the scripts of a folder read, by their names in it: first the shared ones, then the assets in the order of
 /// their names.
 ///
 /// # Errors
-/// Where a folder cannot be read.
+/// If a folder cannot be read.
 pub fn of_scripts(scripts: &Path) -> io::Result<Vec<String>> {
     let mut files = Vec::new();
     if scripts.join(COMMON).is_file() {

@@ -19,7 +19,7 @@ impl Images {
     /// killed run has left.
     ///
     /// # Errors
-    /// Where the folder is somebody else's, is being rendered into, or cannot be used.
+    /// If the folder is somebody else's, is being rendered into, or cannot be used.
     pub fn open(folder: &Path) -> Result<Images, RenderError> {
         fs::create_dir_all(folder).map_err(RenderError::io(folder))?;
         let hidden = folder.join(HIDDEN);
@@ -82,13 +82,13 @@ impl Images {
         self.forget_failure(name)
     }
 
-    /// Whether an image that is there has the bytes that its record speaks of. One that cannot be read was damaged.
+    /// Whether an image has the bytes that its record states. An unreadable image counts as damaged.
     pub(super) fn verify(&self, name: &str) -> Verdict {
         let Some(record) = Record::read(&self.folder, name) else { return Verdict::Unverified };
         record.verify(&self.image(name)).unwrap_or(Verdict::Changed)
     }
 
-    /// Takes in a copy of an image that is there, under another name.
+    /// Adds a copy of an existing image under another name.
     pub(super) fn copy(&self, from: &str, name: &str, record: &Record) -> Result<(), RenderError> {
         let temporary = self.hidden().join(format!("work-{}-copy.png", std::process::id()));
         let bytes = fs::read(self.image(from)).map_err(RenderError::io(self.image(from)))?;
@@ -99,7 +99,7 @@ impl Images {
     /// Copies an image to another place, where it appears whole or not at all.
     ///
     /// # Errors
-    /// Where it cannot be read, or not be written there.
+    /// If it cannot be read, or not be written there.
     pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
         let file = target.file_name().unwrap_or_default().to_string_lossy();
         let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));

@@ -1,4 +1,4 @@
-//! What a script reads beside itself: the files that it and its include files name, and the assets of its scene.
+//! The inputs of a script: the files that it and its include files name, and the assets of its scene.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ use crate::scene::sdl::{FileKind, files};
 /// The record that the image of each script would get now, but for the length of the image.
 ///
 /// # Errors
-/// Where a file cannot be read.
+/// If a file cannot be read.
 pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Result<Vec<Record>, RenderError> {
     let scripts = sequence.scripts();
     let lists: Result<Vec<Vec<PathBuf>>, RenderError> =
@@ -81,7 +81,7 @@ pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf>
     for (kind, name) in names {
         add_name(folder, *kind, name, &mut read);
     }
-    // What cannot be read is no file that something would be lost of.
+    // A file that cannot be read cannot be lost, so errors do not matter here.
     let _ = close(folder, &mut read);
     read.into_iter().map(|(_, path)| path).collect()
 }
@@ -89,7 +89,7 @@ pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf>
 /// Adds the files that a text names and that are there: beside the scripts, among the assets, or at an absolute path.
 fn add_read(folder: &Path, text: &[u8], read: &mut Vec<(FileKind, PathBuf)>) {
     for file in files(&String::from_utf8_lossy(text)) {
-        // The name of a trail's file says what is in it, and stands in the script.
+        // The name of a trail's file identifies its contents, and stands in the script.
         let Some(name) = file.literal.filter(|name| !is_trail_file(name)) else { continue };
         add_name(folder, file.kind, name, read);
     }

@@ -1,4 +1,4 @@
-//! All images of a sequence: what is up to date stays, what is equal is rendered once, the rest goes to POV-Ray.
+//! All images of a sequence: those up to date stay, equal ones are rendered once, and the rest goes to POV-Ray.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::AtomicBool;
@@ -13,13 +13,13 @@ use super::process::{Setup, Unit};
 use super::record::{Compare, Record, State, Verdict};
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
 
-/// What is to be rendered, and how.
+/// The images to render, and settings.
 pub struct Job<'a> {
     /// The scripts.
     pub sequence: &'a Sequence,
-    /// Where the images go.
+    /// The folder of the images.
     pub images: &'a Images,
-    /// What renders them.
+    /// The renderer.
     pub povray: &'a PovRay,
     /// The options of POV-Ray that decide on pixels.
     pub options: Vec<String>,
@@ -37,9 +37,9 @@ pub struct Job<'a> {
     pub verify: bool,
 }
 
-/// What happens while a job is done.
+/// Progress of a job.
 pub enum Event<'a> {
-    /// So many images are there or follow from others, and so many are to be rendered.
+    /// How many images exist already or follow from others, and how many will be rendered.
     Planned {
         /// The images that are up to date.
         up_to_date: usize,
@@ -50,14 +50,14 @@ pub enum Event<'a> {
     Made {
         /// The number of the frame.
         frame: usize,
-        /// What it has cost, s; none: it is a copy.
+        /// The cost, s. `None` for a copy.
         seconds: Option<f64>,
     },
     /// A frame cannot be rendered.
     Failed(&'a Fault),
 }
 
-/// What a job has come to.
+/// The outcome of a job.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// The images that POV-Ray has rendered.
@@ -78,9 +78,9 @@ pub struct Outcome {
     pub slowest: Option<(usize, f64)>,
     /// The processes of POV-Ray's that were started.
     pub processes: usize,
-    /// What POV-Ray has warned of.
+    /// The warnings of POV-Ray.
     pub warnings: Vec<String>,
-    /// Whether somebody has asked to stop before all was done.
+    /// Whether the user stopped the job before all was done.
     pub stopped: bool,
 }
 
@@ -92,10 +92,10 @@ pub(super) struct Group {
 }
 
 impl Job<'_> {
-    /// Renders what is not there yet. `watch` is told how it goes; `stop` ends it.
+    /// Renders the missing images. `watch` receives the progress; `stop` ends the job.
     ///
     /// # Errors
-    /// Where the disk is full, a folder is gone, or nothing can be rendered. Frames that
+    /// If the disk is full, a folder is gone, or nothing can be rendered. Frames that
     /// fail by themselves are no error here: they are in the outcome.
     pub fn run(&self, watch: &mut dyn FnMut(Event<'_>), stop: &AtomicBool) -> Result<Outcome, RenderError> {
         let removed = self.images.remove_others(|name| self.sequence.has(name))?;
@@ -111,7 +111,7 @@ impl Job<'_> {
         Ok(outcome)
     }
 
-    /// What is to be rendered. What is equal to an image that is up to date is copied at once.
+    /// The images to render, in groups of equal scripts. If an equal image is up to date, it is copied at once.
     fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
         let scripts = self.sequence.scripts();
         let folder = self.images.folder();

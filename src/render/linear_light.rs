@@ -1,9 +1,9 @@
 //! The mean of images, as light adds up.
 //!
-//! What a camera sees while its shutter is open is the mean of the light at its moments. The numbers of an image are
-//! no amounts of light: sRGB gives dark tones more of them than bright ones, so that the mean of black and white is
-//! 188 of 255, and not 128. So numbers become light, light becomes its mean, and the mean becomes numbers again. Where
-//! images have alpha, a color counts as much as it covers.
+//! While its shutter is open, a camera sees the mean of the light at its moments. The numbers of an image are not proportional to
+//! light: sRGB gives dark tones more numbers than bright ones, so the mean of black and white is 188 of 255, and not 128. So this
+//! module turns numbers into light, averages the light, and turns the mean into numbers again. If images have alpha, a color is
+//! weighted by its alpha.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
@@ -43,7 +43,7 @@ pub enum ImageError {
 /// are read one after another, row by row.
 ///
 /// # Errors
-/// Where a file is no such image, or they are not of one size.
+/// If a file is no such image, or they are not of one size.
 pub fn mean(images: &[PathBuf]) -> Result<Image, ImageError> {
     let mut sum: Option<Sum> = None;
     for path in images {
@@ -146,7 +146,7 @@ fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     [number(r / cover), number(g / cover), number(b / cover), alpha]
 }
 
-/// The number from 0 to 255 whose light is nearest, by their place among the numbers.
+/// The number from 0 to 255 whose light is nearest, found by the place of the light in the table.
 fn number(light: f32) -> u8 {
     let (starts, borders) = &*NUMBERS;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within the table")]
@@ -167,7 +167,7 @@ static LIGHT: LazyLock<Box<[f32; 65536]>> = LazyLock::new(|| {
     table
 });
 
-/// So many places are told apart to find a number, which is then at most a few away.
+/// The size of the table that a search for a number starts from. The number is then at most a few steps away.
 const STARTS: usize = 4096;
 
 /// For each place the smallest number that light may have there; and for each number the light at which the next one
@@ -219,11 +219,11 @@ impl Image {
     /// Writes a PNG, whole or not at all. It says that it is sRGB, as those of POV-Ray's do.
     ///
     /// # Errors
-    /// Where it cannot be written; then a file of that name is as it was before.
+    /// If it cannot be written; then a file of that name is as it was before.
     pub fn write(&self, path: &Path) -> Result<(), ImageError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-        // What a killed run has left.
+        // A killed run may have left this file.
         let _ = fs::remove_file(&temporary);
         let write = || {
             // `create_new` follows no link.

@@ -1,4 +1,4 @@
-//! What comes out of the pool → images under their names, and faults.
+//! Results of the pool → images under their names, and faults.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -32,7 +32,7 @@ impl<'a> Making<'a> {
         Making { job, groups, outcome, watch, exposures: HashMap::new(), failed: HashSet::new() }
     }
 
-    /// Takes in what has become of a unit.
+    /// Records the fate of a unit.
     pub(super) fn take(&mut self, unit: &Unit, fate: Fate) -> Result<(), RenderError> {
         match (fate, unit.moment) {
             (Fate::Image(path, seconds), None) => self.image(unit, &path, seconds),
@@ -77,9 +77,9 @@ impl<'a> Making<'a> {
         Ok(())
     }
 
-    /// That a frame cannot be rendered, nor those with equal scripts.
+    /// Records that a frame failed, and with it all frames with equal scripts.
     fn failure(&mut self, unit: &Unit, said: &str) -> Result<(), RenderError> {
-        /// If so many fail and none succeeds, it is not the frames' fault.
+        /// If this many fail and none succeeds, the cause is not in the frames.
         const HOPELESS: usize = 8;
         // Other moments of the frame may already be on their way.
         self.exposures.remove(&unit.index);

@@ -22,7 +22,7 @@ impl Picture {
     /// Reads a PNG of any kind of color.
     ///
     /// # Errors
-    /// Where it is not there, or is no whole PNG.
+    /// If it is not there, or is no whole PNG.
     pub(super) fn read(path: &Path) -> Result<Picture, FilmError> {
         let mut reader = open(path)?;
         let too_large = || FilmError::Image(path.to_owned(), "it is too large".to_owned());
@@ -55,7 +55,7 @@ impl Picture {
 /// The size of a PNG, of which only the head is read.
 ///
 /// # Errors
-/// Where it is not there, or is no PNG.
+/// If it is not there, or is no PNG.
 pub(super) fn size(path: &Path) -> Result<Size, FilmError> {
     let reader = open(path)?;
     Ok((reader.info().width as usize, reader.info().height as usize))
@@ -64,7 +64,7 @@ pub(super) fn size(path: &Path) -> Result<Size, FilmError> {
 /// The size that all of some images have.
 ///
 /// # Errors
-/// Where there are no images, one cannot be read, or they differ in size.
+/// If there are no images, one cannot be read, or they differ in size.
 pub(super) fn common_size<'a>(mut paths: impl Iterator<Item = &'a PathBuf>) -> Result<Size, FilmError> {
     let first = paths.next().ok_or(FilmError::NoImages)?;
     let common = size(first)?;
@@ -108,7 +108,7 @@ pub(super) fn light(byte: u8) -> f32 {
     LIGHT[usize::from(byte)]
 }
 
-/// The byte of sRGB whose light is nearest; what is darker than 0 or brighter than 1 is cut off.
+/// The byte of sRGB whose light is nearest. Light below 0 or above 1 is clamped.
 pub(super) fn srgb(light: f32) -> u8 {
     let light = f64::from(light).clamp(0.0, 1.0);
     let value =

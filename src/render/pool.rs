@@ -16,24 +16,24 @@ use super::{Images, RenderError, cpu};
 /// The time that POV-Ray waits for itself between two images, s. Measured on POV-Ray 3.7.
 const WAIT: f64 = 0.2;
 
-/// So many processes for each processor before anything is measured, and at most.
+/// Processes for each processor: before anything is measured, and at most.
 const FIRST: usize = 4;
 const MOST: usize = 12;
 
 /// How often all processes are looked at.
 const TICK: Duration = Duration::from_millis(8);
 
-/// What has become of a unit.
+/// The fate of a unit.
 pub(super) enum Fate {
-    /// Its image is at this path, where it stays until this has been dealt with; it has cost so many seconds.
+    /// Its image is at this path, and stays there until this event is handled. It has cost this many seconds.
     Image(PathBuf, f64),
     /// POV-Ray says this of its script.
     Broken(String),
-    /// POV-Ray has ended before, for this reason, as often as it may.
+    /// POV-Ray died for this reason, and retries are exhausted.
     Died(String),
 }
 
-/// The processes, and what is left for them to do.
+/// The processes, and the queue of units.
 pub(super) struct Pool<'a> {
     pub(super) setup: Setup<'a>,
     pub(super) images: &'a Images,
@@ -51,7 +51,7 @@ pub(super) struct Pool<'a> {
     /// How often POV-Ray has died of a unit.
     deaths: HashMap<Unit, u32>,
     started: usize,
-    /// The images so far: their number, what they have cost together, and the slowest one's time on the clock, s.
+    /// The images so far: their number, their total cost, and the wall-clock time of the slowest, s.
     measured: (usize, f64, f64),
     warnings: Vec<String>,
 }
@@ -76,11 +76,10 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Renders all units, and says whether it has come to the end: somebody may have asked to stop. `done` is told of
-    /// each unit.
+    /// Renders all units. Returns whether it reached the end: the user may have asked to stop. `done` receives each unit.
     ///
     /// # Errors
-    /// Where the disk is full or a folder is gone; or the error of `done`.
+    /// If the disk is full or a folder is gone; or the error of `done`.
     pub(super) fn run(
         &mut self,
         units: impl IntoIterator<Item = Unit>,
@@ -114,7 +113,7 @@ impl<'a> Pool<'a> {
         self.started
     }
 
-    /// What POV-Ray has warned of, each once.
+    /// The warnings of POV-Ray, each once.
     pub(super) fn warnings(&mut self) -> Vec<String> {
         std::mem::take(&mut self.warnings)
     }
@@ -166,7 +165,7 @@ impl<'a> Pool<'a> {
         let share = if is_first { 1 } else { self.share() };
         let mut units = Vec::new();
         while let Some(next) = self.queue.front() {
-            // What POV-Ray has died of may be what others have done to it.
+            // POV-Ray may have died of something other frames did to it.
             let alone = next.asks_clock || self.deaths.contains_key(next);
             if units.len() >= share || (alone && !units.is_empty()) {
                 break;
@@ -184,7 +183,7 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// Deals with what has happened to a process; says whether it goes on.
+    /// Handles the news of a process. Returns whether it goes on.
     fn take(
         &mut self,
         index: usize,

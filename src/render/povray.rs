@@ -1,4 +1,4 @@
-//! The POV-Ray that is there.
+//! The installed POV-Ray.
 
 use std::fs;
 use std::io::Read;
@@ -20,7 +20,7 @@ pub struct PovRay {
     unlimited: Option<String>,
 }
 
-/// So long may it take to tell its version.
+/// The longest wait for POV-Ray to tell its version.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 impl PovRay {
@@ -31,7 +31,7 @@ impl PovRay {
     /// are in an unusual folder, may read all files; [`PovRay::warning`] says so.
     ///
     /// # Errors
-    /// Where there is none, or none of a version that is known.
+    /// If there is none, or none of a version that is known.
     pub fn find(
         given: Option<&Path>,
         memory: &Path,
@@ -47,7 +47,7 @@ impl PovRay {
         }
         let said = ask(&path, &confinement)?;
         if let Some(version) = version(&said) {
-            // Where this cannot be kept, it is asked again the next time.
+            // If the answer cannot be kept, POV-Ray is asked again next time.
             let _ = fs::write(memory, format!("{mark}\n{version}\n"));
             let version = version.to_owned();
             return Ok(PovRay { path, version, confinement, unlimited: None });
@@ -63,22 +63,22 @@ impl PovRay {
         Ok(PovRay { path, version, confinement: reading_all, unlimited: Some(first) })
     }
 
-    /// Where POV-Ray is, which is quickly told.
+    /// Finds POV-Ray without running it, which is quick.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If there is none.
     pub fn locate(given: Option<&Path>) -> Result<PathBuf, RenderError> {
         let wanted = given.unwrap_or(Path::new("povray"));
         let path = which::which(wanted).map_err(|_| RenderError::NoPovray(wanted.to_owned()))?;
         path.canonicalize().map_err(RenderError::io(&path))
     }
 
-    /// Where it is.
+    /// The path of the program.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What users should know about its confinement: that it is weaker than usual.
+    /// The warning for users that POV-Ray is less confined than usual.
     pub fn warning(&self) -> Option<String> {
         let why = self.unlimited.as_ref()?;
         let path = self.path.display();
@@ -90,7 +90,7 @@ impl PovRay {
         self.confinement.is_enforced()
     }
 
-    /// Whether the sandbox limits what it may read.
+    /// Whether the sandbox limits POV-Ray's read access.
     pub(super) fn limits_reading(&self) -> bool {
         self.confinement.limits_reading()
     }
@@ -113,8 +113,8 @@ impl PovRay {
     }
 }
 
-/// What tells one program from another without running it: path, size and time of change; and whether it was asked where
-/// reading is limited.
+/// A mark that tells one program from another without running it: path, size and time of change, and whether reading was limited
+/// when it was asked.
 fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     let limited = if confinement.limits_reading() { " confined" } else { "" };
     let metadata = fs::metadata(path)?;
@@ -122,7 +122,7 @@ fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     Ok(format!("{} {} {}{limited}", path.display(), metadata.len(), changed.as_nanos()))
 }
 
-/// What it says when it is asked for its version.
+/// The program's answer when asked for its version.
 fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     let mut command = confinement.command(path, Needs::default());
     command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
@@ -137,7 +137,7 @@ fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     let mut said = Vec::new();
     let (_, _, errors) = child.pipes();
     if let Some(errors) = errors {
-        // What cannot be read, it has not said; far more than this it does not say.
+        // An unreadable answer counts as empty. No version needs more bytes than this.
         let _ = errors.take(1 << 16).read_to_end(&mut said);
     }
     Ok(String::from_utf8_lossy(&said).into_owned())

@@ -24,13 +24,13 @@ pub(super) struct Unit {
     pub(super) frame: usize,
     /// The name of the script's file.
     pub(super) script: String,
-    /// Of a blurred frame: which of its moments.
+    /// The moment within a blurred frame.
     pub(super) moment: Option<u32>,
     /// Whether the script asks POV-Ray for its clock, which takes a process of its own.
     pub(super) asks_clock: bool,
 }
 
-/// What all processes of a job have in common.
+/// The setup common to all processes of a job.
 pub(super) struct Setup<'a> {
     pub(super) povray: &'a PovRay,
     /// The folder of the scripts, absolute.
@@ -39,7 +39,7 @@ pub(super) struct Setup<'a> {
     pub(super) options: &'a [String],
     /// The number of the last frame.
     pub(super) last: usize,
-    /// What the clock of POV-Ray's says in the first frame and in the last, s.
+    /// The value of POV-Ray's clock in the first and in the last frame, s.
     pub(super) clock: [f64; 2],
     /// The threads that each process renders with.
     pub(super) threads: usize,
@@ -60,9 +60,9 @@ pub(super) struct Process {
     alive: (f64, Instant),
 }
 
-/// What has happened since the last look.
+/// The news since the last look.
 pub(super) enum Step {
-    /// Nothing that matters.
+    /// No news.
     Working,
     /// The image of a unit is whole.
     Image { unit: Unit, path: PathBuf, seconds: f64 },
@@ -78,7 +78,7 @@ pub(super) enum Step {
 enum Names {
     /// From 0, five digits.
     Plain,
-    /// The one image's number, so many digits.
+    /// The number of the single image, and its digits.
     Own(usize, usize),
 }
 
@@ -123,7 +123,7 @@ impl Process {
         Ok(Process { child, folder, units, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
 
-    /// Looks what has happened.
+    /// Checks for news.
     pub(super) fn step(&mut self) -> Step {
         // First the end, then the images: what was there before the end is not missed.
         let exit = match self.child.exit() {
@@ -177,7 +177,7 @@ impl Process {
         i32::try_from(self.child.id()).ok()
     }
 
-    /// What it warned of.
+    /// The warnings of the process.
     pub(super) fn warnings(&self) -> String {
         said(&self.folder.join("warnings.txt"))
     }
@@ -222,7 +222,7 @@ impl Process {
 impl Drop for Process {
     fn drop(&mut self) {
         self.child.end();
-        // What cannot be removed now is swept by the next run.
+        // The next run sweeps up a folder that stays.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }
@@ -265,7 +265,7 @@ pub(super) fn is_whole(path: &Path) -> bool {
     ends().unwrap_or(false)
 }
 
-/// What POV-Ray has written to one of its streams, without the banners between frames.
+/// A stream of POV-Ray's output, without the banners between frames.
 fn said(path: &Path) -> String {
     let bytes = fs::read(path).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);

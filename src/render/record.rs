@@ -1,4 +1,4 @@
-//! What an image was rendered from: a text beside it, by which a finished image is known to be up to date.
+//! The record of an image: a text file beside it that tells whether the finished image is up to date.
 //!
 //! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, seven lines:
 //!
@@ -12,12 +12,12 @@
 //! image <SHA-256 of the image>
 //! ```
 //!
-//! Whether an image is up to date follows from its record and its length alone, so that thousands are looked at quickly.
-//! `--verify` also reads the images and compares their digests. Records of earlier versions lack the last line; their
-//! images are up to date, but cannot be verified.
+//! The record and the length of an image are enough to tell whether it is up to date, so thousands of images are checked quickly.
+//! `--verify` also reads the images and compares their digests. Records of earlier versions lack the last line; their images are
+//! up to date, but cannot be verified.
 //!
-//! It is written after the image, so whatever breaks off leaves an image without a record, which is rendered again. The
-//! script `render-chunk` of a cluster job writes and reads the same texts; a test holds the two together.
+//! The record is written after the image. An interruption therefore leaves at most an image without a record, which is rendered
+//! again. The script `render-chunk` of a cluster job writes and reads the same texts; a test holds the two together.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -36,7 +36,7 @@ const NUMBERED: [&str; 2] = ["frame_number", "clock"];
 /// moment, so they do not depend on the number of the frame.
 const BLURRED: &str = "shutter_";
 
-/// What an image was rendered from, or would be.
+/// The record of a finished image, or of one to be rendered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record {
     /// The digest of the script without its first line, in hexadecimal digits.
@@ -67,7 +67,7 @@ pub enum Compare {
     Scene,
 }
 
-/// What is there of an image.
+/// The state of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// It is what would be rendered now.
@@ -89,7 +89,7 @@ pub enum Verdict {
     Unverified,
 }
 
-/// The files that all scripts of a folder read: what they share, and their assets.
+/// The files that all scripts of a folder read: shared files and assets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Files {
     digest: String,
@@ -100,7 +100,7 @@ impl Files {
     /// Reads the files, in the order of the list.
     ///
     /// # Errors
-    /// Where one cannot be read: which, and why.
+    /// If one cannot be read: which, and why.
     pub fn read(files: &[PathBuf]) -> Result<Files, (PathBuf, io::Error)> {
         let mut hasher = Sha256::new();
         let mut numbered = false;
@@ -118,7 +118,7 @@ impl Record {
     /// The record that an image of this script would get now, but for the length of the image.
     ///
     /// # Errors
-    /// Where the script cannot be read.
+    /// If the script cannot be read.
     pub fn expected(
         script: &Path,
         frame: usize,
@@ -146,7 +146,7 @@ impl Record {
     /// Completes the record by the length and the digest of the finished image.
     ///
     /// # Errors
-    /// Where the image cannot be read.
+    /// If the image cannot be read.
     pub fn of_image(self, image: &Path) -> io::Result<Record> {
         let (image, bytes) = digest_of_file(image)?;
         Ok(Record { bytes, image: Some(image), ..self })
@@ -155,19 +155,19 @@ impl Record {
     /// Reads an image that has this record, and compares its digest.
     ///
     /// # Errors
-    /// Where the image cannot be read.
+    /// If the image cannot be read.
     pub fn verify(&self, image: &Path) -> io::Result<Verdict> {
         let Some(digest) = &self.image else { return Ok(Verdict::Unverified) };
         let is = digest_of_file(image)?.0;
         Ok(if is == *digest { Verdict::Intact } else { Verdict::Changed })
     }
 
-    /// Where the record of an image is; `name` is the image's without its ending: `frame_0007`.
+    /// The path of an image's record. `name` is the image's name without its ending: `frame_0007`.
     pub fn path(images: &Path, name: &str) -> PathBuf {
         images.join(HIDDEN).join(format!("{name}.txt"))
     }
 
-    /// Reads the record of an image; none if there is none, or what is there is no record.
+    /// Reads the record of an image. `None` if there is none, or its file is no record.
     pub fn read(images: &Path, name: &str) -> Option<Record> {
         /// Far more than options need.
         const MAX_BYTES: u64 = 64 << 10;
@@ -180,7 +180,7 @@ impl Record {
     /// Writes the record of an image that is there, whole or not at all. The folder [`HIDDEN`] must be there.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If it cannot be written.
     pub fn write(&self, images: &Path, name: &str) -> io::Result<()> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let unique = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -191,12 +191,12 @@ impl Record {
             fs::rename(&temporary, Record::path(images, name))
         };
         write().inspect_err(|_| {
-            // What is left of it is hidden, and of no record's name.
+            // A leftover is hidden, and has no record's name.
             let _ = fs::remove_file(&temporary);
         })
     }
 
-    /// What is there of an image that should have this record.
+    /// The state of an image that should have this record.
     pub fn state(&self, images: &Path, name: &str, compare: Compare) -> State {
         let Ok(metadata) = fs::metadata(images.join(format!("{name}.png"))) else { return State::Missing };
         let is = |record: Record| record.bytes == metadata.len() && record.is_of(self, compare);

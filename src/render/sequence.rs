@@ -27,7 +27,7 @@ pub struct Sequence {
     pub transparent: bool,
     /// The number of moments of each frame, if frames are blurred.
     pub moments: Option<u32>,
-    /// Where its one script is of a moment that need not be that of a frame: its time, s.
+    /// The time of the moment that its one script shows, s, if that need not be the time of a frame.
     pub moment: Option<f64>,
     /// Files that scripts read without including them.
     pub(super) assets: Vec<PathBuf>,
@@ -48,7 +48,7 @@ impl Sequence {
     /// The scripts in a folder, or those of some frames.
     ///
     /// # Errors
-    /// Where there are none, or not all of those that are asked for.
+    /// If there are none, or not all of those that are asked for.
     pub fn open(folder: &Path, selection: Option<&Selection>) -> Result<Sequence, RenderError> {
         let found = scripts(folder).map_err(|error| match error {
             crate::output::OutputError::Io(path, error) => RenderError::io(path)(error),

@@ -22,7 +22,7 @@ impl Started {
     /// POV-Ray would leave its state behind, and ffmpeg would end a film too early.
     ///
     /// # Errors
-    /// Where the system does not start it.
+    /// If the system does not start it.
     pub(super) fn new(command: &mut Command) -> io::Result<Started> {
         let child = command.process_group(0).spawn()?;
         Ok(Started { child, exit: None, on_this_thread: PhantomData })
@@ -41,7 +41,7 @@ impl Started {
     /// How it has ended; `None` while it runs.
     ///
     /// # Errors
-    /// Where the system does not tell.
+    /// If the system does not tell.
     pub(super) fn exit(&mut self) -> io::Result<Option<ExitStatus>> {
         if self.exit.is_none() {
             self.exit = self.child.try_wait()?;
@@ -52,7 +52,7 @@ impl Started {
     /// Ends it, if it has not ended, with all that it has started: it may be a script that runs another program.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if self.exit.is_none() {
-            // What has ended already cannot be killed, and that is as good.
+            // A process that has ended already cannot be killed, which is as good.
             let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
             let _ = self.child.kill();
             self.exit = self.child.wait().ok();

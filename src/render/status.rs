@@ -1,4 +1,4 @@
-//! What is there of the images of a folder: read from the images, and not from whatever renders them.
+//! The status of the images in a folder, read from the images and not from the program that renders them.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,7 +21,7 @@ use crate::simulate::Selection;
 /// something that is dead.
 const HEARTBEATS: Duration = Duration::from_secs(180);
 
-/// What is there of the images of a folder. Every frame is in one of the lists.
+/// The status of the images in a folder. Every frame is in one of the lists.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Status {
     /// The frames that are asked for.
@@ -39,9 +39,9 @@ pub struct Status {
     pub failed: Vec<Failed>,
     /// Those that nobody works on: there is no image, or one of something else.
     pub missing: Vec<usize>,
-    /// Of those that are missing, the ones that something has begun and not been heard of for three minutes.
+    /// Those missing frames that were begun, but have given no sign of life for three minutes.
     pub stale: Vec<Running>,
-    /// Whether there is a film of all these images; `None` where none is asked for.
+    /// Whether there is a film of all these images. `None` if no film was requested.
     pub film: Option<bool>,
     /// Whether what wrote the scripts was broken off, so that some may be missing or of another version of the scene.
     pub unfinished_scripts: bool,
@@ -69,7 +69,7 @@ pub struct Failed {
     pub reason: String,
 }
 
-/// What a folder has, and where.
+/// The paths of a folder's contents.
 struct Place {
     scripts: PathBuf,
     images: PathBuf,
@@ -112,7 +112,7 @@ impl Status {
     /// themselves.
     ///
     /// # Errors
-    /// Where it is neither, or cannot be read.
+    /// If it is neither, or cannot be read.
     pub fn read(folder: &Path) -> io::Result<Status> {
         Status::of(&Place::find(folder)?)
     }
@@ -158,7 +158,7 @@ impl Status {
 
     /// The status as people read it: what there is how much of, and which.
     pub fn to_text(&self) -> String {
-        /// So many failures are shown.
+        /// The number of failures that are shown.
         const SHOWN: usize = 10;
         let list = |frames: &[usize]| frames.iter().copied().collect::<Selection>().to_string();
         let on_hosts = |running: &[Running]| {

@@ -17,7 +17,7 @@ const NEWEST: ABI = ABI::V7;
 /// TCP, signals to others and abstract sockets are refused altogether.
 ///
 /// # Errors
-/// Where the kernel refuses the rules, or a path to write does not exist.
+/// If the kernel refuses the rules, or a path to write does not exist.
 pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
     // A program makes no devices, no links and no pipes: jabuka reads what it leaves behind.
     let written = AccessFs::from_all(NEWEST)

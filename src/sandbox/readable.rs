@@ -23,7 +23,7 @@ const SYSTEM: &[&str] = &[
     "/run/current-system",
     "/home/linuxbrew/.linuxbrew",
     "/snap",
-    // Of /etc only what programs start with; it also holds keys and passwords.
+    // Only the part of /etc that programs need to start: the rest also holds keys and passwords.
     "/etc/alternatives",
     "/etc/fonts",
     "/etc/group",

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::dynamics::Mesh;
 
-/// The normals of a mesh, and the numbers of those at the corners of each triangle.
+/// The normals of a mesh, and which of them each corner of each triangle has.
 pub(crate) struct Normals {
     pub(crate) vectors: Vec<DVec3>,
     pub(crate) corners: Vec<[u32; 3]>,

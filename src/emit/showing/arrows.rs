@@ -40,7 +40,7 @@ fn axes(out: &mut String, axes: &Axes, names: Names<'_>, style: Style) {
 }
 
 fn arrow(out: &mut String, arrow: &Arrow, names: Names<'_>, style: Style) {
-    // That one is never seen is said once for the run.
+    // A warning of the whole run reports arrows that are never seen.
     if !style.can_tell(arrow.from, arrow.to) {
         return;
     }

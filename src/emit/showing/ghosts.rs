@@ -1,4 +1,4 @@
-//! The bodies as they were, every so many seconds.
+//! Ghosts: the earlier poses of bodies, at regular intervals.
 
 use super::super::bodies::Block;
 use super::super::materials::MaterialText;

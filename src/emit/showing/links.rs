@@ -14,7 +14,7 @@ pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, style: Style) 
 
 fn link(out: &mut String, link: &Link<'_>, style: Style) {
     let (name, color) = (text::comment(link.name), color(link.color, style));
-    // That one is never seen is said once for the run.
+    // A warning of the whole run reports links that are never seen.
     let is_seen = |radius: f64| style.can_tell(DVec3::ZERO, DVec3::X * radius);
     match &link.form {
         LinkForm::Pin { at, radius } => {

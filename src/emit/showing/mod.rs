@@ -1,6 +1,6 @@
-//! What shows the physics of a frame beside its bodies, in POV-Ray's words: arrows, axes, ghosts, trails, springs, joints, texts.
+//! The physics of a frame beside its bodies, in POV-Ray's language: arrows, axes, ghosts, trails, springs, joints, texts.
 //!
-//! What is to be shown, and where, is said by the [`Plan`]. What nobody asks for leaves no trace in a script.
+//! The [`Plan`] says what to show, and where. Unused features leave no trace in a script.
 
 mod arrows;
 mod ghosts;
@@ -24,7 +24,7 @@ use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
 
-/// What is the same in all frames about what is shown beside the bodies.
+/// The part of the showing that is equal in all frames.
 pub(super) struct Showing {
     ghosts: Ghosts,
     trails: Trails,
@@ -35,7 +35,7 @@ pub(super) struct Showing {
     style: Style,
 }
 
-/// The names of what has arrows, by number.
+/// The names of the things with arrows, by number.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     bodies: &'a [Arc<str>],
@@ -70,7 +70,7 @@ impl Shows {
 }
 
 impl Showing {
-    /// Writes what is the same in all frames of a plan.
+    /// Writes the part of a plan that is equal in all frames.
     pub(super) fn new(
         scene: &Scene,
         plan: &Plan,
@@ -97,7 +97,7 @@ impl Showing {
         self.trails.files(plan, frame, has)
     }
 
-    /// Appends what is to be shown of a frame, whose bodies have the given names.
+    /// Appends the things shown in a frame, whose bodies have the given names.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
         let its = Names { bodies: names, joints: &self.joints };

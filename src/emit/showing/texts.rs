@@ -1,4 +1,4 @@
-//! What is written on the plane before the camera: texts, and the scale bar.
+//! Writing on the plane before the camera: texts, and the scale bar.
 
 use super::super::{sdl::Style, text};
 use super::color;

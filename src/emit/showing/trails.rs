@@ -102,7 +102,7 @@ impl Trails {
 
     /// Appends a part of a trail that stands in the script itself, from one point to another.
     fn own(&self, out: &mut String, trail: &Trail, first: usize, last: usize) {
-        // Where a body has hardly moved, two stretches meet in points that are nearly the same.
+        // If a body has hardly moved, two stretches meet in nearly equal points.
         let text = |number: usize| {
             let mut out = String::new();
             self.point(&mut out, trail, number);

@@ -1,10 +1,9 @@
-//! What moves nodes.
+//! The animation of nodes.
 
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
 use super::motion::{Motion, Way};
 
-/// What moves nodes, and how many bytes of keys that takes, which are those of a view; nothing where
-/// nothing moves.
+/// The animation of the nodes, and the number of bytes of its keys, which are those of a view. `None` if nothing moves.
 pub(super) fn animation(
     motion: &Motion,
     nodes: &[u32],

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// All but the numbers. What is empty may not stand in a file.
+/// Everything but the binary numbers. The format forbids empty lists.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -34,7 +34,7 @@ pub(super) struct Asset {
     pub(super) extras: Extras,
 }
 
-/// What readers may show, and need not understand.
+/// Data that readers may show, and may ignore.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Extras {
@@ -117,7 +117,7 @@ pub(super) struct Shading {
     pub(super) roughness_factor: f64,
 }
 
-/// What looks along -z of its node, with y up.
+/// A camera. It looks along -z of its node, with y up.
 #[derive(Serialize)]
 pub(super) struct Camera {
     pub(super) name: String,
@@ -143,7 +143,7 @@ pub(super) struct Perspective {
     pub(super) zfar: f64,
 }
 
-/// Of width and height, the halves.
+/// An orthographic camera, given by half its width and half its height.
 #[derive(Serialize)]
 pub(super) struct Orthographic {
     pub(super) xmag: f64,
@@ -155,7 +155,7 @@ pub(super) struct Orthographic {
 /// The extension of lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
-/// What the extension of lights says of something.
+/// The data of the lights extension for an object.
 #[derive(Serialize)]
 pub(super) struct OfLights<T> {
     #[serde(rename = "KHR_lights_punctual")]
@@ -207,7 +207,7 @@ pub(super) struct Target {
 #[derive(Serialize)]
 pub(super) struct Sampler {
     pub(super) input: u32,
-    /// What is between two times; LINEAR, as glTF has it, where nothing is said.
+    /// The interpolation between two times. If it is absent, glTF's default LINEAR applies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) interpolation: Option<&'static str>,
     pub(super) output: u32,

@@ -1,6 +1,6 @@
-//! Where springs and joints are: a node for each of their parts, stretched from end to end.
+//! Nodes for springs and joints: one for each part, stretched from end to end.
 //!
-//! What is away, or has no room between its ends, has the size 0.
+//! A part whose bodies are absent, or without room between its ends, has the size 0.
 
 use glam::{DQuat, DVec3};
 
@@ -62,7 +62,7 @@ pub(super) fn nodes(
     Ok(nodes)
 }
 
-/// Where a node is, and how large.
+/// The place and size of a node.
 struct Placed {
     pose: Pose,
     /// Along its own axes, m, of which y is that of the form.

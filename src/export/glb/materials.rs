@@ -6,7 +6,7 @@ use super::document::{Material, Shading};
 use crate::scene::{Color, Finish, Look, Scene};
 use crate::surface::{Appearance, Motif, appearance, ground};
 
-/// What something is painted with.
+/// The material of an object.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Paint {
     pub(super) what: What,
@@ -63,7 +63,7 @@ fn material(paint: Paint, scene: &Scene) -> Material {
     shaded(name, &look, paint.both_sides)
 }
 
-/// What something is painted with, and a name for it.
+/// The material of an object, and a name for it.
 pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
     match what {
         What::Material(number) => {
@@ -89,7 +89,7 @@ pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
 
 fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {
     let color @ [red, green, blue, cover] = appearance.mean();
-    // What shines by itself throws nothing back, or it would be brighter than its color.
+    // A luminous surface reflects nothing, or it would be brighter than its color.
     let base = if appearance.emissive { [0.0, 0.0, 0.0, cover] } else { color };
     Material {
         name,

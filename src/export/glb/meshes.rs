@@ -20,7 +20,7 @@ pub(super) struct Meshes {
     pub(super) geometry: Geometry,
 }
 
-/// Where a form is in a pattern, by the bits of the map from one to the other.
+/// The place of a form in a pattern, by the bits of the map from one to the other.
 type Cut = [u32; 12];
 
 impl Meshes {
@@ -80,7 +80,7 @@ impl Meshes {
     }
 }
 
-/// Where a piece is in a pattern of a size, m: in that of the body, or, if it is a plane, in its own.
+/// The place of a piece in a pattern of a size, m. The pattern is that of the body, or, for a plane, its own.
 #[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
 fn cut(piece: &Piece, size: f64) -> Cut {
     let scale = piece.scale / size;

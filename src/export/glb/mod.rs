@@ -38,7 +38,7 @@ use self::sight::Sight;
 use super::ExportError;
 use crate::simulate::{Recorded, Selection};
 
-/// What has been written.
+/// Figures on the exported file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exported {
     /// The number of frames.
@@ -54,7 +54,7 @@ pub struct Exported {
 /// glTF has no word for that.
 ///
 /// # Errors
-/// Where it cannot be written, the recording cannot be read, or the format cannot hold it; then nothing is written.
+/// If it cannot be written, the recording cannot be read, or the format cannot hold it; then nothing is written.
 pub fn write_glb(
     run: &Recorded<'_>,
     selection: &Selection,

@@ -24,7 +24,7 @@ const ROOT: &str = "jabuka";
 /// A scene on its way to a document.
 struct Model<'a> {
     scene: &'a Scene,
-    /// What surrounds the bodies, and from where it is seen.
+    /// Surroundings, cameras and lights.
     sight: Sight,
     nodes: Vec<Node>,
     meshes: Meshes,
@@ -158,7 +158,7 @@ impl Model<'_> {
         self.node(Node { name, mesh, scale: Some(way.size.to_array()), ..at(way.start) })
     }
 
-    /// What the scene is called.
+    /// The title of the scene.
     fn title(&self) -> String {
         self.scene.title.as_ref().unwrap_or(&self.scene.name).clone()
     }

@@ -1,4 +1,4 @@
-//! Where the bodies are in all frames, as far as they move, and what stands beside them.
+//! The poses of all moving things in all frames: first the bodies, then the rest.
 
 use glam::{DQuat, DVec3};
 
@@ -16,11 +16,11 @@ pub(super) struct Motion {
     /// Shown seconds for each second of the scene.
     slower: f64,
     ways: Vec<Way>,
-    /// What is left in a file.
+    /// The space that is left in the file.
     pub(super) room: Room,
 }
 
-/// Where something is, m, and how it is turned.
+/// A location, m, and an orientation.
 #[derive(Clone, Copy)]
 pub(super) struct Pose {
     pub(super) location: DVec3,
@@ -29,7 +29,7 @@ pub(super) struct Pose {
 
 /// The way of something.
 pub(super) struct Way {
-    /// Where it is in the first of the frames.
+    /// The pose in the first of the frames.
     pub(super) start: Pose,
     /// Its locations in all frames, m; empty if they are all the same.
     pub(super) translations: Vec<f32>,
@@ -60,7 +60,7 @@ impl Motion {
         room.take(count)?;
         let mut bodies = Recorder::new(count);
         let pose = |location, orientation: DQuat| Pose { location, orientation: orientation.normalize() };
-        // What is away stays where it was, or waits where it will come.
+        // An absent body stays at its last place, or waits where it will appear.
         let start = |body: &Body| pose(body.start.location, body.start.orientation);
         let mut poses: Vec<Pose> = scene.bodies.iter().map(start).collect();
         for exposure in run.exposures(selection) {
@@ -107,7 +107,7 @@ impl Motion {
     }
 }
 
-/// What keeps where several things are, frame after frame.
+/// Records the poses of several things, frame after frame.
 pub(super) struct Recorder {
     ways: Vec<Way>,
     /// The number of frames so far, and of those that there will be.
@@ -170,7 +170,7 @@ impl Way {
         room: &mut Room,
     ) -> Result<(), ExportError> {
         let Pose { location, orientation } = pose;
-        // Of q and -q, which are the same rotation, the nearer one: between the two others, it would turn all around.
+        // The quaternions q and -q are the same rotation. With the farther one, interpolation would turn the long way round.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };
         let start = self.start.location.as_vec3().to_array();
         follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, room)?;
@@ -202,7 +202,7 @@ fn follow<const N: usize>(
     Ok(())
 }
 
-/// The bytes that the numbers will take in the file, as far as is known by now.
+/// The number of bytes that the data will take in the file, as far as they are known by now.
 #[derive(Default)]
 pub(super) struct Room(u64);
 

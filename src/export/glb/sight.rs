@@ -12,9 +12,9 @@ use crate::simulate::{Recorded, Selection};
 /// The widest angle of view that is written, degrees: glTF has none of half a turn.
 const WIDEST: f64 = 179.9;
 
-/// What a scene is seen by and lit by. Their ways stand behind those of the bodies in the motion: cameras first.
+/// The cameras and lights of a scene. Their tracks stand behind those of the bodies in the motion: cameras first.
 pub(super) struct Sight {
-    /// What surrounds the bodies.
+    /// The surroundings of the bodies.
     pub(super) stage: Stage,
     /// The main camera, and those of the views.
     pub(super) cameras: Vec<Camera>,
@@ -57,7 +57,7 @@ impl Sight {
     }
 }
 
-/// Where a camera is, and how it is turned.
+/// The pose of a camera.
 fn pose(camera: &Placed) -> Pose {
     let screen = camera.screen();
     let (right, up) = (screen.right(), screen.up());
@@ -90,7 +90,7 @@ impl Seen {
     fn camera(self, name: String, output: Output, stage: &Stage) -> Camera {
         // Beyond the corners of the ground.
         let zfar = self.far + 2.5 * stage.size;
-        // What is near is told apart with 24 bits, and less of them are left the nearer that begins.
+        // The depth buffer has 24 bits. The closer the near plane, the fewer of them are left for distant things.
         let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-6);
         let aspect = f64::from(output.width) / f64::from(output.height);
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {

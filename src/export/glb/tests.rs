@@ -1,4 +1,4 @@
-//! What a file promises, as far as it can be seen without a reader of glTF; the readers are in `tests/gltf/`.
+//! Tests of a file's promises, as far as they need no reader of glTF. Tests with readers are in `tests/gltf/`.
 
 use glam::DQuat;
 use serde_json::Value;

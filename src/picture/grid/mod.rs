@@ -14,7 +14,7 @@ use crate::simulate::{Bounds, anchors};
 
 pub(super) use self::numbers::Ruled;
 
-/// The height of the numbers of rulers, as part of the picture's height.
+/// The height of the numbers at rulers, as part of the picture's height.
 pub(super) const SIZE: f64 = 0.045;
 /// The least height of these numbers, pixels.
 pub(super) const LEAST_PIXELS: f64 = 11.0;
@@ -24,7 +24,7 @@ const MOST_LINES: f64 = 400.0;
 const RADIUS: f64 = 0.22;
 /// The least radius of a line, pixels: thinner lines break up.
 const LEAST_RADIUS: f64 = 0.6;
-/// Of a grid that a moving camera sees, so much is drawn each way from what it looks at, in widths of the picture.
+/// How far a grid reaches each way from the point that a moving camera looks at, in widths of the picture.
 const WINDOW: f64 = 1.5;
 
 /// The lines of a grid.

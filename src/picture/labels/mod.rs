@@ -1,4 +1,4 @@
-//! Texts in the picture, with the numbers of the moment.
+//! Texts in the picture, with the values of the moment.
 
 mod beside;
 mod corner;

@@ -1,4 +1,4 @@
-//! What labels say at a moment: their words, with the numbers of then.
+//! The texts of labels at a moment: their words, with the values filled in.
 
 use super::super::number;
 use super::Labels;

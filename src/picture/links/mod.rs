@@ -125,7 +125,7 @@ pub(super) struct Links {
     scales: Vec<f64>,
     /// The direction of gravity, a unit vector.
     down: Option<DVec3>,
-    /// The numbers of bodies with the numbers of the parts that are fastened to them, in order.
+    /// Pairs of a body's number and the number of a part fastened to it, in order.
     of_bodies: Vec<(usize, usize)>,
     /// How thick the springs are, in the order of the forces and their links.
     springs: Vec<SpringSize>,

@@ -7,7 +7,7 @@ use super::reads_ground;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
-/// So many pixels across, a body is a dot.
+/// A body that is less wide than this, in pixels, is a dot.
 const SMALLEST_SEEN: f64 = 4.0;
 
 /// The largest body, and how small it is in the picture.

@@ -24,7 +24,7 @@ pub struct Written<'a> {
 }
 
 impl Plan {
-    /// What is written in a frame: the numbers of the grid, that of the scale bar, the labels.
+    /// The texts of a frame: the numbers at the grid, the length of the scale bar, the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
         let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
         grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()

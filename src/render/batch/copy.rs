@@ -9,10 +9,10 @@ use crate::emit::{COMMON, INI, MASTER};
 use crate::output::{self, Entry, Folder, Head, MANIFEST, Manifest, OutputError};
 use crate::render::files;
 
-/// What the manifest of a folder of scripts says of them.
+/// The manifest's head, for a folder of complete scripts.
 ///
 /// # Errors
-/// Where the folder has no scripts of jabuka's, or not all of them.
+/// If the folder has no scripts of jabuka's, or not all of them.
 pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
     match output::read_manifest(&scripts.join(MANIFEST)) {
         None => Err(OutputError::NoScripts(scripts.to_owned())),
@@ -27,7 +27,7 @@ pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
 /// untouched, what is of no use any more goes.
 ///
 /// # Errors
-/// Where the scripts are not complete, or a file cannot be copied.
+/// If the scripts are not complete, or a file cannot be copied.
 pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     let io_error = |error| OutputError::Io(from.to_owned(), error);
     complete(from)?;
@@ -37,7 +37,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     }
     let names = scripts(from).map_err(io_error)?;
     let old = scripts(to.path()).map_err(|error| OutputError::Io(to.path().to_owned(), error))?;
-    // What the folder's user has edited is set aside, if it would be replaced by something else.
+    // A file that the user has edited is set aside if it would be replaced by something else.
     let known = Manifest::read(to.path()).map(|manifest| manifest.files).unwrap_or_default();
     let is_equal = |name: &str| matches!((fs::read(from.join(name)), fs::read(to.path().join(name))), (Ok(a), Ok(b)) if a == b);
     let replaced: Vec<&Entry> = known.iter().filter(|entry| !is_equal(&entry.name)).collect();

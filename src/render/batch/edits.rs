@@ -16,7 +16,7 @@ const MARKS: &str = ".jabuka-job.json";
 
 const GENERATOR: &str = "jabuka";
 
-/// What jabuka wrote into a job folder.
+/// The digests of the files that jabuka wrote into a job folder.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Marks {
     generator: String,
@@ -82,7 +82,7 @@ fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
         let path = folder.path().join(name);
         let permit = |path: &Path| {
             let mut permissions = fs::metadata(path)?.permissions();
-            // Who may read it may run it.
+            // Readers of the file may also run it.
             let mode = permissions.mode();
             permissions.set_mode(mode | (mode & 0o444) >> 2);
             fs::set_permissions(path, permissions)

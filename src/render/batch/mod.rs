@@ -25,7 +25,7 @@ use crate::output::{self, Folder, OutputError};
 /// The folder of the scripts in a job folder.
 pub const SCRIPTS: &str = "scripts";
 
-/// What distributes the frames to machines.
+/// The program that distributes the frames to machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// Slurm.
@@ -49,12 +49,12 @@ pub struct JobFolder {
     folder: Folder,
 }
 
-/// What has become of the files that users may edit.
+/// What happened to the files that users may edit.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits {
     /// They were edited, and have stayed.
     pub kept: Vec<&'static str>,
-    /// Of those, the ones of which jabuka would write another text now: it is beside them, with the ending `.new`.
+    /// The kept files that jabuka would now write differently. The new text stands beside each, with the ending `.new`.
     pub new: Vec<&'static str>,
     /// They were edited, and jabuka needs its own: each with the name that the edited one has now, `submit.old`.
     pub moved: Vec<(&'static str, String)>,
@@ -64,7 +64,7 @@ impl JobFolder {
     /// Opens a job folder: a new or empty one, or one that jabuka made.
     ///
     /// # Errors
-    /// Where the folder is somebody else's, is being written to, or cannot be used.
+    /// If the folder is somebody else's, is being written to, or cannot be used.
     pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
         let folder = Folder::open_marked(path, &|path| edits::Marks::read(path).is_some())?;
         let job = JobFolder { folder };
@@ -76,7 +76,7 @@ impl JobFolder {
     /// The folder for its scripts, to be written as any other.
     ///
     /// # Errors
-    /// Where it cannot be used.
+    /// If it cannot be used.
     pub fn scripts(&self) -> Result<Folder, OutputError> {
         Folder::open(&self.folder.path().join(SCRIPTS))
     }
@@ -84,7 +84,7 @@ impl JobFolder {
     /// Writes everything but the scripts. What a user has edited is not lost.
     ///
     /// # Errors
-    /// Where a file cannot be written.
+    /// If a file cannot be written.
     pub fn write(
         &self,
         settings: &Settings,
@@ -104,7 +104,7 @@ impl JobFolder {
 /// The number of images of a job folder that are up to date, and of those that are asked for.
 ///
 /// # Errors
-/// Where a file that the scripts read is not there.
+/// If a file that the scripts read is not there.
 pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
     let status = super::status::Status::read(folder)?;
     Ok((status.done.len(), status.frames.len()))
@@ -115,7 +115,7 @@ pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
 /// `frames` are those that are asked for; `None` stands for all that have scripts. `video_rate` is the film's, if it is given.
 ///
 /// # Errors
-/// Where the folder has no complete scripts of jabuka's.
+/// If the folder has no complete scripts of jabuka's.
 pub fn settings(
     scripts: &Path,
     frames: Option<&crate::simulate::Selection>,

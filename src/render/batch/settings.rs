@@ -64,13 +64,13 @@ pub struct Settings {
     pub limit: u64,
 }
 
-/// The settings that matter for what is there: what a user may have changed, too.
+/// The settings in force for the existing scripts, including the user's changes.
 #[derive(Clone, Debug)]
 pub(crate) struct InForce {
     pub(crate) frames: Selection,
     pub(crate) options: String,
     pub(crate) files: Vec<PathBuf>,
-    /// What decides on the film beside its images: frame rate and options of ffmpeg.
+    /// The settings of the film besides its images: frame rate and options of ffmpeg.
     pub(crate) film: String,
 }
 
@@ -106,12 +106,12 @@ impl InForce {
     /// Reads the settings of a job folder; `None` if it has none, so is no job folder.
     ///
     /// # Errors
-    /// Where a file of settings cannot be read or understood.
+    /// If a file of settings cannot be read or understood.
     pub(crate) fn read(folder: &Path) -> io::Result<Option<InForce>> {
         let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
         values.extend(values_of_user(folder)?);
         let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
-        // Of several lines for one key, the last counts.
+        // Where a key has several lines, the last one counts.
         let one = |key: &str| {
             let value = values.iter().rev().find(|(set, _)| set == key).map(|(_, value)| value.as_str());
             value.ok_or_else(|| {
@@ -222,7 +222,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Every value as `settings.sh` reads it, each followed by `|`; or what it complains of.
+    /// Every value as `settings.sh` reads it, each followed by `|`; or the error message.
     fn read_by_bash(folder: &Path) -> Result<String, String> {
         fs::write(folder.join("settings.sh"), include_str!("../../../templates/batch/settings.sh")).unwrap();
         let print = "set -euo pipefail; export LC_ALL=C; source ./settings.sh; printf '%s|' \"$JOB\" \"$FRAMES\" \

@@ -4,7 +4,7 @@ use super::settings::fill;
 use super::{Engine, SETTINGS, Settings};
 use crate::simulate::Selection;
 
-/// What a job asks of the machines; what is not given is left to whoever edits the file.
+/// The resources that a job requests. Missing ones are left to whoever edits the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Requirements {
     /// The partition of Slurm.
@@ -106,7 +106,7 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
     texts
 }
 
-/// The lines `#SBATCH` of what is asked for, and, switched off, of what is left open.
+/// The `#SBATCH` lines of the requested resources, and, commented out, of the others.
 fn slurm(requirements: &Requirements) -> String {
     let line = |option: &str, value: Option<&str>, example: &str| match value {
         Some(value) => format!("#SBATCH --{option}={value}"),
@@ -135,7 +135,7 @@ fn modules(requirements: &Requirements) -> String {
 
 /// A text as a quoted string of YAML, of at most the length that a name may have.
 fn yaml(text: &str) -> String {
-    /// What Open Job Description allows.
+    /// The limit of Open Job Description.
     const MAX: usize = 128;
     let text: String = text.chars().take(MAX).collect();
     // A string of JSON is one of YAML. Braces would be a reference.

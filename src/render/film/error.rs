@@ -35,7 +35,7 @@ pub enum FilmError {
     NoFfmpeg(PathBuf, String),
     /// This ffmpeg was built without an encoder that is needed.
     NoEncoder(PathBuf, &'static str),
-    /// An image is not there, or is no whole PNG: its path, and what is wrong.
+    /// An image is missing, or is no complete PNG: its path, and the reason.
     Image(PathBuf, String),
     /// Two images differ in size.
     Sizes {

@@ -14,7 +14,7 @@ use super::super::started::Started;
 use super::{FilmError, Format};
 use crate::sandbox::{Confinement, Needs};
 
-/// An ffmpeg that is there and can make a film of some format.
+/// An installed ffmpeg that can make a film of some format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ffmpeg {
     program: PathBuf,
@@ -70,7 +70,7 @@ impl Ffmpeg {
         &self.program
     }
 
-    /// What it calls its version, such as `5.1.6-0+deb12u1`.
+    /// The version, such as `5.1.6-0+deb12u1`.
     pub fn version(&self) -> &str {
         &self.version
     }
@@ -79,7 +79,7 @@ impl Ffmpeg {
     /// written.
     ///
     /// # Errors
-    /// Where it cannot be run, `feed` fails, or `cancelled` says so.
+    /// If it cannot be run, `feed` fails, or `cancelled` says so.
     pub(super) fn run(
         &self,
         arguments: &[OsString],
@@ -158,7 +158,7 @@ fn how(exit: Option<ExitStatus>) -> String {
     }
 }
 
-/// Follows what ffmpeg tells of its progress: lines such as `frame=25`.
+/// Follows the progress messages of ffmpeg: lines such as `frame=25`.
 fn count(output: impl Read, frames: &AtomicUsize) {
     for line in BufReader::new(output).lines().map_while(Result::ok) {
         if let Some(number) = line.strip_prefix("frame=").and_then(|text| text.trim().parse().ok()) {

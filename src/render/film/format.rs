@@ -37,7 +37,7 @@ impl Format {
         Format::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// What ffmpeg calls the encoder.
+    /// The name of the encoder in ffmpeg.
     pub(super) fn encoder(self) -> &'static str {
         match self {
             Format::Mp4 => "libx264",
@@ -121,7 +121,7 @@ impl Format {
         }
     }
 
-    /// What happens to the pixels on their way to the encoder.
+    /// The filters between the images and the encoder.
     fn filters(self, samples: usize) -> String {
         match self {
             Format::Mp4 | Format::Webm => {

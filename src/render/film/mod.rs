@@ -58,7 +58,7 @@ impl Film {
     /// A film of this name, whose ending says the format.
     ///
     /// # Errors
-    /// Where the ending is another, or there is a folder of this name.
+    /// If the ending is another, or there is a folder of this name.
     pub fn new(path: impl Into<PathBuf>) -> Result<Film, FilmError> {
         let path = path.into();
         let Some(format) = Format::of(&path) else {
@@ -73,7 +73,7 @@ impl Film {
     /// The same film in another quality.
     ///
     /// # Errors
-    /// Where the format has no qualities: a `.gif`.
+    /// If the format has no qualities: a `.gif`.
     pub fn with_quality(self, quality: Quality) -> Result<Film, FilmError> {
         match self.format {
             Format::Gif => Err(FilmError::NoQuality(self.path)),
@@ -81,7 +81,7 @@ impl Film {
         }
     }
 
-    /// Where it will be.
+    /// The path of the film.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -91,7 +91,7 @@ impl Film {
         self.format
     }
 
-    /// The frames per second at which it will be shown, if it is made for so many: all but `.gif` keep them.
+    /// The frames per second at which the film will be shown, if it is made for this rate. All formats but `.gif` keep the rate.
     pub fn shown_rate(&self, frame_rate: f64) -> f64 {
         match self.format {
             Format::Gif => frame_rate.min(50.0),
@@ -99,8 +99,8 @@ impl Film {
         }
     }
 
-    /// How fast it shows images of a scene that has so many frames per second: at the rate that is asked for, or else at one
-    /// that can be watched.
+    /// The speed at which the film shows images of a scene with this frame rate: at the requested rate, or else at one that can
+    /// be watched.
     pub fn pace(&self, scene_rate: f64, asked: Option<f64>) -> Pace {
         let rate = Pace::new(scene_rate, asked).rate;
         Pace::new(scene_rate, Some(self.shown_rate(rate)))
@@ -110,7 +110,7 @@ impl Film {
     /// shell would find it. The confinement is that of all its runs.
     ///
     /// # Errors
-    /// Where it is not there, or cannot make this format.
+    /// If it is not there, or cannot make this format.
     pub fn check(&self, ffmpeg: Option<&Path>, confinement: Confinement) -> Result<Ffmpeg, FilmError> {
         Ffmpeg::find(ffmpeg, self.format, confinement)
     }
@@ -118,7 +118,7 @@ impl Film {
     /// Whether a film can have this rate, in frames per second.
     ///
     /// # Errors
-    /// Where it cannot.
+    /// If it cannot.
     pub fn check_rate(frame_rate: f64) -> Result<(), FilmError> {
         if Film::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
     }
@@ -126,7 +126,7 @@ impl Film {
     /// Whether a film of this format can have images of this size.
     ///
     /// # Errors
-    /// Where they are too large.
+    /// If they are too large.
     pub fn check_size(&self, size: [u32; 2]) -> Result<(), FilmError> {
         let most = self.format.longest_side();
         if size.iter().all(|side| *side <= most) {
@@ -138,7 +138,7 @@ impl Film {
     /// Whether the film can be written where it is to be. This makes its folder, if need be.
     ///
     /// # Errors
-    /// Where no file can be written there, or another process writes it.
+    /// If no file can be written there, or another process writes it.
     pub fn check_place(&self) -> Result<(), FilmError> {
         Target::create(&self.path).map(drop)
     }
@@ -147,7 +147,7 @@ impl Film {
     /// the film, many times a second and on this thread. A film that was there stays until the new one is whole.
     ///
     /// # Errors
-    /// Where an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` says so.
+    /// If an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` says so.
     pub fn make(
         &self,
         images: &[PathBuf],
@@ -157,7 +157,7 @@ impl Film {
         progress: &dyn Fn(usize),
     ) -> Result<(), FilmError> {
         Film::check_rate(frame_rate)?;
-        // All heads are read first: that is quick, and what is missing is known before the long work.
+        // All headers are read first, which is quick, so that missing images are reported before the long work.
         let size = picture::common_size(images.iter())?;
         let target = Target::create(&self.path)?;
         let samples = self.format.samples(images.len());
@@ -189,7 +189,7 @@ impl Film {
         target.finish()
     }
 
-    /// Whether a run of ffmpeg's has made a film of so many images.
+    /// Whether a run of ffmpeg has made a film of this many images.
     fn judge(&self, end: ffmpeg::End, images: usize) -> Result<(), FilmError> {
         // It ends with code 0 also where it could not write the last bytes, without which nothing can be played.
         let unwritten = ["Error writing", "Error closing", "File too large", "Input/output error"];

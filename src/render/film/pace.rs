@@ -12,7 +12,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// The frame rate of a film whose scene has none that can be watched, in frames per second.
+    /// The frame rate of a film if that of the scene is unwatchable, in frames per second.
     pub const USUAL_RATE: f64 = 25.0;
     /// The frame rates of scenes that can be watched in real time, in frames per second.
     pub const WATCHABLE: RangeInclusive<f64> = 1.0..=120.0;

@@ -1,4 +1,4 @@
-//! A file that is there whole or not at all, also if another program writes it.
+//! A file that is written whole or not at all, even if another program writes it.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -20,7 +20,7 @@ impl Target {
     /// Makes the empty temporary file, and the folder if need be. What a killed run has left goes.
     ///
     /// # Errors
-    /// Where another process makes the same file, or none can be made there.
+    /// If another process makes the same file, or none can be made there.
     pub(in crate::render) fn create(path: &Path) -> Result<Target, FilmError> {
         let io_error = || FilmError::io(path);
         if path.is_dir() {
@@ -52,12 +52,12 @@ impl Target {
         Ok(Target { path: path.to_owned(), temporary, file, finished: false })
     }
 
-    /// The path of what is made.
+    /// The path of the product.
     pub(in crate::render) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where it is made: an absolute path.
+    /// The absolute path of the temporary file.
     pub(super) fn temporary(&self) -> &Path {
         &self.temporary
     }
@@ -70,7 +70,7 @@ impl Target {
     /// Puts the file in its place.
     ///
     /// # Errors
-    /// Where it cannot be renamed.
+    /// If it cannot be renamed.
     pub(in crate::render) fn finish(mut self) -> Result<(), FilmError> {
         fs::rename(&self.temporary, &self.path).map_err(FilmError::io(&self.path))?;
         self.finished = true;

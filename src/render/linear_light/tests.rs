@@ -81,8 +81,8 @@ fn light_adds_up() {
 fn a_color_counts_as_much_as_it_covers() {
     let folder = tempfile::tempdir().unwrap();
     const ALL: u16 = 65535;
-    // What is seen for a quarter of the time is red for all of that; what is red half the time and green half the time
-    // is half of each; and the color of what covers nothing does not count.
+    // A pixel that is red for a quarter of the time stays fully red, with a quarter of the opacity. Red and green for half the
+    // time each give half of each. The color of a transparent pixel does not count.
     let red = covering(folder.path(), "0.png", [ALL, 0, 0, ALL, ALL, 0, 0, ALL]);
     let green = covering(folder.path(), "1.png", [0, ALL, 0, 0, 0, ALL, 0, ALL]);
     let mut images = vec![red, green];
@@ -125,7 +125,7 @@ fn what_is_written_is_read() {
     let path = folder.path().join("mean.png");
     for (alpha, bytes) in [(false, vec![0, 1, 2, 253, 254, 255]), (true, vec![9, 8, 7, 6, 5, 4, 3, 2])] {
         let image = Image { width: 2, height: 1, alpha, bytes };
-        // What a killed run has left is no hindrance.
+        // A file left by a killed run does no harm.
         fs::write(folder.path().join(".jabuka-mean.png.tmp"), "half").unwrap();
         image.write(&path).unwrap();
         let mut reader = Decoder::new(BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
