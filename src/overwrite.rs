@@ -16,7 +16,7 @@ use crate::render;
 use crate::scene::Scene;
 use crate::scene::sdl::FileKind;
 
-/// What is said of a file that SDL reads.
+/// The reason for a file that SDL reads.
 const READ_BY_SDL: &str = "the SDL of the scene reads it";
 
 /// The files that a command must leave as they are.
@@ -34,13 +34,13 @@ pub struct Kept {
 /// A file that is read.
 #[derive(Debug)]
 struct Input {
-    /// Where it is, without links and `..`.
+    /// The path without links and `..`.
     path: PathBuf,
     identity: Option<Identity>,
     use_of_it: &'static str,
 }
 
-/// What tells a file from all others: device and inode.
+/// The identity of a file: device and inode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Identity(u64, u64);
 
@@ -122,12 +122,12 @@ impl Kept {
             return Err(CannotOverwrite { path: input.path.clone(), why: input.use_of_it.to_owned() });
         }
         self.folders.push(resolved);
-        // What stands there and is read in the course of rendering may be of an earlier run: compiling replaces it.
+        // A file that rendering reads may come from an earlier run, and compiling replaces it.
         let read = render::named(folder, &self.named);
         Ok(self.and_files(read, READ_BY_SDL))
     }
 
-    /// Whether a file may be written here, and replace what there is.
+    /// Checks that a file may be written here, replacing an existing one.
     ///
     /// # Errors
     /// If it may not.
@@ -156,7 +156,7 @@ impl Kept {
         Ok(())
     }
 
-    /// Whether jabuka keeps scripts or images in a folder, or will.
+    /// Whether jabuka keeps, or will keep, scripts or images in a folder.
     fn is_ours(&self, folder: &Path) -> bool {
         self.folders.iter().any(|known| known == folder)
             || output::read_manifest(&folder.join(MANIFEST)).is_some()

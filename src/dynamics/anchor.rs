@@ -1,10 +1,10 @@
-//! What springs and joints are fastened to.
+//! Ends of springs and joints.
 
 use glam::{DQuat, DVec3};
 
 use super::BodyId;
 
-/// What an end of a spring or a joint is fastened to.
+/// The end of a spring or a joint: a place that it is fastened to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
     /// A point of a body.
@@ -40,7 +40,7 @@ impl Anchor {
         matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
     }
 
-    /// Where it is, m. The closure gives the location of a body and its orientation (`world_from_body`).
+    /// The place of the end, m. The closure gives the location of a body and its orientation (`world_from_body`).
     #[must_use]
     pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
         match self {

@@ -1,4 +1,4 @@
-//! How far the forces between pairs have come, for whoever waits.
+//! Progress of the forces between pairs, for progress bars.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +15,7 @@ impl Effort {
         self.0.fetch_add(interactions as u64, Ordering::Relaxed);
     }
 
-    /// How many have been computed so far.
+    /// The number computed so far.
     #[must_use]
     pub fn done(&self) -> u64 {
         self.0.load(Ordering::Relaxed)

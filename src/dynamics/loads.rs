@@ -1,4 +1,4 @@
-//! What acts on the bodies at one moment.
+//! Forces and torques on the bodies at one moment.
 
 use glam::DVec3;
 

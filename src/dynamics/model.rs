@@ -30,7 +30,7 @@ pub struct Model {
     frozen: BTreeMap<usize, (f64, DVec3)>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
-    /// What the bodies are that are not there. Those behind the last of them take no memory.
+    /// The constants of absent bodies. Those behind the last of them take no memory.
     away: Vec<Option<Box<Away>>>,
     /// The motions that are given, and the bodies that follow them.
     motions: Vec<(usize, Arc<dyn Motion>)>,
@@ -202,7 +202,7 @@ impl Model {
         }
     }
 
-    /// What holds bodies together.
+    /// The constraints between bodies.
     #[must_use]
     pub fn constraints(&self) -> &[Arc<dyn Constraint>] {
         &self.constraints
@@ -213,7 +213,7 @@ impl Model {
         self.motions.iter().find(|(other, _)| *other == body).map(|(_, motion)| motion.clone())
     }
 
-    /// What counts the interactions of pairs.
+    /// The counter of pair interactions.
     pub(super) fn effort(&self) -> &Effort {
         &self.effort
     }
@@ -397,7 +397,7 @@ impl Model {
     /// Takes away the loads on bodies that no load moves, since whatever holds or guides them bears these.
     pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
-            // What guides the body bears the loads on it, and so does their work, with the opposite sign.
+            // The guide of the body bears the loads on it, and does their work with the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
             loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }
@@ -458,7 +458,7 @@ pub(super) fn is_isotropic(moments: DVec3) -> bool {
 #[derive(Clone, Default)]
 struct Sparse<T>(Vec<T>);
 
-/// What a body has that has nothing of a quantity.
+/// The value of a quantity for a body that has none.
 trait Nothing: Copy + PartialEq {
     const NOTHING: Self;
 }

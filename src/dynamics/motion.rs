@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-/// Where a body is at one moment, and how it moves.
+/// The pose and the motion of a body at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {
     /// The location of the centre of mass, m.
@@ -19,7 +19,7 @@ pub struct Kinematics {
 
 /// A motion that is given: where a body is at any time, whatever acts on it.
 pub trait Motion: Send + Sync {
-    /// Where the body is at time `t`, s, and how it moves. Velocities and acceleration must be the derivatives of the place.
+    /// The pose and the motion of the body at time `t`, s. Velocities and acceleration must be the derivatives of the pose.
     fn at(&self, t: f64) -> Kinematics;
 
     /// The angular acceleration at time `t`, world axes, rad/s²: the derivative of the angular velocity.

@@ -75,8 +75,8 @@ impl Presence {
     }
 }
 
-/// What happens to a body. At one time, bodies are born before others die: one whose interval is a single moment is there
-/// at that moment.
+/// A change of a body's presence. At the same time, births come before deaths, so a body whose interval is a single moment is
+/// present at that moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Change {
     Birth,
@@ -143,18 +143,18 @@ impl Calendar {
         Leg { end, within, at_end, later }
     }
 
-    /// What has changed when time `t` is reached: who is born then is there, and who dies then still is. Each body is given
-    /// with whether it is there.
+    /// The changes when time `t` is reached: a body born then is present, and one that dies then still is. Each body is given
+    /// with its presence.
     pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
     }
 
-    /// What changes when time goes on from `t`: who dies then is there no more.
+    /// The changes when time goes on from `t`: a body that dies then is no longer present.
     pub(super) fn depart(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time <= t)
     }
 
-    /// How many births and deaths are over.
+    /// The number of past births and deaths.
     pub(super) fn over(&self) -> usize {
         self.over
     }
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(calendar.next(), Some(1.0));
         assert_eq!(calendar.arrive(1.0), [(1, true)]);
         assert_eq!(calendar.depart(1.0), [(0, false), (1, false)]);
-        // What lies between comes together.
+        // Changes in between come together.
         assert_eq!(calendar.arrive(9.0), [(1, true), (1, false)]);
         assert_eq!(calendar.next(), None);
     }

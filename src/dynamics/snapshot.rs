@@ -1,4 +1,4 @@
-//! What can be known of all bodies at one moment.
+//! The state of all bodies at one moment.
 
 use glam::{DQuat, DVec3};
 
@@ -11,11 +11,11 @@ pub struct Snapshot {
     pub time: f64,
     /// The bodies that are there, in the order of their ids.
     pub bodies: Vec<BodySnapshot>,
-    /// What constraints do to the bodies, in the order in which they were added.
+    /// The reactions of constraints on the bodies, in the order in which they were added.
     pub reactions: Vec<Reaction>,
-    /// Where bodies touch and stay in touch, in the order of their ids.
+    /// The places where bodies touch and stay in touch, in the order of their ids.
     pub contacts: Vec<ContactSnapshot>,
-    /// How deep bodies are within each other at most, m; 0 where contacts are exact, or there are none.
+    /// The greatest penetration of bodies, m; 0 if contacts are exact, or there are none.
     pub penetration: f64,
     /// Energies, momenta and the drift.
     pub balance: Balance,
@@ -85,7 +85,7 @@ pub enum Breakdown {
         bodies: [BodyId; 2],
         /// The time, s.
         time: f64,
-        /// How deep they are within each other, m.
+        /// The depth of the penetration, m.
         depth: f64,
     },
     /// No step is short enough for a body.
@@ -142,7 +142,7 @@ impl BodySnapshot {
             && self.angular_velocity.is_finite()
     }
 
-    /// Where a point of the body is, and its velocity: a place in the body's own axes, from its centre of mass, m.
+    /// The place and velocity of a point of the body. The point is given in the body's own axes, from its centre of mass, m.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         if at == DVec3::ZERO {

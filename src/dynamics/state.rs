@@ -31,12 +31,12 @@ pub struct Accounts {
     pub work: f64,
     /// The work of the motors of joints.
     pub motors: f64,
-    /// What is taken when a joint runs into a limit, or a rope becomes taut; never positive. In time stepping, also what joints take and
-    /// give as they give way.
+    /// The energy lost when a joint hits a limit or a rope becomes taut; never positive. In time stepping, it also holds the
+    /// energy that joints take and give as they yield.
     pub limits: f64,
-    /// What is lost at impacts; never positive.
+    /// The energy lost at impacts; never positive.
     pub impacts: f64,
-    /// What sliding and rolling friction between bodies that touch takes; never positive.
+    /// The energy lost to sliding and rolling friction between bodies in contact; never positive.
     pub friction: f64,
 }
 

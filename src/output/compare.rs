@@ -14,18 +14,18 @@ use crate::Run;
 use crate::emit::{frame_name, shutter_name};
 use crate::simulate::{Exposure, Selection};
 
-/// How the script of a frame differs from the one in a folder.
+/// The difference between a frame's script and that in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// The number of the frame.
     pub frame: usize,
     /// The name of the script.
     pub name: String,
-    /// What differs.
+    /// The kind of difference.
     pub kind: Kind,
 }
 
-/// What differs.
+/// The kind of difference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The folder does not have the script.
@@ -41,7 +41,7 @@ pub enum Kind {
 pub struct Line {
     /// Its number in its script, from 1.
     pub number: usize,
-    /// Whether it is the scene's; otherwise it is the folder's.
+    /// Whether the line is the scene's; otherwise it is the folder's.
     pub new: bool,
     /// The line.
     pub text: String,

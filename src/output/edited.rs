@@ -55,7 +55,7 @@ impl Folder {
                 fs::rename(&now, &path).map_err(|error| OutputError::Io(path, error))?;
                 continue;
             }
-            // What cannot be compared stays.
+            // A file that cannot be compared stays.
             if same().unwrap_or(false) {
                 fs::remove_file(&now).map_err(|error| OutputError::Io(now, error))?;
             } else {
@@ -88,7 +88,7 @@ impl Folder {
     }
 }
 
-/// Whether a file that is there differs from its entry.
+/// Whether an existing file differs from its entry.
 fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

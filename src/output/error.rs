@@ -101,7 +101,7 @@ impl OutputError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// How to mend it, where that is not plain from the message.
+    /// A way to mend it, unless the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             OutputError::Diverged(_) => Some(

@@ -16,19 +16,19 @@ use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
 /// The name of the manifest in its folder.
 pub const MANIFEST: &str = "manifest.json";
 
-/// What jabuka calls itself in a manifest.
+/// The name of jabuka in a manifest.
 const GENERATOR: &str = "jabuka";
 
 /// The largest manifest that is read: more than a million frames need.
 const MAX_BYTES: u64 = 512 << 20;
 
-/// What an output folder holds, and of which scene.
+/// The contents of an output folder, and the scene that they belong to.
 ///
-/// Everything in it was read from a file that anyone can change: it says what to look for, and is no reason to remove
-/// or overwrite anything.
+/// Everything in a manifest comes from a file that anyone can change: it tells where to look, but never justifies removing or
+/// overwriting anything.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manifest {
-    /// What is said of the folder as a whole.
+    /// The data of the folder as a whole.
     pub head: Head,
     /// The files: first those of the sequence as a whole, then the scripts in the order of their frames. While some are
     /// being written, those that stay as they are.
@@ -51,12 +51,12 @@ impl Manifest {
         ours.then_some(Manifest { head: file.head, files: file.files })
     }
 
-    /// What was noticed of the run whose scripts these are.
+    /// The warnings of the run that the scripts belong to.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         self.head.warnings.iter().filter_map(Warning::diagnostic).collect()
     }
 
-    /// Whether all files are there that were to be written.
+    /// Whether all files have been written.
     pub fn is_complete(&self) -> bool {
         self.head.state == State::Complete
     }
@@ -129,9 +129,9 @@ impl Entry {
 pub struct Warning {
     /// The kind of warning: `energy-drift`.
     pub code: String,
-    /// What was noticed.
+    /// The message.
     pub message: String,
-    /// What one might do.
+    /// A suggestion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
 }
@@ -153,7 +153,7 @@ impl Warning {
     }
 }
 
-/// How far a folder is.
+/// The progress of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
@@ -176,7 +176,7 @@ pub struct Head {
     /// A digest of its sources: another one may write other scripts of the same scene.
     #[serde(default)]
     pub build: String,
-    /// How far the folder is.
+    /// The progress of the folder.
     pub state: State,
     /// The name of the scene.
     pub scene: String,
@@ -204,16 +204,16 @@ pub struct Head {
     /// Whether the images have alpha.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transparent: Option<bool>,
-    /// Where images are blurred by motion, and there are `shutter_` scripts: how long the shutter is open, s.
+    /// The time for which the shutter is open, s, if images have motion blur and there are `shutter_` scripts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutter: Option<f64>,
     /// And the number of moments in each of those scripts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
-    /// How far the energy drifts, as a part of the largest kinetic energy.
+    /// The energy error, as a part of the largest kinetic energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
-    /// What was noticed of the run, and is no error.
+    /// The warnings of the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
     /// While writing: the frames that are being written.
@@ -229,7 +229,7 @@ impl Head {
         Head { drift: Some(run.survey().drift), warnings, ..head }
     }
 
-    /// What is known without a run of the scene.
+    /// The part that is known without a run of the scene.
     pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Head {
         Head {
             generator: GENERATOR.to_owned(),
@@ -254,7 +254,7 @@ impl Head {
         }
     }
 
-    /// Whether jabuka can have written it. Numbers that no scene can have would have others count without end.
+    /// Whether jabuka can have written it. Impossible numbers would make readers count without end.
     fn is_ours(&self) -> bool {
         self.generator == GENERATOR
             && is_possible_number_of_frames(self.frames)

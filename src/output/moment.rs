@@ -14,7 +14,7 @@ use crate::emit::frame_name;
 /// If a file cannot be written, the run becomes non-finite before that time, or the script cannot be made.
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
-    // What cannot be made takes nothing away.
+    // If the script cannot be made, existing files stay.
     let exposure = run.at(time)?;
     let frame = &exposure.frame;
     let script = run.script(frame)?;

@@ -28,7 +28,7 @@ impl TrailFiles {
         Ok(())
     }
 
-    /// What the manifest says of them.
+    /// The entries for them in the manifest.
     pub(super) fn into_entries(self) -> Vec<Entry> {
         self.entries.into_inner().unwrap_or_else(PoisonError::into_inner)
     }

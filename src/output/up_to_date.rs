@@ -1,4 +1,4 @@
-//! Whether a folder holds already what a scene would write.
+//! Check whether a folder holds everything that a scene would write.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -37,7 +37,7 @@ pub fn up_to_date(
     unchanged.then_some(manifest)
 }
 
-/// Whether the scene's assets are those that the folder has copies of: what is in them is not in the digest of the scene.
+/// Whether the folder has copies of the scene's present assets. The digest of the scene does not cover their contents.
 fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
     scene.povray.assets.iter().all(|asset| {
         let name = format!("{ASSETS}/{}", asset.name);
@@ -45,7 +45,7 @@ fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
     })
 }
 
-/// Whether a file is the one that an entry says.
+/// Whether a file matches an entry.
 fn is_of(path: &Path, entry: &Entry) -> bool {
     let length = path.metadata().map(|metadata| metadata.len());
     let tally = || Tally::of_file(path).map(|tally| tally.entry(entry.frame, entry.name.clone()));

@@ -16,7 +16,7 @@ use crate::emit::{frame_name, shutter_name};
 use crate::scene::Shutter;
 use crate::simulate::{Exposure, Selection};
 
-/// What was written.
+/// The written files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     /// The number of scripts.
@@ -48,7 +48,7 @@ pub fn write(
     };
     let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
     let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
-    // What this run does not touch stays in the manifest, so that edits of it are known as such later.
+    // Files that this run does not touch stay in the manifest, so that later runs still recognize edits of them.
     let is_untouched =
         |entry: &Entry| unchanged && entry.frame.is_some_and(|frame| !selection.contains(frame));
     let (untouched, touched): (Vec<Entry>, Vec<Entry>) = old.into_iter().partition(is_untouched);
@@ -87,7 +87,7 @@ pub fn write(
     Ok(written)
 }
 
-/// How many frames have one of these scripts, which stand in the order of frames or, of each frame, side by side.
+/// The number of frames that have one of these scripts. The scripts are in the order of frames, or side by side for each frame.
 fn frames(entries: &[Entry]) -> usize {
     entries.chunk_by(|a, b| a.frame == b.frame).count()
 }

@@ -30,7 +30,7 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([1.0, 0.92, 0.35]),
 ];
 
-/// What an arrow belongs to.
+/// The thing that an arrow belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bearer {
     /// The body with this number.
@@ -47,11 +47,11 @@ pub enum Bearer {
 /// An arrow for a vector of a body or of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrow {
-    /// What it belongs to.
+    /// The thing that it belongs to.
     pub bearer: Bearer,
-    /// What it shows.
+    /// The quantity that it shows.
     pub quantity: Quantity,
-    /// Where it begins, m.
+    /// The root of the arrow, m.
     pub from: DVec3,
     /// Its tip, m.
     pub to: DVec3,
@@ -83,7 +83,7 @@ pub(super) const HEAD: f64 = 3.2;
 /// An arrow that is shorter than this part of the width of the picture is less than a tenth of a pixel long.
 const NOTHING: f64 = 5e-5;
 
-/// How long arrows without a scale are for one unit of each quantity, m.
+/// The length of an arrow without a scale for one unit of each quantity, m.
 pub(super) type Scales = [f64; Quantity::COUNT];
 
 /// The arrows and axes of a scene.
@@ -95,7 +95,7 @@ pub(super) struct Arrows {
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,
-    /// Where there are arrows for loads: the scene, and the colors of arrows.
+    /// The scene, and the colors of arrows, if there are arrows for loads.
     of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
     /// The longest vector of each kind whose arrows have no scale, in its own unit.
     longest: [f64; Quantity::COUNT],
@@ -125,7 +125,7 @@ struct Planned {
     color: Color,
 }
 
-/// How large arrows are in the picture of a frame.
+/// The sizes of arrows in the picture of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArrowSizes {
     /// The width of what the camera sees, m.

@@ -14,15 +14,15 @@ use crate::scene::{Color, ScaleBar, Scene};
 /// A scale bar on the plane before the camera, on which the picture is 2 wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
-    /// Where it begins across the picture.
+    /// Its left end in the picture.
     pub from: f64,
-    /// Where it ends across the picture.
+    /// Its right end in the picture.
     pub to: f64,
-    /// How high it is in the picture.
+    /// Its height in the picture.
     pub y: Vertical,
     /// Its thickness.
     pub thickness: f64,
-    /// How far above it the base line of its number is.
+    /// The distance from the bar up to the base line of its number.
     pub above: f64,
     /// Its color.
     pub color: Color,

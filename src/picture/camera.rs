@@ -7,7 +7,7 @@ use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
-/// How far a camera stays from a body that it follows, in halves of its width: the body is an eighth of the picture.
+/// The distance of a camera from a body that it follows, in halves of its width. The body then takes an eighth of the picture.
 const USUAL_DISTANCE: f64 = 22.0;
 
 /// A camera that has its place, in metres.
@@ -20,7 +20,7 @@ pub struct Placed {
     output: Output,
 }
 
-/// How a camera sees.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
     /// As eyes do: what is farther is smaller.
@@ -84,7 +84,7 @@ impl Placed {
         Placed { location, look_at, lens, blur: self.blur, output: self.output }
     }
 
-    /// Where it is, m.
+    /// The place of the camera, m.
     pub fn location(&self) -> DVec3 {
         self.location
     }
@@ -103,12 +103,12 @@ impl Placed {
         way.normalize_or(DVec3::Z)
     }
 
-    /// How it sees.
+    /// The projection of the camera.
     pub fn lens(&self) -> Lens {
         self.lens
     }
 
-    /// How it blurs what is not in focus, if it does.
+    /// The depth-of-field blur, if there is any.
     pub fn blur(&self) -> Option<Blur> {
         self.blur
     }
@@ -129,7 +129,7 @@ impl Placed {
         f64::from(self.output.height) / f64::from(self.output.width)
     }
 
-    /// Whether its pictures are so wide that POV-Ray, which measures in their height, takes rounding for an error.
+    /// Whether its pictures are so wide that POV-Ray, which measures in their height, reports rounding errors as mistakes.
     pub fn is_wide(&self) -> bool {
         const WIDE: u32 = 100;
         self.output.width > WIDE * self.output.height
@@ -175,7 +175,7 @@ pub(super) struct Eye {
     moving: Option<Moving>,
 }
 
-/// How a camera moves.
+/// The motion of a camera.
 #[derive(Clone, Debug)]
 struct Moving {
     camera: Camera,
@@ -243,7 +243,7 @@ pub(super) fn half_width(body: &Body) -> Option<f64> {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).reduce(f64::max)
 }
 
-/// What a camera looks at whose place alone is given: the middle of the motion, or from there straight ahead.
+/// The point that a camera looks at if the scene gives only its place: the middle of the motion, or straight ahead.
 fn aim(location: DVec3, auto: Framing) -> DVec3 {
     let far = auto.location.distance(auto.look_at);
     if location.distance(auto.look_at) > 1e-6 * far { auto.look_at } else { location - DVec3::Z * far }

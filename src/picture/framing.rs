@@ -1,4 +1,4 @@
-//! Where the camera stands when the scene does not say.
+//! The default place of the camera.
 
 use glam::DVec3;
 
@@ -30,10 +30,10 @@ pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
 }
 
-/// How much of the picture, each way, the motion may fill.
+/// The part of the picture that the motion may fill, each way.
 const FILL: f64 = 0.86;
 
-/// Where a camera stands and what it looks at.
+/// The place of a camera and the point that it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Framing {
     pub(super) location: DVec3,
@@ -63,8 +63,8 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, 
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
     if look_at.is_none() {
-        // What is nearer looks larger, so the middle of the box is not the middle of its picture: shift the aim
-        // until it is. Each turn leaves a small part of the error.
+        // Nearer things look larger, so the middle of the box is not the middle of its picture. Shift the aim until it is: each
+        // iteration leaves a small part of the error.
         for _ in 0..6 {
             let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
             aim += (right * x + up * y) * distance;
@@ -159,7 +159,7 @@ fn middle_of_picture(
 /// camera.
 pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
     let step = decimal_step((bounds.max - bounds.min).max_element()) / 10.0;
-    // What lies on a mark but for rounding stays there.
+    // A value that is on a mark up to rounding stays there.
     let slack = DVec3::splat(1e-6);
     Bounds { min: (bounds.min / step + slack).floor() * step, max: (bounds.max / step - slack).ceil() * step }
 }

@@ -3,12 +3,12 @@
 use crate::scene::{Body, Scene};
 use crate::simulate::{Frame, Ghost};
 
-/// How near a ghost may be to its body and not be drawn, m: surfaces at the same place would be drawn in a mixture of both.
+/// The distance within which a ghost is not drawn, m: two surfaces at the same place would be drawn as a mixture.
 pub(super) fn near(body: &Body) -> f64 {
     0.02 * body.drawn().half_thickness().unwrap_or(0.0)
 }
 
-/// Whether two directions whose quaternions have a product are so different that both are seen.
+/// Whether two orientations, given by the product of their quaternions, look different.
 pub(super) fn is_turned(product: f64) -> bool {
     product.abs() < 1.0 - 1e-4
 }

@@ -12,7 +12,7 @@ use crate::scene::{Body, Quantity, Scene};
 /// No arrow is moved nearer to the camera than this part of its distance.
 const NEAREST: f64 = 0.02;
 
-/// What may hide arrows in all frames: the ground, and the planes among the bodies.
+/// The planes that may hide arrows in all frames: the ground, and the planes among the bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Planes {
     /// A point of each, m, and its normal.

@@ -10,9 +10,9 @@ use crate::scene::{Color, Light, LightKind, Preset, Scene};
 pub struct PlacedLight {
     /// Its name in the scene.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: Lamp,
-    /// Where it is, m; of a sun: a point that its light comes from.
+    /// Its place, m; for a sun, a point that its light comes from.
     pub location: DVec3,
     /// The diameter of an area light, m.
     pub size: Option<f64>,
@@ -22,7 +22,7 @@ pub struct PlacedLight {
     pub shadows: bool,
 }
 
-/// What a light is.
+/// The kind of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lamp {
     /// A lamp without size.
@@ -138,9 +138,9 @@ pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
 #[derive(Clone, Debug)]
 pub(super) struct Lights {
     lights: Vec<Light>,
-    /// What suns shine at.
+    /// The point that suns shine at.
     center: DVec3,
-    /// How far everything reaches, m.
+    /// The reach of the whole scene, m.
     reach: f64,
 }
 

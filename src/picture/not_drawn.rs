@@ -1,4 +1,4 @@
-//! What a scene asks for, and no picture of the run shows.
+//! Things that a scene asks for and no picture of the run shows.
 
 use super::arrows::{LONGEST, round_down};
 use super::decimal_step;
@@ -16,17 +16,17 @@ const THINNEST: f64 = 0.1;
 /// Something that is asked for and that no picture shows, or none from a moment on. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotDrawn {
-    /// What it is.
+    /// The thing.
     pub what: Asking,
     /// The name of the body or the force that asks for it.
     pub name: String,
     /// Why.
     pub why: Why,
-    /// How many others ask for the same and get as little.
+    /// The number of others that ask for the same in vain.
     pub others: usize,
 }
 
-/// What is asked for.
+/// The thing that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asking {
     /// An arrow of a body.
@@ -52,19 +52,19 @@ pub enum Why {
     TooSmall {
         /// Its length or width at most, pixels.
         pixels: f64,
-        /// What would be seen, in the key's unit.
+        /// A value that would be visible, in the key's unit.
         fit: f64,
     },
     /// Its tip is at no finite place from a time on, s.
     Lost {
         /// The time of the first frame, s.
         time: f64,
-        /// What would be seen, in the key's unit; none if all of the run is lost.
+        /// A value that would be visible, in the key's unit. `None` if all of the run is lost.
         fit: Option<f64>,
     },
     /// The body goes less far than half the width of its trail.
     Wide {
-        /// How far it goes.
+        /// The length of its path.
         way: f64,
         /// The width.
         width: f64,
@@ -91,8 +91,8 @@ pub enum Why {
     },
 }
 
-/// What is not drawn in pictures of which the narrowest shows a width of `view`, m. At the start, a scale bar of a length
-/// (m) is so wide, in pictures whose width is 2.
+/// Finds the requested things that are not drawn. `view` is the smallest width that a picture shows, m. `bar` is the length of a
+/// scale bar, m, and its width at the start, in pictures of width 2.
 pub(super) fn find(
     scene: &Scene,
     survey: &Survey,
@@ -155,7 +155,7 @@ pub(super) fn find(
             Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Why::Still,
             Some(_) => continue,
         };
-        // What is fixed has no ghosts, and needs none.
+        // A fixed body has no ghosts, and needs none.
         if !body.start.fixed {
             found.add(Asking::Ghosts, &body.name, why);
         }
@@ -178,7 +178,7 @@ pub(super) fn find(
     found.0
 }
 
-/// What has been found, one for all of a kind.
+/// The findings, one for all of a kind.
 #[derive(Default)]
 struct Found(Vec<NotDrawn>);
 

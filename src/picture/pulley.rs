@@ -15,11 +15,11 @@ pub(super) struct Course {
     ends: [DVec3; 2],
     /// The points over which it runs.
     over: [DVec3; 2],
-    /// How it goes around each wheel.
+    /// Its turns around the wheels.
     pub(super) turns: Vec<Turn>,
 }
 
-/// How a rope goes around a wheel.
+/// The turn of a rope around a wheel.
 pub(super) struct Turn {
     /// The centre of the wheel, m.
     pub(super) centre: DVec3,

@@ -25,20 +25,20 @@ struct Stripe {
     half: f64,
 }
 
-/// What is taken of a picture. Each cell of the picture knows what reaches into it, so the search for a free part looks
-/// at what is near alone.
+/// The occupied parts of a picture. Each cell of the picture lists the things that reach into it, so the search for a free part
+/// looks only at near ones.
 #[derive(Debug)]
 pub(super) struct Room {
     /// The height of the picture, as part of its width.
     aspect: f64,
-    /// How many cells there are across and upward.
+    /// The numbers of cells across and upward.
     across: usize,
     upward: usize,
     /// Row by row from the lower left one.
     cells: Vec<Cell>,
 }
 
-/// What is taken in a cell.
+/// The things in a cell.
 #[derive(Clone, Debug, Default)]
 struct Cell {
     /// Rectangles in the cell, of which none is inside another.
@@ -178,7 +178,7 @@ impl Rectangle {
             && other.bottom < self.top
     }
 
-    /// What of it is in another part that it overlaps.
+    /// The part of it within another part that it overlaps.
     fn within(self, other: Rectangle) -> Rectangle {
         Rectangle {
             left: self.left.max(other.left),
@@ -188,7 +188,7 @@ impl Rectangle {
         }
     }
 
-    /// Whether nothing of another part is outside this one.
+    /// Whether this part contains another one.
     fn covers(self, other: Rectangle) -> bool {
         self.left <= other.left
             && other.right <= self.right

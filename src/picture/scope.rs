@@ -1,5 +1,5 @@
-//! How much of a run an automatic camera frames: all of it; or, where all of it would leave the bodies too small to be
-//! seen, what is around the only body, or the start.
+//! The part of a run that an automatic camera frames: all of it; or, if the bodies would then be too small to be seen, the
+//! surroundings of the only body, or the start.
 
 use super::camera::{Eye, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
@@ -9,16 +9,17 @@ use crate::simulate::{Bounds, Reach, Span, Survey};
 
 /// The largest body is well seen if it is as wide as this part of the picture: 4 pixels of 1280.
 const LEAST: f64 = 0.0031;
-/// Where the whole run would leave it smaller, so much of the start is framed that it is as wide as this: 12 pixels.
+/// If the body would be smaller in the whole run, the camera frames only a part of the start, in which the body is this wide: 12
+/// pixels.
 const GOOD: f64 = 0.0094;
 
 /// A camera that goes along with a body shows it as wide as this part of the picture.
 const ALONG: f64 = 0.05;
 
-/// Where there is nothing to see, this is looked at.
+/// An empty scene is framed like this.
 const NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
 
-/// What a camera frames of a run.
+/// The part of a run that a camera frames.
 #[derive(Clone, Debug)]
 pub(super) struct Scope {
     /// The camera, which goes along with the only body where it could not show it otherwise.
@@ -30,19 +31,19 @@ pub(super) struct Scope {
     pub(super) part: Part,
 }
 
-/// How much of a run a camera frames.
+/// The part of a run that a camera frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
     /// All of it, or what the scene says.
     Whole,
     /// Its start until this time, s.
     Start(f64),
-    /// What is around the body of this number: the camera goes along with it.
+    /// The surroundings of the body of this number: the camera follows it.
     AroundBody(usize),
 }
 
 impl Scope {
-    /// What a camera of a scene frames.
+    /// The part that a camera of a scene frames.
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
         let Some((all, starts)) = survey.spans.split_last() else {
             let arrows: [Reach; Quantity::COUNT] = Default::default();

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-/// How far before the camera the plane is, as part of the distance to what is looked at.
+/// The distance of the plane before the camera, as part of the distance to the point it looks at.
 const NEAR: f64 = 0.01;
 
 /// The plane before a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the

@@ -1,4 +1,4 @@
-//! What a liquid carries.
+//! Buoyancy in a liquid.
 
 use glam::DVec3;
 

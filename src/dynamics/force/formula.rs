@@ -13,7 +13,7 @@ use super::{Force, Loads, Moment};
 /// As many bodies as a [`ForceLaw`] is asked about at once, at most.
 pub const FORCE_BLOCK: usize = 64;
 
-/// What a body feels by its place, its motion, its mass, its charge and the time, and by nothing else.
+/// The law of a force that depends only on a body's place, motion, mass and charge, and on the time.
 pub trait ForceLaw: Debug + Send + Sync {
     /// Writes the force on each of at most [`FORCE_BLOCK`] bodies, N; `at_rest`: as if their velocities were zero.
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]);
@@ -39,14 +39,14 @@ pub struct FormulaForce {
     failure: Failure,
 }
 
-/// Where a law has no finite value.
+/// The place at which a law has no finite value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Undefined {
     /// The body that has no force.
     pub body: BodyId,
     /// The time, s.
     pub time: f64,
-    /// Where the body is, m.
+    /// The place of the body, m.
     pub location: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
@@ -262,7 +262,7 @@ mod tests {
         loads(&force, &model, &state);
         let found = force.undefined().unwrap();
         assert_eq!((found.body, found.location), (BodyId::new(1), 1e200 * DVec3::X));
-        // What follows from it is not the cause.
+        // Values that follow from it are not the cause.
         state.location[1].x = f64::NAN;
         loads(&force, &model, &state);
         assert_eq!(force.undefined(), Some(found));

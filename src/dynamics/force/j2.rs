@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::BodyId;
 use super::{Force, Loads, Moment};
 
-/// What the flattening of a planet adds to its gravity on each of some bodies: the potential
+/// The gravity of a planet's flattening on some bodies: the potential
 ///
 /// U = G M m J₂ R² (3 (d·a)²/r² − 1) / (2 r³), with d from the planet to the body, r its length, and a the planet's axis.
 ///

@@ -34,7 +34,7 @@ pub struct LennardJones {
     pub smooth: bool,
 }
 
-/// What an evaluation needs room for. It is kept, so that nothing is allocated in a run.
+/// Working memory of an evaluation. It is kept, so that a run allocates nothing.
 #[derive(Debug, Default)]
 struct Room {
     sorted: Sorted,
@@ -137,7 +137,7 @@ impl Sorted {
         self.has_groups = force.against.is_some();
     }
 
-    /// Whether two do not act on each other: they are of one group where there are two, or none of them can move.
+    /// Whether two bodies do not interact: they belong to one of two groups, or neither can move.
     fn is_no_pair(&self, one: usize, other: usize) -> bool {
         self.has_groups && self.is_second[one] == self.is_second[other]
             || !self.movable[one] && !self.movable[other]

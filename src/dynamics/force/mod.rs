@@ -1,4 +1,4 @@
-//! What makes bodies move: the interface of a force, and one file for each kind. All that is public here, `dynamics` shows.
+//! Forces: their interface, and one file for each kind. `dynamics` re-exports all public items.
 
 mod buoyancy;
 mod cells;
@@ -38,9 +38,9 @@ use super::{Loads, Model, State};
 pub struct Moment<'a> {
     /// Time, s.
     pub time: f64,
-    /// Where the bodies are, and how they move.
+    /// The positions and velocities of the bodies.
     pub state: &'a State,
-    /// What the bodies weigh.
+    /// The masses and other constants of the bodies.
     pub model: &'a Model,
 }
 
@@ -91,7 +91,7 @@ pub trait Force: Send + Sync {
         0
     }
 
-    /// Where it had no finite value when it was evaluated last; none for one that has a value wherever bodies are.
+    /// The place at which the last evaluation had no finite value. `None` for a force that is finite everywhere.
     fn undefined(&self) -> Option<Undefined> {
         None
     }

@@ -45,9 +45,9 @@ impl End {
 /// arm r from the centre, it has the torque r × F, and the anchor moves with v + ω × r. The spring has the potential
 /// ½ k (ℓ − ℓ₀)²; the damper has none, and its power −c ℓ'² is counted.
 ///
-/// Where ℓ = 0 there is no u. A spring of rest length 0 needs none, as its force −k d is linear; any other pushes
-/// nowhere then. The damper takes the direction of the relative velocity, which is where u is about to point: so an
-/// oscillation right through the anchor is damped as m x'' + c x' + k x = 0.
+/// At ℓ = 0, u is undefined. A spring of rest length 0 needs no u, as its force −k d is linear; any other spring exerts no force
+/// then. The damper takes the direction of the relative velocity, which is the next direction of u. So an oscillation right
+/// through the anchor is damped as m x'' + c x' + k x = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// The two ends.
@@ -61,7 +61,7 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// Whether both ends are there. A spring whose end is not pulls at nothing, and holds no energy.
+    /// Whether both ends are present. A spring with an absent end exerts no force and holds no energy.
     fn is_whole(&self, moment: &Moment) -> bool {
         self.between.iter().filter_map(|end| end.body()).all(|id| moment.model.is_present(id.index()))
     }

@@ -15,7 +15,7 @@ pub struct Step<'a> {
     pub model: &'a Model,
     /// The time at which it begins, s.
     pub start: f64,
-    /// How long it is, s.
+    /// The duration of the step, s.
     pub duration: f64,
     /// The bodies at its beginning.
     pub before: &'a State,
@@ -116,7 +116,7 @@ impl<'a> Hermite<'a> {
     }
 }
 
-/// How a body turns within a step, if it does.
+/// The rotation of a body within a step, if it rotates.
 fn turn(step: &Step<'_>, i: usize, torque: DVec3, end_torque: DVec3) -> Option<Turn> {
     let (before, after) = (step.before, step.after);
     if before.angular_momentum[i] == DVec3::ZERO && before.orientation[i] == after.orientation[i] {

@@ -27,8 +27,8 @@ pub trait Integrator: Send {
     /// must [arrive](System::arrive) there; at the end of the step, the caller does, and settles what constraints hold.
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State);
 
-    /// What happened within the step that was made last, for whoever looks between two steps. The default takes
-    /// quintic Hermite polynomials, which suit smooth methods from order 2 up.
+    /// The motion within the last step, for times between two steps. The default takes quintic Hermite polynomials, which suit
+    /// smooth methods from order 2 up.
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
         Box::new(dense::Hermite::new(system, step))
     }
@@ -47,7 +47,7 @@ impl Clone for Box<dyn Integrator> {
     }
 }
 
-/// What takes over a world, and advances it.
+/// Takes over a world, and advances it from then on.
 pub type TakeOver = fn(World, Accuracy) -> Box<dyn Dynamics>;
 
 /// An entry of the table of methods.

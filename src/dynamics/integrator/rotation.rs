@@ -1,4 +1,4 @@
-//! How the orientation of a body advances.
+//! Integration of a body's orientation.
 
 use glam::{DQuat, DVec3};
 

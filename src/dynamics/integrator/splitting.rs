@@ -1,4 +1,4 @@
-//! What symplectic methods are made of: the motion split into two parts, each of which can be solved by itself.
+//! Building blocks of symplectic methods: the motion is split into two parts, each of which can be solved exactly.
 
 use glam::DVec3;
 
@@ -24,7 +24,7 @@ pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     }
 }
 
-/// What loads that become `later` change in a kick for `dt` that was made with `first`.
+/// Corrects a kick for `dt` that was made with the loads `first`, if these become `later`.
 pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, state: &mut State) {
     let mut change = |i: usize| {
         state.velocity[i] += dt * model.inverse_mass()[i] * (later.force[i] - first.force[i]);

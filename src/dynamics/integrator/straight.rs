@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
-/// Where each body moves by itself, so many are advanced together: their numbers stay in the nearest cache.
+/// The number of independent bodies that are advanced together, so that their data stay in the nearest cache.
 const BLOCK: usize = 128;
 
 /// A stage of a method in which a stage follows from the one before alone.
@@ -15,9 +15,9 @@ const BLOCK: usize = 128;
 pub(super) struct Stage {
     /// Its time, s.
     pub(super) time: f64,
-    /// How much its slope counts in the step.
+    /// The weight of its slope in the step.
     pub(super) weight: f64,
-    /// How far its slope leads from the beginning of the step to the next stage, s.
+    /// The time for which its slope leads from the beginning of the step to the next stage, s.
     pub(super) next: f64,
 }
 

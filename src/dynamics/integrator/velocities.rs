@@ -1,4 +1,4 @@
-//! How all bodies move, for methods that try several velocities in a step.
+//! Velocities of all bodies, for methods that try several of them in a step.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use super::super::State;
 /// Velocities are the same where they differ by less than this part.
 const SAME: f64 = 4e-16;
 
-/// How all bodies move.
+/// The velocities of all bodies.
 #[derive(Clone, Default)]
 pub(super) struct Velocities {
     velocity: Vec<DVec3>,

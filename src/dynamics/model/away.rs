@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::super::{BodyId, State};
 use super::Model;
 
-/// What a body is that is not there. Meanwhile it has no mass, no charge and no inertia, and rests: so
-/// most forces pass it by and need not know.
+/// The constants of an absent body. Meanwhile, the body has no mass, no charge and no inertia, and is at rest, so most forces
+/// skip it without a special case.
 #[derive(Clone, Copy)]
 pub(super) struct Away {
     mass: f64,

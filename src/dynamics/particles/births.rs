@@ -5,9 +5,9 @@
 pub struct Births {
     /// The time of the first, s.
     pub start: f64,
-    /// None is born after this time, s.
+    /// The last birth is at this time at the latest, s.
     pub end: f64,
-    /// How many are born at once; at least 1.
+    /// The number of particles born at once; at least 1.
     pub at_once: u64,
     /// The time from one birth to the next, s; infinite where there is one birth only.
     pub every: f64,

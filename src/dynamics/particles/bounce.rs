@@ -1,9 +1,9 @@
-//! What obstacles do to a particle: impacts, friction and rest.
+//! Collisions of a particle with obstacles: impacts, friction and rest.
 //!
-//! A particle is a small ball that does not turn. Where its way through a step leads into an obstacle, the first time of touch is
-//! found by conservative advancement (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2).
-//! There it gets an impulse by Newton's law of impact and Coulomb's law of friction, and makes the rest of the step anew. A particle that would
-//! rebound by less than a fraction of a step stays in touch: it slides or sticks.
+//! A particle is a small ball without rotation. If its path through a step leads into an obstacle, conservative advancement finds
+//! the first time of contact (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2). There
+//! it gets an impulse by Newton's law of impact and Coulomb's law of friction, and starts the rest of the step from there. A
+//! particle that would rebound for less than a fraction of a step stays in contact: it slides or sticks.
 
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ use crate::dynamics::contact::{Ball, Meeting, Surface};
 /// Particles touch where the gap is below this part of their radius, or of the coordinates.
 const TOUCH: f64 = 1e-11;
 const DIGITS: f64 = 2e-15;
-/// What is nearer than this part of the radius touches as well, where nothing moves apart.
+/// Gaps below this part of the radius count as contact, unless the bodies separate.
 const SNUG: f64 = 1e-6;
 /// Approaches below this part of the speed have come from rounding.
 const SLIGHT: f64 = 1e-10;
@@ -47,7 +47,7 @@ pub(super) struct Contact {
     pub(super) target: Target,
     pub(super) near: Near,
     pub(super) law: Meeting,
-    /// How fast the gap grows, m/s.
+    /// The rate at which the gap grows, m/s.
     rate: f64,
     /// An approach that is not faster is none, m/s.
     slight: f64,
@@ -126,7 +126,7 @@ impl Bouncer {
     fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
         let Bouncer { ball, surface, targets, seen, .. } = self;
         seen.clear();
-        // Where it is held, it moves otherwise than it would fly, by no more than this.
+        // A held particle deviates from its free path by no more than this.
         let radius = ball.radius();
         let margin = leap.span() * (leap.span() * leap.acceleration().length() + scenery.fastest());
         scenery.near(leap.bounds(), (1.0 + SNUG) * radius + margin, leap.times, targets);
@@ -134,7 +134,7 @@ impl Bouncer {
         let acceleration = leap.acceleration();
         for target in &*targets {
             let near = scenery.seen(ball, target, place, leap.times[0]);
-            // What begins within an obstacle passes out of it.
+            // A particle that begins within an obstacle passes out of it.
             if near.gap < -radius || !near.gap.is_finite() {
                 continue;
             }

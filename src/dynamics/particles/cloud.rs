@@ -18,7 +18,7 @@ const LANES: usize = 128;
 pub struct Particle {
     /// Its number: how many were born before it.
     pub number: u64,
-    /// Where it is, m.
+    /// The place of the particle, m.
     pub location: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
@@ -50,7 +50,7 @@ pub struct Cloud {
     alive: Vec<Particle>,
     wide: Stepper,
     single: Stepper,
-    /// What moves them among obstacles, if these stop them.
+    /// Moves the particles among obstacles, if obstacles stop them.
     bouncer: Option<Bouncer>,
 }
 
@@ -150,7 +150,7 @@ impl Cloud {
             let spot = match &carrier {
                 None => None,
                 Some(Some(course)) => Some(course.spot(born)),
-                // What is not there sends out nothing.
+                // An absent body sends out nothing.
                 Some(None) => continue,
             };
             if dies <= grid.end {

@@ -1,4 +1,4 @@
-//! Where a body is between two moments that are known.
+//! The path of a body between two known moments.
 
 use glam::{DQuat, DVec3};
 

@@ -59,7 +59,7 @@ impl Frame {
     }
 }
 
-/// Where a particle that stays in touch ends a step, and its velocity there.
+/// The place and velocity at the end of a step, for a particle that stays in contact.
 pub(super) fn hold(ball: &Ball, leap: &Leap, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let frame = Frame::new(leap, &held[0], scenery);
     if let [contact] = held {
@@ -75,7 +75,7 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     let begin = frame.velocity.reject_from_normalized(normal);
     let push = -span * normal.dot(frame.acceleration);
     if push <= 0.0 {
-        // What turns below it throws it off.
+        // A rotating surface throws it off.
         let velocity = frame.velocity + span * frame.acceleration;
         return frame.end(frame.place + 0.5 * span * (frame.velocity + velocity), velocity);
     }

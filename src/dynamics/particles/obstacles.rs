@@ -1,4 +1,4 @@
-//! What stops particles: bodies, on their way from one frame to the next.
+//! Obstacles of particles: bodies, on their way from one frame to the next.
 
 use std::sync::Arc;
 
@@ -77,7 +77,7 @@ pub(super) struct Standing {
     pub(super) spot: Spot,
 }
 
-/// Where a particle and a part are nearest.
+/// The nearest points of a particle and a part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     /// Their distance, m; negative where they overlap.
@@ -197,7 +197,7 @@ impl Scenery {
         }
     }
 
-    /// Where an obstacle is at time `t`, s.
+    /// The pose of an obstacle at time `t`, s.
     pub(super) fn standing(&self, target: &Target, t: f64) -> Standing {
         let Placed { course, still, .. } = &self.placed[target.placed];
         match *still {
@@ -224,7 +224,7 @@ impl Scenery {
         at.acceleration + turning.cross(arm) + at.angular_velocity.cross(at.angular_velocity.cross(arm))
     }
 
-    /// Where a ball at a place and a part are nearest at time `t`, s.
+    /// The nearest points of a part and a ball at a place, at time `t`, s.
     pub(super) fn seen(&self, ball: &Ball, target: &Target, place: DVec3, t: f64) -> Near {
         let standing = self.standing(target, t);
         let solid = self.solid(target);

@@ -1,4 +1,4 @@
-//! Where particles begin.
+//! Origins of particles.
 
 use glam::{DQuat, DVec3};
 
@@ -6,8 +6,8 @@ use super::{Triangles, surface};
 use crate::dynamics::Shape;
 use crate::random::Stream;
 
-/// Where particles begin, in the axes of the body that sends them out, from its centre of mass, or of the world where none
-/// does. Within a disc, a box or a surface, each place is as likely.
+/// The origin of particles, in the axes of the body that sends them out, from its centre of mass, or else in those of the world.
+/// Within a disc, a box or a surface, the distribution is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
     /// A point, m.
@@ -48,7 +48,7 @@ pub struct Spot {
 }
 
 impl Spot {
-    /// Where a point of the body is, and its velocity.
+    /// The place of a point of the body, and its velocity.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         let arm = self.orientation * at;

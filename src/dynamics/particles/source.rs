@@ -1,4 +1,4 @@
-//! What particles begin with.
+//! Initial values of particles.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -21,23 +21,23 @@ impl Draw for f64 {
     }
 }
 
-/// What sends out particles.
+/// A source of particles.
 #[derive(Clone, Debug)]
 pub struct ParticleSource {
     /// When they are born.
     pub births: Births,
-    /// How long each lives, s.
+    /// The lifetime of a particle, s.
     pub lifetime: Arc<dyn Draw>,
     /// No particle lives longer, s; it may be infinite.
     pub longest_life: f64,
-    /// Where they begin.
+    /// The origin of the particles.
     pub origin: Origin,
     /// The middle of the directions in which they leave, a unit vector in the axes of the body that sends them out, or of the
     /// world where none does; none: along the normal of the surface that they come from.
     pub direction: Option<DVec3>,
     /// The half angle of the cone of directions, rad; within it, each direction is as likely.
     pub spread: f64,
-    /// How fast they leave what sends them out, m/s.
+    /// The speed relative to the source, m/s.
     pub speed: Arc<dyn Draw>,
     /// The mass of each, kg.
     pub mass: f64,
@@ -51,13 +51,13 @@ pub struct ParticleSource {
 const BRANCHES: u64 = 4;
 
 impl ParticleSource {
-    /// How long a particle lives that is born at time `t`, s.
+    /// The lifetime of a particle that is born at time `t`, s.
     #[must_use]
     pub fn life(&self, number: u64, t: f64) -> f64 {
         self.lifetime.draw(t, &mut self.branch(number, 0)).min(self.longest_life)
     }
 
-    /// Where a particle begins that is born at time `t` (s), and its velocity. The spot is that of the body that sends it out.
+    /// The initial place and velocity of a particle that is born at time `t` (s). `carrier` is the body that sends it out.
     #[must_use]
     pub fn begin(&self, number: u64, t: f64, carrier: Option<&Spot>) -> (DVec3, DVec3) {
         let mut random = self.branch(number, 1);

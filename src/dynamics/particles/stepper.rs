@@ -1,4 +1,4 @@
-//! How particles move: by the forces, the method and the steps of bodies.
+//! Steps of particles: with the forces, the method and the time steps of bodies.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::{Course, Particle};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
 
-/// What makes a force for these particles, and for the bodies that it comes from.
+/// Makes a force on these particles, from the bodies that it comes from.
 type Make = dyn Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync;
 
 /// A force on particles.
@@ -108,7 +108,7 @@ impl Stepper {
         Stepper { lanes, model, state, solver, integrator, sources, before: Vec::new() }
     }
 
-    /// How many particles it advances side by side.
+    /// The number of particles that it advances side by side.
     pub(super) fn lanes(&self) -> usize {
         self.lanes
     }

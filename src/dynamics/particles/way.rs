@@ -1,8 +1,8 @@
-//! How a particle moves within one step.
+//! The motion of a particle within one step.
 
 use glam::DVec3;
 
-/// What is below this part of the coordinates has come from rounding.
+/// Values below this part of the coordinates are rounding errors.
 const ROUNDING: f64 = 2e-15;
 
 /// A particle at the two ends of a step, or of a part of one.
@@ -73,13 +73,13 @@ impl Leap {
 }
 
 impl Way {
-    /// Where the particle is after a time, s.
+    /// The place of the particle after a time, s.
     pub(super) fn place(&self, t: f64) -> DVec3 {
         let [a, b, c, d] = self.place;
         a + t * (b + t * (c + t * d))
     }
 
-    /// How fast its place changes after a time, m/s.
+    /// The rate at which its place changes after a time, m/s.
     pub(super) fn rate(&self, t: f64) -> DVec3 {
         let [_, b, c, d] = self.place;
         b + t * (2.0 * c + t * (3.0 * d))

@@ -10,11 +10,11 @@ use super::principal::principal;
 /// One of the solids of a compound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// What it is: of finite size, or it weighs nothing.
+    /// Its shape, which is finite unless it weighs nothing.
     pub shape: Shape,
     /// Its centre of mass, m.
     pub location: DVec3,
-    /// How it is turned.
+    /// Its orientation.
     pub orientation: DQuat,
 }
 

@@ -1,4 +1,4 @@
-//! Whether two convex shapes have a point in common.
+//! Intersection test for two convex shapes.
 
 use glam::{DQuat, DVec3};
 
@@ -12,11 +12,11 @@ const MAX_STEPS: usize = 64;
 pub struct Placed<'a> {
     /// The shape.
     pub shape: &'a Shape,
-    /// Where its centre of mass is, m.
+    /// Its centre of mass, m.
     pub location: DVec3,
-    /// How it is turned.
+    /// Its orientation.
     pub orientation: DQuat,
-    /// How many times larger it counts than it is.
+    /// The factor by which it is enlarged.
     pub scale: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where a ray leaves a shape.
+//! The exit point of a ray from a shape.
 
 use glam::{DVec2, DVec3};
 
@@ -12,8 +12,8 @@ const NEAR: f64 = 1e-12;
 const SHAFT: f64 = 0.03;
 
 impl Shape {
-    /// How far along a ray its last point in the shape is, m. The ray begins at `origin` (m) and goes along the unit
-    /// vector `direction`, both in the frame of the body. `None` where it misses the shape, and for a plane.
+    /// The distance along a ray to its last point in the shape, m. The ray begins at `origin` (m) and goes along the unit vector
+    /// `direction`, both in the frame of the body. `None` if the ray misses the shape, and for a plane.
     #[must_use]
     pub fn exit(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         match *self {
@@ -51,8 +51,8 @@ impl Shape {
         Some(along)
     }
 
-    /// How far a point in the frame of the body is from the surface, m; negative inside. `None` for what needs no
-    /// distance to be found.
+    /// The signed distance of a point in the frame of the body from the surface, m; negative inside. `None` for shapes that need
+    /// no distance function.
     fn distance(&self, point: DVec3) -> Option<f64> {
         // All of these are round about y.
         let across = DVec2::new(point.x, point.z).length();

@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    /// What is below one plane is above the opposite one.
+    /// The part below a plane is the part above the opposite plane.
     #[test]
     fn both_sides_of_a_plane_make_the_whole() {
         for shape in shapes() {

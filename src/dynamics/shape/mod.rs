@@ -1,4 +1,4 @@
-//! What a body looks like, as far as mechanics cares: volume, inertia and extent.
+//! Shapes in mechanics: volume, inertia and extent.
 
 mod compound;
 mod convex;
@@ -84,7 +84,7 @@ pub enum Shape {
     },
     /// Several solids as one.
     Compound(Compound),
-    /// What a surface of triangles encloses; of one that is not closed, the surface, which has no mechanics.
+    /// The solid that a surface of triangles encloses. If the surface is not closed, it has no mechanics.
     Mesh {
         /// The surface, which several bodies may share.
         mesh: Arc<Mesh>,

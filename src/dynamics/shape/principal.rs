@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// What is left beside the diagonal and counts as rounding, relative to the trace.
+/// Off-diagonal entries below this part of the trace count as rounding errors.
 const ROUNDING: f64 = 1e-15;
 /// Far more sweeps than it takes: each squares what is left beside the diagonal.
 const MOST_SWEEPS: usize = 30;

@@ -1,4 +1,4 @@
-//! How time goes on: equal steps, births and deaths between them, and looks within them.
+//! Time integration with the engine: equal steps, births and deaths between them, and moments within them.
 
 use glam::DVec3;
 
@@ -138,14 +138,14 @@ impl TimeStepping {
                 spin::leading(from, to, dt)
             };
             books.mean[i].1 = turning;
-            // What is fast must not pass through what moves; the engine sees to what does not move.
+            // Fast bodies must not pass through moving ones; the engine sees to those at rest.
             let is_fast = dt * state.velocity[i].length() > half_thickness[i];
             let Some(body) = engine.bodies.get(*handle) else { continue };
             let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
             let is_turning =
                 (body.angvel() - turning).length_squared() > SAME * SAME * turning.length_squared();
             if is_same && !is_turning {
-                // What is changed by hand costs the engine time.
+                // Each change from outside costs the engine time.
                 books.mean[i].1 = body.angvel();
                 continue;
             }

@@ -91,12 +91,12 @@ fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
         .gyroscopic_forces_enabled(false)
 }
 
-/// Where a body is, in the frame of its principal axes.
+/// The pose of a body, in the frame of its principal axes.
 pub(super) fn pose(state: &State, i: usize) -> Pose {
     Pose::from_parts(state.location[i], state.orientation[i])
 }
 
-/// What others touch of a body.
+/// The colliders of a body.
 fn colliders(
     model: &Model,
     state: &State,

@@ -1,4 +1,4 @@
-//! What contacts and joints give and take: energies for the balance, and impacts.
+//! Accounts of contacts and joints: energies for the balance, and impacts.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -12,29 +12,29 @@ use super::super::contact::Impact;
 use super::super::{Accounts, Loads, Model, State};
 use super::joint::{Joints, MotorPush};
 
-/// What meets more slowly than by this many of its thicknesses in a second has no impact.
+/// Bodies that approach by less than this many of their thicknesses in a second have no impact.
 const SLOW: f64 = 0.03;
 
 /// The engine solves for no more points of a touch than these.
 const MOST_POINTS: usize = 4;
 
-/// How a body moves: its velocity, m/s, and its angular velocity, rad/s.
+/// The motion of a body: its velocity, m/s, and its angular velocity, rad/s.
 pub(super) type Motion = (DVec3, DVec3);
 
 /// The books of contacts.
 pub(super) struct Books {
-    /// How each body moves: before the step, and on average within it.
+    /// The motion of each body: before the step, and its mean within the step.
     pub(super) before: Vec<Motion>,
     pub(super) mean: Vec<Motion>,
-    /// Where each body was before the step, m.
+    /// The place of each body before the step, m.
     pub(super) places: Vec<DVec3>,
     /// The bodies that touched something, or came near it, in the step that was made last.
     touched: Vec<bool>,
     /// The bodies that joints hold.
     held: Vec<bool>,
-    /// What contacts and joints did to the angular momentum of each body that is held, in the step that was made last, N m s.
+    /// The change of angular momentum of each constrained body by contacts and joints in the last step, N m s.
     pub(super) turned: Vec<DVec3>,
-    /// What motors have done in the step that was made last.
+    /// The impulses of motors in the last step.
     pub(super) motors: Vec<MotorPush>,
     impacts: Vec<Impact>,
     /// Colliders that have come near each other, and have not pushed yet.
@@ -43,7 +43,7 @@ pub(super) struct Books {
     slow: f64,
 }
 
-/// What the engine says of pairs that come near each other or part.
+/// The engine's events: pairs that come near each other or part.
 #[derive(Default)]
 pub(super) struct Events(Mutex<Vec<CollisionEvent>>);
 
@@ -64,7 +64,7 @@ impl EventHandler for Events {
     fn handle_soft_body_tear_event(&self, _: &SoftBodySet, _: &SoftBodyTearEvent) {}
 }
 
-/// Where two bodies touch, on a common normal.
+/// The contact of two bodies, on a common normal.
 #[derive(Clone, Copy)]
 pub(super) struct Touch<'a> {
     /// The numbers of the bodies.
@@ -78,7 +78,7 @@ pub(super) struct Point {
     pub(super) arms: [DVec3; 2],
 }
 
-/// What a touch does to the second body within a step; the opposite is done to the first.
+/// The effect of a contact on the second body within a step; the first gets the opposite.
 #[derive(Default)]
 pub(super) struct Push {
     /// The impulse along the normal, N s.
@@ -122,7 +122,8 @@ impl<'a> Touch<'a> {
         })
     }
 
-    /// How deep the bodies are within each other, m; negative where they are apart. The closure gives where a body is, none where it is fixed.
+    /// The penetration of the bodies, m; negative if they are apart. The closure gives the pose of a body, or `None` if the body
+    /// is fixed.
     pub(super) fn depth(&self, pose: impl Fn(usize) -> Option<Pose>) -> f64 {
         let poses = self.bodies.map(pose);
         let place = |side: usize, anchor: DVec3| poses[side].map_or(anchor, |pose| pose * anchor);
@@ -133,7 +134,7 @@ impl<'a> Touch<'a> {
         contacts.map(depth).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// What it has done in the step that was made last; none where it has not pushed.
+    /// The impulse in the last step. `None` if there was none.
     pub(super) fn push(&self) -> Option<Push> {
         let manifold = self.manifold;
         let contacts = manifold.data.solver_contacts.iter().take(MOST_POINTS);
@@ -142,7 +143,7 @@ impl<'a> Touch<'a> {
             manifold.points.get(index as usize).map(|point| &point.data)
         });
         let first = points.next()?;
-        // What is said of the whole manifold stands with each of its points.
+        // Values of the whole manifold are stored with each of its points.
         let mut push = Push { friction: -first.warmstart_tangent_world, ..Push::default() };
         let mut count = 0.0;
         for point in std::iter::once(first).chain(points) {
@@ -207,7 +208,7 @@ impl Books {
     ) {
         self.touched.fill(false);
         let mut accounts = Accounts::default();
-        // What contacts give the bodies that joints hold, J.
+        // The energy that contacts give to bodies held by joints, J.
         let mut pressed = 0.0;
         for touch in engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair) {
             touch.bodies.into_iter().for_each(|body| self.touched[body] = true);
@@ -237,7 +238,7 @@ impl Books {
         }
         let motors: f64 = self.motors.iter().map(|push| push.work(|body| self.mean[body])).sum();
         accounts.motors += motors;
-        // What joints do is what is left: they give way, and run into limits; what guides one of their ends works through them.
+        // The remainder is that of joints: they yield and hit limits, and guides at their ends do work through them.
         let others = pulled - pressed - motors;
         if joints.has_guide {
             accounts.work += others;

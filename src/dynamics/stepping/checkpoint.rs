@@ -17,7 +17,7 @@ struct Moment {
     steps: u64,
     state: State,
     ledger: EnergyLedger,
-    /// How many births and deaths are over.
+    /// The number of past births and deaths.
     over: usize,
     /// The bodies that are not there, with the velocity (m/s) and the angular momentum (kg m²/s) with which they will come.
     away: Vec<(usize, DVec3, DVec3)>,

@@ -13,10 +13,10 @@ use super::books::Motion;
 /// step alone says how soft they are.
 const RIGID: f64 = 1e30;
 
-/// What holds two bodies together, among the kinds that the engine has.
+/// A joint of two bodies, of a kind that the engine has.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// What it is.
+    /// Its kind.
     pub kind: LinkKind,
     /// Whether the two bodies can collide with each other.
     pub collides: bool,
@@ -50,7 +50,7 @@ pub(super) struct Joints {
     pub(super) has_guide: bool,
 }
 
-/// What a motor has done within a step: its impulse on the first body, N s or N m s, and the row that it acts by.
+/// The impulse of a motor on the first body within a step, N s or N m s, and the row that it acts by.
 pub(super) struct MotorPush {
     bodies: [Option<usize>; 2],
     impulse: f64,
@@ -113,7 +113,7 @@ impl Joints {
         bodies: &[RigidBodyHandle],
         model: &Model,
     ) -> Joints {
-        // What points of the world belong to.
+        // Points of the world belong to this body.
         let ground = (!links.is_empty()).then(|| engine.insert_body(RigidBodyBuilder::fixed()));
         let end = |anchor: Anchor| match (anchor, ground) {
             (Anchor::Body { id, at }, _) => {

@@ -39,15 +39,15 @@ pub struct Grid {
 /// A line of a grid: a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Where it begins, m.
+    /// Its start, m.
     pub from: DVec3,
-    /// Where it ends, m.
+    /// Its end, m.
     pub to: DVec3,
     /// Half its width, m.
     pub radius: f64,
 }
 
-/// What is known of a grid before its picture: where its plane is, and how far it extends.
+/// The data of a grid before its picture: its plane and its extent.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     plane: GridPlane,

@@ -47,7 +47,7 @@ pub(super) struct Number {
     pub(super) ends: [DVec3; 2],
 }
 
-/// Where numbers stand beside the ends of their lines.
+/// The place of the numbers at the ends of their lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Beside {
     /// Below, and the name of the axis behind the last.
@@ -58,7 +58,7 @@ pub(super) enum Beside {
     LeftOnGround,
 }
 
-/// What is written at a grid.
+/// The texts at a grid.
 pub(in super::super) struct Written {
     pub(in super::super) titles: Vec<Text<'static>>,
     pub(in super::super) numbers: Vec<Text<'static>>,
@@ -205,7 +205,7 @@ impl Ruled {
         0.3 * self.height - self.aspect
     }
 
-    /// Where the leftmost number may begin.
+    /// The left limit for numbers.
     fn leftmost(&self) -> f64 {
         0.2 * self.height - 1.0
     }

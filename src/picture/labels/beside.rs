@@ -9,7 +9,7 @@ use crate::dynamics::BodySnapshot;
 use crate::scene::Side;
 
 impl Labels {
-    /// Where a body or a ghost is seen, and the part of the picture that it takes: nothing, if it is a plane.
+    /// The place of a body or a ghost in the picture, and the part that it covers. A plane covers nothing.
     pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
         let shape = self.bodies[at.id].drawn();
         let spot = screen.spot(at.location)?;

@@ -19,7 +19,7 @@ impl Labels {
     }
 }
 
-/// What is taken at the upper edge, or at the lower one.
+/// The space taken at the upper edge, and at the lower one.
 pub(super) struct Taken {
     is_top: bool,
     /// From where to where across the picture.
@@ -28,7 +28,7 @@ pub(super) struct Taken {
     inset: [f64; 2],
 }
 
-/// What a scale bar takes, whose length is a quarter of the picture at most.
+/// The space that a scale bar takes. Its length is a quarter of the picture at most.
 pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
     let (x, align) = across(corner);
     let left = x - 0.5 * align;

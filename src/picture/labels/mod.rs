@@ -69,7 +69,7 @@ impl Labels {
         Labels { labels, bodies, joints, aspect }
     }
 
-    /// How many there are.
+    /// The number of labels.
     pub(super) fn count(&self) -> usize {
         self.labels.len()
     }

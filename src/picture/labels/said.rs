@@ -12,7 +12,7 @@ pub(super) struct Moment<'a> {
     frame: usize,
     balance: Option<&'a Balance>,
     bodies: &'a [BodySnapshot],
-    /// What the joints do; of ghosts, that is not kept.
+    /// The reactions of the joints, which ghosts do not keep.
     reactions: &'a [Reaction],
     /// The impacts so far; of ghosts, they are not kept.
     impacts: Option<&'a ImpactCounts>,
@@ -45,7 +45,7 @@ impl<'a> Moment<'a> {
 }
 
 impl Labels {
-    /// What a label says at a moment.
+    /// The text of a label at a moment.
     pub(super) fn said(&self, label: &Label, moment: &Moment<'_>) -> String {
         let mut said = String::new();
         for piece in &label.text {

@@ -20,7 +20,7 @@ const WIRE: f64 = 0.14;
 pub struct Link<'a> {
     /// The name of the force or the joint in the scene.
     pub name: &'a str,
-    /// What is drawn, and where.
+    /// The form and its place.
     pub form: LinkForm,
     /// Its color.
     pub color: Color,
@@ -31,13 +31,13 @@ pub struct Link<'a> {
 pub struct PlannedLink<'a> {
     /// The name of the force or the joint in the scene.
     pub name: &'a str,
-    /// What it is.
+    /// Its kind.
     pub kind: LinkKind,
     /// Its color.
     pub color: Color,
 }
 
-/// What a part of a spring or of a joint is.
+/// The kind of a part of a spring or a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkKind {
     /// A ball.
@@ -55,7 +55,7 @@ pub enum LinkKind {
     Rope,
 }
 
-/// What a part of a spring or of a joint looks like. Lengths are in metres.
+/// The form of a part of a spring or a joint. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkForm {
     /// A ball: a pin, or the end of a spring or a rod at a point of the world.
@@ -67,7 +67,7 @@ pub enum LinkForm {
     },
     /// The coil of a spring.
     Coil {
-        /// Where it begins and ends.
+        /// Its two ends.
         ends: [DVec3; 2],
         /// Its radius.
         radius: f64,
@@ -78,7 +78,7 @@ pub enum LinkForm {
     },
     /// A straight bar: a rod, a straight spring, the axle of a hinge, a rail.
     Rod {
-        /// Where it begins and ends.
+        /// Its two ends.
         ends: [DVec3; 2],
         /// Its radius.
         radius: f64,
@@ -103,7 +103,7 @@ impl Link<'_> {
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
 
-    /// How far it reaches from these lines, m.
+    /// The distance from these lines that it reaches, m.
     pub(super) fn reach(&self) -> f64 {
         match self.form {
             LinkForm::Coil { radius, wire, .. } => radius + wire,
@@ -121,17 +121,17 @@ pub(super) struct Links {
     parts: Vec<Part>,
     /// The drawn shapes of bodies, by their numbers.
     shapes: Vec<Shape>,
-    /// How many times larger bodies are drawn than they are, by their numbers.
+    /// The factors by which bodies are drawn larger, by their numbers.
     scales: Vec<f64>,
     /// The direction of gravity, a unit vector.
     down: Option<DVec3>,
     /// Pairs of a body's number and the number of a part fastened to it, in order.
     of_bodies: Vec<(usize, usize)>,
-    /// How thick the springs are, in the order of the forces and their links.
+    /// The thickness of the springs, in the order of the forces and their links.
     springs: Vec<SpringSize>,
 }
 
-/// How thick a spring is.
+/// The thickness of a spring.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpringSize {
     /// Its radius, m.
@@ -151,7 +151,7 @@ struct Part {
     color: Color,
 }
 
-/// What a part looks like in any frame. Lengths are in metres.
+/// The form of a part in any frame. Lengths are in metres.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     /// A ball at a place.
@@ -186,7 +186,7 @@ impl Links {
         Links { parts, shapes, scales, down, of_bodies, springs: plan::springs(scene) }
     }
 
-    /// How thick the springs are, in the order of the forces and their links.
+    /// The thickness of the springs, in the order of the forces and their links.
     pub(super) fn springs(&self) -> &[SpringSize] {
         &self.springs
     }
@@ -267,7 +267,7 @@ impl Links {
         Course::new([from, first, second, to], wheel)
     }
 
-    /// Where an end is drawn, m. If the body is drawn larger than it is, its points are farther from its centre.
+    /// The place at which an end is drawn, m. If the body is drawn larger than it is, its points are farther from its centre.
     fn place(&self, end: Anchor, frame: &Frame) -> DVec3 {
         let drawn = match end {
             Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },

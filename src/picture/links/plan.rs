@@ -27,7 +27,7 @@ pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
     parts
 }
 
-/// How thick the springs are that are drawn, in the order of the forces and their links.
+/// The thickness of the springs that are drawn, in the order of the forces and their links.
 pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
     let forces = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(look) } => Some((links, look)),
@@ -153,7 +153,7 @@ fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = Form> {
 /// Half the thickness of the thinner of the bodies at two ends, m.
 fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
     let thickness = |end: Anchor| scene.bodies[end.body()?.index()].drawn().half_thickness();
-    // What moves has a thickness, but for triangles without one.
+    // Everything that moves has a thickness, except triangles without one.
     between.into_iter().filter_map(thickness).reduce(f64::min).unwrap_or(0.05)
 }
 
@@ -242,7 +242,7 @@ fn rail(
     arm.into_iter().chain([Form::Bar { at: base, along, reach, radius }])
 }
 
-/// Where an end is at the start, m.
+/// The place of an end at the start, m.
 fn start(scene: &Scene, end: Anchor) -> DVec3 {
     end.place(|id| {
         let start = &scene.bodies[id.index()].start;

@@ -7,7 +7,7 @@ use crate::picture::Plan;
 use crate::scene::Scene;
 use crate::simulate::{Frames, survey};
 
-/// What is drawn of springs and joints in a frame of a scene.
+/// The forms of springs and joints in a frame of a scene.
 fn forms(text: &str, frame: usize) -> Vec<LinkForm> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
     let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());

@@ -1,4 +1,4 @@
-//! How large the largest body is in the picture: a warning says if it is too small to be seen.
+//! The size of the largest body in the picture. A warning reports a body too small to be seen.
 
 use super::super::camera::{Eye, half_width};
 use super::super::framing;
@@ -15,9 +15,9 @@ const SMALLEST_SEEN: f64 = 4.0;
 pub struct Largest {
     /// Its name.
     pub name: String,
-    /// How many pixels it is wide in the picture, where it is largest there.
+    /// Its greatest width in the picture, pixels.
     pub pixels: f64,
-    /// How many pixels it would be wide if the camera framed the whole run.
+    /// Its width if the camera framed the whole run, pixels.
     pub pixels_in_whole: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What all frames of a run have in common, and with it what the picture of each shows.
+//! The part common to all frames of a run, which then gives the picture of each frame.
 
 mod in_front;
 mod largest;
@@ -30,7 +30,7 @@ use super::{colors, framing};
 use crate::scene::{Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
-/// What all frames of a run, seen by one camera, have in common; made once.
+/// The part common to all frames of a run that one camera sees. It is made once.
 #[derive(Clone, Debug)]
 pub struct Plan {
     stage: Stage,
@@ -38,7 +38,7 @@ pub struct Plan {
     lights: Lights,
     lights_move: bool,
     arrows: Arrows,
-    /// What may hide arrows.
+    /// The planes that may hide arrows.
     planes: Planes,
     links: Links,
     ghosts: Ghosts,
@@ -53,12 +53,12 @@ pub struct Plan {
     /// The sizes of what is drawn beside the bodies, as the camera sees them at the start.
     sizes: Sizes,
     largest: Option<Largest>,
-    /// How much of the run the camera frames.
+    /// The part of the run that the camera frames.
     part: Part,
     not_drawn: Vec<NotDrawn>,
 }
 
-/// How large things are in a picture.
+/// The sizes of things in a picture.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     /// The width of what the camera sees, m.
@@ -159,7 +159,7 @@ impl Plan {
         Sizes { view, stroke, arrows: self.arrows.sizes(view, stroke) }
     }
 
-    /// What surrounds the bodies.
+    /// The surroundings of the bodies.
     pub fn stage(&self) -> &Stage {
         &self.stage
     }
@@ -169,7 +169,7 @@ impl Plan {
         self.eye.at(frame)
     }
 
-    /// What sees or shines from no finite place at a moment, in words: formulas are checked at the times of frames only.
+    /// A camera or light without a finite place at a moment, in words. Formulas are checked at the times of frames only.
     pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
         let is_lost = |camera: &Placed| !camera.location().is_finite() || !camera.look_at().is_finite();
         if self.camera_moves() && is_lost(&self.camera(frame)) {
@@ -293,12 +293,12 @@ impl Plan {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
     }
 
-    /// How much of the run the camera frames.
+    /// The part of the run that the camera frames.
     pub fn part(&self) -> Part {
         self.part
     }
 
-    /// What the scene asks for and no picture shows.
+    /// Things that the scene asks for and no picture shows.
     pub fn not_drawn(&self) -> &[NotDrawn] {
         &self.not_drawn
     }

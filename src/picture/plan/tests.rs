@@ -1,4 +1,4 @@
-//! What a plan shows of a frame.
+//! The contents of a frame by its plan.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What is written in a frame, each text where there is room.
+//! The texts of a frame, each placed where there is room.
 
 use glam::{DMat3, DVec3};
 
@@ -10,7 +10,7 @@ use crate::picture::screen::Screen;
 use crate::picture::text::Text;
 use crate::simulate::Frame;
 
-/// What is written in a frame.
+/// The texts of a frame.
 #[derive(Clone, Debug)]
 pub struct Written<'a> {
     /// The plane on which it stands.
@@ -30,11 +30,11 @@ impl Plan {
         grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
     }
 
-    /// What is written in a frame, by kind; none if nothing is.
+    /// The texts of a frame, by kind. `None` if there are none.
     ///
-    /// Labels in corners and the scale bar stand where they stand; then the names of the grid's axes, the labels beside
-    /// bodies, and the numbers of the grid, each where there is room. None of these lies on a spring or a joint,
-    /// unless there is no other place for the name of an axis.
+    /// Labels in corners and the scale bar have fixed places. Then follow the names of the grid's axes, the labels beside bodies,
+    /// and the numbers of the grid, each where there is room. None of these covers a spring or a joint, unless there is no other
+    /// place for the name of an axis.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();

@@ -150,7 +150,7 @@ fn odd_clusters_are_summed_up_as_well() {
     let (model, state) = world(bodies);
     let [tree, exact] = [Some(0.3), None].map(|angle| loads(&among(0..800, angle), &model, &state));
     for (i, (force, exact)) in tree.force.iter().zip(&exact.force).enumerate() {
-        // Where pulls cancel, their rounding is left.
+        // Where forces cancel, their rounding errors remain.
         let scale = exact.length().max(1e-9 * model.mass()[i] * 1e12);
         assert!((*force - *exact).length() <= 1e-3 * scale, "{i}: {force} {exact}");
         assert!(model.mass()[i] > 0.0 || *force == DVec3::ZERO, "{i}");

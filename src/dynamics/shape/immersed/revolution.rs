@@ -61,7 +61,7 @@ impl Profile {
         let mut ends = [self.span[0]; 6];
         let inner = self.crossings(up.y, across, height);
         for (end, y) in ends[1..5].iter_mut().zip(inner) {
-            // What is no number is no crossing.
+            // A NaN is no crossing.
             *end = if y > self.span[0] && y < self.span[1] { y } else { self.span[0] };
         }
         ends[5] = self.span[1];
@@ -86,7 +86,7 @@ impl Profile {
         Immersed { volume, moment: axial * DVec3::Y + radial * outwards }
     }
 
-    /// What a place on the axis is by which the outline is smooth: the place, or an angle.
+    /// The parameter of a place on the axis in which the outline is smooth: the place itself, or an angle.
     fn parameter(&self, y: f64) -> f64 {
         match self.outline {
             Outline::Cone { .. } => y,
@@ -106,7 +106,7 @@ impl Profile {
         (centre + radius * sin, radius * cos)
     }
 
-    /// Where the plane touches the outline, or all but does: at most four places, and what is none.
+    /// The places where the plane touches the outline, or nearly does: at most four. Unused entries are NaN.
     fn crossings(&self, along: f64, across: f64, height: f64) -> [f64; 4] {
         // (height − along y)² = across² ρ(y)²
         match self.outline {

@@ -1,4 +1,4 @@
-//! Whether a surface encloses something.
+//! Check that a surface encloses a solid.
 
 use glam::DVec3;
 

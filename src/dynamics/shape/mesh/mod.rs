@@ -52,7 +52,7 @@ impl Mesh {
         vertices.iter_mut().for_each(|vertex| *vertex -= middle);
         let solid = closed.and_then(|()| {
             let mut whole = integrals::over_solid(&vertices, &triangles);
-            // What is thinner than rounding is flat.
+            // A mesh thinner than rounding errors is flat.
             let size = reach::extent(&vertices).max_element();
             if whole.volume.abs() <= 1e-12 * size * size * size {
                 return Err(Flaw::Flat);
@@ -90,7 +90,7 @@ impl Mesh {
         Mesh { name: name.to_owned(), vertices, triangles, smooth: None, blocks, solid: Err(Flaw::Flat) }
     }
 
-    /// What it is called.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

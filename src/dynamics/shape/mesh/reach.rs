@@ -1,4 +1,4 @@
-//! How far vertices reach.
+//! The extent of vertices along a direction.
 
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ impl Blocks {
     pub(super) fn support(&self, vertices: &[DVec3], direction: DVec3) -> f64 {
         let mut farthest = f64::NEG_INFINITY;
         for (block, vertices) in self.0.iter().zip(vertices.chunks(VERTICES_OF_A_BLOCK)) {
-            // What rounding makes of the bound must not hide a vertex.
+            // Rounding errors of the bound must not hide a vertex.
             let rounding = 1e-12 * (block.middle.abs() + block.half).element_sum();
             let most = block.middle.dot(direction) + block.half.dot(direction.abs()) + rounding;
             if most >= farthest {

@@ -9,7 +9,7 @@ use super::*;
 use crate::dynamics::shape::Shape;
 use crate::dynamics::{METHODS, RigidBody, World};
 
-/// What rounding may do to sums over some thousand triangles.
+/// The rounding error of sums over some thousand triangles.
 const ROUNDING: f64 = 1e-12;
 
 /// The surface of a box about a centre, its faces outward.
@@ -179,7 +179,7 @@ fn what_encloses_nothing_says_why() {
     let open = Mesh::new("", vertices(), triangles.clone());
     assert!(matches!(open.flaw(), Some(Flaw::Open { edges: 4, .. })), "{:?}", open.flaw());
     assert_eq!((open.volume(), open.inertia()), (None, DVec3::ZERO));
-    // What is left of the surface lacks its face at +z: its centre is 0.1 below.
+    // The remaining surface lacks its face at +z: its centre is 0.1 below.
     assert!((open.support(DVec3::Z) - 0.6).abs() < ROUNDING, "{}", open.support(DVec3::Z));
 
     let flat = Mesh::new("", vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2], [2, 1, 0]]);
