@@ -112,7 +112,7 @@ pub use presence::Presence;
 pub use shape::{Compound, Flaw, Immersed, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
-pub use state::{Accounts, State};
+pub use state::{Accounts, State, WorkAccount};
 pub use stepping::{Link, LinkKind, TimeStepping};
 pub use system::System;
 pub use track::{Interpolation, Key, Track};

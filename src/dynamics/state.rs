@@ -40,6 +40,25 @@ pub struct Accounts {
     pub friction: f64,
 }
 
+/// The account for the work of a force without a potential.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WorkAccount {
+    /// [`Accounts::work`].
+    Work,
+    /// [`Accounts::motors`].
+    Motors,
+}
+
+impl WorkAccount {
+    /// The entry of this account, J or W.
+    pub fn of(self, accounts: &mut Accounts) -> &mut f64 {
+        match self {
+            WorkAccount::Work => &mut accounts.work,
+            WorkAccount::Motors => &mut accounts.motors,
+        }
+    }
+}
+
 impl Accounts {
     /// The names of the accounts, in the order of [`to_array`](Self::to_array).
     pub const NAMES: [&'static str; 5] = ["work", "motors", "limits", "impacts", "friction"];

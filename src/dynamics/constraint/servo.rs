@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::{Force, Loads, Moment};
+use super::super::{Force, Loads, Moment, WorkAccount};
 use super::member::{End, Member};
 use super::{Coordinate, Members, Target, parts};
 
@@ -55,5 +55,10 @@ impl Force for Servo {
 
     fn potential(&self, _: &Moment<'_>) -> f64 {
         0.0
+    }
+
+    fn apply_without_potential(&self, moment: &Moment<'_>, loads: &mut Loads) -> Option<WorkAccount> {
+        self.apply(moment, loads);
+        Some(WorkAccount::Motors)
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::BodyId;
+use super::super::{BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
 /// Drag on each of some bodies, F = −(c₁ + c₂ |u|) u, where u = v − w is the velocity relative to the fluid.
@@ -38,6 +38,11 @@ impl Force for Drag {
 
     fn turns_bodies(&self) -> bool {
         false
+    }
+
+    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
+        self.apply(moment, loads);
+        Some(WorkAccount::Work)
     }
 
     fn potential(&self, _: &Moment) -> f64 {

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
-use super::super::BodyId;
+use super::super::{BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
 /// As many bodies as a [`ForceLaw`] is asked about at once, at most.
@@ -124,6 +124,14 @@ impl Force for FormulaForce {
             sum += each.map(|(_, potential)| *potential).sum::<f64>();
         }
         sum
+    }
+
+    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
+        if self.law.has_potential() {
+            return None;
+        }
+        self.apply(moment, loads);
+        Some(WorkAccount::Work)
     }
 
     fn is_local(&self) -> bool {

@@ -31,7 +31,7 @@ pub use spring::Spring;
 
 use std::ops::Range;
 
-use super::{Loads, Model, State};
+use super::{Loads, Model, State, WorkAccount};
 
 /// All that a force may look at.
 #[derive(Clone, Copy)]
@@ -58,6 +58,12 @@ pub trait Force: Send + Sync {
     ///
     /// The share of a body that does not move is left out where it is a constant.
     fn potential(&self, moment: &Moment) -> f64;
+
+    /// Adds that part of the forces and torques which has no potential, with its power, as [`apply`](Self::apply) adds all. Gives the account of
+    /// that power; none where all has a potential, or where the part does not stand alone. The default does nothing.
+    fn apply_without_potential(&self, _moment: &Moment, _loads: &mut Loads) -> Option<WorkAccount> {
+        None
+    }
 
     /// Adds the forces on the bodies of a range alone, as [`apply`](Self::apply) does for all; only a force that is
     /// [local](Self::is_local) can. The default does nothing and answers false: such a force is always evaluated as a whole.

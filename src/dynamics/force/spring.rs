@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::{Anchor, BodyId};
+use super::super::{Anchor, BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
 /// An anchor at one moment, in world axes.
@@ -109,6 +109,14 @@ impl Force for Spring {
                 }
             }
         }
+    }
+
+    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
+        if self.damping == 0.0 {
+            return None;
+        }
+        Spring { stiffness: 0.0, ..*self }.apply(moment, loads);
+        Some(WorkAccount::Work)
     }
 
     fn depends_on_motion(&self) -> bool {

@@ -86,6 +86,7 @@ impl TimeStepping {
         self.ledger.close(&self.model, begin, &self.state);
         self.model.place(begin, &mut self.state);
         self.model.sum(begin, &self.state, &mut self.loads);
+        self.driven.begin(&self.model, begin, &self.state, &mut self.loads);
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
         self.push(end, dt);
@@ -103,7 +104,7 @@ impl TimeStepping {
             self.check_start(begin)?;
         }
         let bodies = (&self.model, &self.joints);
-        self.books.close(&self.engine, bodies, (&mut self.state, &self.loads), end);
+        self.books.close(&self.engine, bodies, (&mut self.state, &self.loads, &self.driven), end);
         Ok(())
     }
 

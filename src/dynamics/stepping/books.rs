@@ -10,6 +10,7 @@ use rapier3d_f64::prelude::{
 
 use super::super::contact::Impact;
 use super::super::{Accounts, Loads, Model, State};
+use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
 
 /// Bodies that approach by less than this many of their thicknesses in a second have no impact.
@@ -197,13 +198,13 @@ impl Books {
     /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, whatever
     /// else acts at the same time. What is left over between two bodies is lost; what a guided body puts in is work.
     ///
-    /// The engine also moves bodies out of each other, or lets them sink in, without a velocity that would stay. The forces on a body do work
+    /// The engine also moves bodies out of each other, or lets them sink in, without a velocity that would stay. Forces with a potential do work
     /// on that way, which contacts take or give as well.
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
         (model, joints): (&Model, &Joints),
-        (state, loads): (&mut State, &Loads),
+        (state, loads, driven): (&mut State, &Loads, &Driven),
         time: f64,
     ) {
         self.touched.fill(false);
@@ -225,11 +226,12 @@ impl Books {
             }
         }
         let dt = engine.integration_parameters.dt;
+        accounts.add(1.0, driven.work(dt, &self.mean));
         let mut pulled = 0.0;
         for i in (0..self.touched.len()).filter(|&i| self.touched[i] || self.held[i]) {
             let shift = state.location[i] - self.places[i] - dt * state.velocity[i];
             let account = if self.touched[i] { &mut accounts.impacts } else { &mut pulled };
-            *account -= loads.force[i].dot(shift);
+            *account -= (loads.force[i] - driven.on(i)).dot(shift);
             if self.held[i] && model.inverse_mass()[i] != 0.0 {
                 // All that is no force on it comes from contacts and joints.
                 let change = model.mass()[i] * (state.velocity[i] - self.before[i].0) - dt * loads.force[i];

@@ -11,6 +11,7 @@ mod advance;
 mod bodies;
 mod books;
 mod checkpoint;
+mod driven;
 mod joint;
 mod mixing;
 mod plane;
@@ -23,6 +24,7 @@ mod tests;
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
 use self::books::Books;
+use self::driven::Driven;
 use self::joint::Joints;
 use self::mixing::Mixing;
 use super::contact::{Contacts, Impact};
@@ -63,6 +65,7 @@ pub struct TimeStepping {
     mixing: Mixing,
     joints: Joints,
     books: Books,
+    driven: Driven,
     /// Whether snapshots list the contacts.
     shows_contacts: bool,
     /// Room for the loads at one moment.
@@ -97,6 +100,7 @@ impl TimeStepping {
             calendar: parts.calendar,
             books: Books::new(model.len(), length, joints.held(model.len())),
             half_thickness: bodies::half_thickness(&model),
+            driven: Driven::default(),
             shows_contacts: true,
             failure: None,
             model,
