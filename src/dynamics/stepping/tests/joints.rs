@@ -109,6 +109,34 @@ fn what_motors_give_is_booked() {
     assert!(end.balance.drift.abs() < 0.01, "{}", end.balance.drift);
 }
 
+/// A servo's target jumps away from a rod that rests. What the servo does in the first steps is what the rod has then: the work of each step is the
+/// torque times the mean turning.
+#[test]
+fn what_servos_give_is_booked() {
+    #[derive(Debug)]
+    struct Jump;
+    impl Target for Jump {
+        fn at(&self, _: f64) -> [f64; 3] {
+            [0.8, 0.0, 0.0]
+        }
+    }
+    let mut scene = Scene::default();
+    let rod =
+        scene.add(Shape::Box { size: DVec3::new(1.0, 0.1, 0.1) }, |body| body.with_location(0.5 * DVec3::X));
+    let between = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: rod, at: -0.5 * DVec3::X }];
+    let hinge = Hinge::new(between, DVec3::Y, DQuat::IDENTITY);
+    let mut world = scene.world(0.0);
+    let target = std::sync::Arc::new(Jump);
+    world.add_force(Servo { coordinate: hinge.coordinate(), target, stiffness: 200.0, damping: 3.0 });
+    let link = Link { kind: LinkKind::Hinge(hinge), collides: false };
+    let mut stepping = TimeStepping::new(world, &scene.contacts(), &[link]);
+    stepping.snapshot().unwrap();
+    for k in 1..=8 {
+        let balance = run(&mut stepping, f64::from(k) / 240.0).balance;
+        assert!(balance.kinetic > 0.0 && balance.drift.abs() < 1e-3, "{k}: {}", balance.drift);
+    }
+}
+
 /// A chain of eight links falls from level, and swings over the ground. Its joints take energy, which is booked; what is left is the error of
 /// Euler–Cromer.
 #[test]
