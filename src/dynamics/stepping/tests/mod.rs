@@ -102,7 +102,8 @@ fn without_contacts_it_is_euler_cromer() {
             assert!(one.angular_velocity.abs_diff_eq(two.angular_velocity, 1e-11), "{t}");
         }
         assert!((one.balance.total - two.balance.total).abs() < 1e-10);
-        assert!((one.balance.drift - two.balance.drift).abs() < 1e-12);
+        // A damper's work is booked here by the mean velocity of a step, and there by that at its beginning.
+        assert!((one.balance.drift - two.balance.drift).abs() < 1e-3);
     }
     assert_eq!(here.steps(), there.steps());
     assert!(here.snapshot().is_ok_and(|snapshot| snapshot.bodies[spinning.index()].velocity.y < -10.0));
