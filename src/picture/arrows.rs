@@ -9,7 +9,7 @@ use crate::dynamics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, Body, Color, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 
-/// The colors of arrows, in the order of their quantities: those of no usual body, and far apart for any eye.
+/// The colors of arrows, in the order of their quantities. They are easy to tell apart, and rare for bodies.
 const COLORS: [Color; Quantity::COLORS] = [
     Color([0.03, 0.30, 0.70]),
     Color([0.93, 0.50, 0.04]),
@@ -19,7 +19,7 @@ const COLORS: [Color; Quantity::COLORS] = [
     Color([0.85, 0.10, 0.10]),
     Color([0.96, 0.78, 0.05]),
 ];
-/// The same before a dark background.
+/// The same for dark backgrounds.
 const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([0.35, 0.72, 1.0]),
     Color([1.0, 0.70, 0.25]),
@@ -74,13 +74,13 @@ pub struct Axes {
     pub length: f64,
 }
 
-/// The longest arrow without a scale is so long, as part of the width of the picture.
+/// The length of the longest arrow without a scale, as part of the width of the picture.
 pub(super) const LONGEST: f64 = 0.13;
 /// The radius of a shaft, in strokes.
 const SHAFT: f64 = 0.6;
 /// The radius of a head, in radii of the shaft.
 pub(super) const HEAD: f64 = 3.2;
-/// An arrow that is shorter than this part of the width of the picture is less than a tenth of a pixel long.
+/// Shorter arrows than this part of the width of the picture are less than a tenth of a pixel long.
 const NOTHING: f64 = 5e-5;
 
 /// The length of an arrow without a scale for one unit of each quantity, m.
@@ -89,13 +89,13 @@ pub(super) type Scales = [f64; Quantity::COUNT];
 /// The arrows and axes of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Arrows {
-    /// The bodies that have any, in the order of their numbers.
+    /// The bodies with arrows or axes, in the order of their numbers.
     bodies: Vec<(usize, Body)>,
     /// Their arrows, in the order of the bodies.
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,
-    /// The scene, and the colors of arrows, if there are arrows for loads.
+    /// The scene and the colors of arrows, if arrows show loads.
     of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
     /// The longest vector of each kind whose arrows have no scale, in its own unit.
     longest: [f64; Quantity::COUNT],
@@ -115,7 +115,7 @@ struct OfJoint {
 /// An arrow of one of the bodies.
 #[derive(Clone, Debug)]
 struct Planned {
-    /// The number of its body among those that have any.
+    /// The index of its body in `Arrows::bodies`.
     of: usize,
     quantity: Quantity,
     /// The number of the quantity among all.
@@ -135,17 +135,18 @@ pub(super) struct ArrowSizes {
     scales: Scales,
 }
 
-/// The scales of arrows in a picture that shows a width of `view` (m), if the longest vectors are as given.
+/// The scales of arrows in a picture of the width `view` (m), for the longest vectors of each kind.
 fn scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
 }
 
-/// Round [`scales`], which do not change with every small edit of a scene.
+/// [`scales`] rounded, so that small edits of a scene do not change them.
 pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     scales(longest, view).map(round_down)
 }
 
-/// The largest number with a single digit, or 1.5, times a power of ten, that is not larger than a positive number.
+/// The largest number of the form 1, 1.5, 2, 3, … 9 times a power of ten that does not exceed a positive
+/// number.
 pub(super) fn round_down(number: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(number) + 1e-12));
     let digits = [8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5];
@@ -185,17 +186,17 @@ impl Arrows {
         Arrows { bodies, arrows, of_joints, of_loads, longest }
     }
 
-    /// The sizes in all pictures of a camera that stands still, by scales for which it has made room.
+    /// The sizes in all pictures of a fixed camera. The camera was placed for these scales.
     pub(super) fn still_sizes(&self, scales: Scales, view: f64, stroke: f64) -> ArrowSizes {
         ArrowSizes { view, radius: SHAFT * stroke, scales }
     }
 
-    /// The sizes in a picture of a camera that moves. They change smoothly with the width that it sees.
+    /// The sizes in a picture of a moving camera. They change smoothly with the width in view.
     pub(super) fn sizes(&self, view: f64, stroke: f64) -> ArrowSizes {
         ArrowSizes { view, radius: SHAFT * stroke, scales: scales(self.longest, view) }
     }
 
-    /// The arrows of a frame, as a camera sees them.
+    /// The arrows of a frame for a camera.
     pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
@@ -218,7 +219,8 @@ impl Arrows {
         arrows
     }
 
-    /// The arrows for weight and contacts, in front of their bodies: they begin inside or at the far side.
+    /// The arrows for weight and contacts. Their roots are inside the body or on its far side, so they move
+    /// in front of it.
     fn loads(
         &self,
         (bodies, contacts): (&[BodySnapshot], &[ContactSnapshot]),
@@ -248,7 +250,7 @@ impl Arrows {
         self.bodies.iter().filter_map(axes).collect()
     }
 
-    /// The arrows of a body as it was, if its ghosts have any, as a camera sees them.
+    /// The arrows of a ghost for a camera, if its body has any.
     pub(super) fn of_ghost(&self, ghost: &Ghost, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let Ghost { body: at, contacts, .. } = ghost;
         let Ok(of) = self.bodies.binary_search_by_key(&at.id, |(number, _)| *number) else {

@@ -1,4 +1,4 @@
-//! The scale bar: how long a metre is in the middle of the motion.
+//! The scale bar: the length of a metre at the middle of the motion.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};
 use crate::scene::{Color, ScaleBar, Scene};
 
-/// A scale bar on the plane before the camera, on which the picture is 2 wide.
+/// A scale bar in the image plane. The picture is 2 wide there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
     /// Its left end in the picture.
@@ -29,7 +29,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// The part of the picture that it takes, whose height is a part of its width.
+    /// The area of its picture, for a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
         let middle = self.y.above_middle(aspect);
         let half = 2.5 * self.thickness;
@@ -56,7 +56,7 @@ impl ScaleBars {
         ScaleBars { bar, middle, height, ink }
     }
 
-    /// The length that the bar shows, m, and how wide it is on the plane before a camera.
+    /// The length that the bar shows, m, and its width in the image plane of a camera.
     pub(super) fn extent(&self, screen: &Screen) -> Option<(f64, f64)> {
         let spot = screen.spot(self.middle)?;
         let fifth = 0.5 / spot.metre;
@@ -64,7 +64,8 @@ impl ScaleBars {
         Some((length, length * spot.metre))
     }
 
-    /// The bar on the plane before a camera, and its number; none if the middle of the motion is behind the camera.
+    /// The bar in the image plane of a camera, and its number; none if the middle of the motion is behind the
+    /// camera.
     pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
         let (length, width) = self.extent(screen)?;
         let (x, align) = across(self.bar.corner);
@@ -89,7 +90,7 @@ impl ScaleBars {
     }
 }
 
-/// 1, 2 or 5: the largest that is not larger than a number within its decade.
+/// The largest of 1, 2 and 5 that does not exceed a number's leading digit.
 fn digit(number: f64) -> f64 {
     let rest = number / decimal_step(number) + 1e-9;
     [5.0, 2.0].into_iter().find(|digit| *digit <= rest).unwrap_or(1.0)

@@ -1,4 +1,4 @@
-//! Arrows of one body that point the same way stand side by side, or one would hide the other.
+//! Puts parallel arrows of one body side by side, so that none hides another.
 
 use glam::DMat3;
 
@@ -10,12 +10,12 @@ use crate::simulate::surface;
 
 /// The distance between arrows that stand side by side, in radii of a head.
 const APART: f64 = 2.2;
-/// Arrows whose directions differ by less than the first angle stand fully side by side, by more than the second not at
-/// all, rad.
+/// Arrows stand fully side by side if their directions differ by less than the first angle (rad), and not at
+/// all if they differ by more than the second.
 const ANGLES: [f64; 2] = [0.12, 0.35];
 
-/// Moves arrows of a body sideways, in a picture that a camera sees, where they would lie on each other. They move
-/// smoothly with their directions and lengths.
+/// Moves the overlapping arrows of a body sideways, as seen by a camera. They move smoothly with their
+/// directions and lengths.
 pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera: &Placed) {
     let plain: Vec<Arrow> = arrows.to_vec();
     for (number, arrow) in arrows.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! The camera: as given, or as it follows from the motion.
+//! The camera: as the scene gives it, or chosen to fit the motion.
 
 use glam::{DQuat, DVec3};
 
@@ -7,10 +7,11 @@ use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
-/// The distance of a camera from a body that it follows, in halves of its width. The body then takes an eighth of the picture.
+/// The distance of a camera from the body that it follows, in half-widths of the body: it fills an eighth of
+/// the picture.
 const USUAL_DISTANCE: f64 = 22.0;
 
-/// A camera that has its place, in metres.
+/// A camera with a position, in metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed {
     location: DVec3,
@@ -23,7 +24,7 @@ pub struct Placed {
 /// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
-    /// As eyes do: what is farther is smaller.
+    /// Distant things look smaller, as to the eye.
     Perspective {
         /// The horizontal field of view, degrees.
         angle: f64,
@@ -36,8 +37,8 @@ pub enum Lens {
 }
 
 impl Placed {
-    /// The camera of a picture of the given size. A place that is not given is such that the bounds are seen from the
-    /// direction `towards`.
+    /// The camera of a picture of the given size. If the scene gives no position, the camera looks at the
+    /// bounds from the direction `towards`.
     fn new(camera: &Camera, bounds: Bounds, towards: DVec3, output: Output) -> Placed {
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
@@ -56,7 +57,7 @@ impl Placed {
         Placed { location, look_at, lens, blur: camera.blur, output }
     }
 
-    /// The camera at a moment of a run whose first frame had `start` where the followed body is now at `here`.
+    /// The camera at a moment. The followed body was at `start` in the first frame and is `here` now.
     fn moved(&self, camera: &Camera, size: f64, time: f64, [start, here]: [DVec3; 2]) -> Placed {
         let motion = &camera.motion;
         let mut location = motion.location.as_ref().map_or(self.location, |location| location.at(time));
@@ -71,7 +72,7 @@ impl Placed {
             let turn = DQuat::from_rotation_y(std::f64::consts::TAU * time / period);
             location = look_at + turn * (location - look_at);
         }
-        // At the point that it looks at, a camera has no direction; on its way through, it looks as it did.
+        // At its own aim a camera has no direction. There it keeps its former one.
         if location.distance(look_at) <= 1e-6 * self.location.distance(self.look_at) {
             look_at = location + (self.look_at - self.location);
         }
@@ -84,7 +85,7 @@ impl Placed {
         Placed { location, look_at, lens, blur: self.blur, output: self.output }
     }
 
-    /// The place of the camera, m.
+    /// The position of the camera, m.
     pub fn location(&self) -> DVec3 {
         self.location
     }
@@ -118,7 +119,7 @@ impl Placed {
         self.blur.map(|blur| blur.focus.unwrap_or(self.look_at))
     }
 
-    /// Whether it looks straight up or down, where «up» in the picture needs another meaning: away from the viewer.
+    /// Whether it looks straight up or down. Then the picture's upper edge is the one away from the viewer.
     pub fn is_vertical(&self) -> bool {
         let sight = self.look_at - self.location;
         sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
@@ -129,14 +130,14 @@ impl Placed {
         f64::from(self.output.height) / f64::from(self.output.width)
     }
 
-    /// Whether its pictures are so wide that POV-Ray, which measures in their height, reports rounding errors as mistakes.
+    /// Whether its pictures are so wide that POV-Ray's own rounding errors make it report mistakes.
     pub fn is_wide(&self) -> bool {
         const WIDE: u32 = 100;
         self.output.width > WIDE * self.output.height
     }
 
-    /// The width of what is seen, m, as far away as what it looks at. It may look at a point before or behind
-    /// everything that happens within the bounds; then it counts how far away the bounds are there.
+    /// The width in view at the camera's aim, m. If the aim is before or behind the bounds, the bounds' distance counts
+    /// instead.
     pub(super) fn width_of_view(&self, bounds: Bounds) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => {
@@ -150,7 +151,7 @@ impl Placed {
         }
     }
 
-    /// The width of what is seen at a distance, m.
+    /// The width in view at a distance, m.
     pub(crate) fn width_at(&self, distance: f64) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => 2.0 * distance * Field::new(angle, self.output).horizontal,
@@ -158,7 +159,7 @@ impl Placed {
         }
     }
 
-    /// The plane before the camera on which texts stand.
+    /// The image plane, on which texts stand.
     pub fn screen(&self) -> Screen {
         let (slope, width) = match self.lens {
             Lens::Perspective { angle } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
@@ -179,14 +180,14 @@ pub(super) struct Eye {
 #[derive(Clone, Debug)]
 struct Moving {
     camera: Camera,
-    /// The body that it follows: its number, its place at the start, and its size, m.
+    /// The body that it follows: its number, its position at the start, and its size, m.
     followed: Option<(usize, DVec3, f64)>,
-    /// The box that what it follows does not leave for it.
+    /// The box within which it follows a body.
     within: Option<Bounds>,
 }
 
 impl Eye {
-    /// A camera of a scene. A place that is not given is such that the bounds are seen from the direction `towards`.
+    /// A camera of a scene. Without a given position, it looks at the bounds from the direction `towards`.
     pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Eye {
         let followed = camera.motion.follow.map(|follow| {
             let body = &scene.bodies[follow.body];
@@ -196,7 +197,7 @@ impl Eye {
         Eye { placed: Placed::new(camera, bounds, towards, scene.output), moving }
     }
 
-    /// The same, which follows a body no farther than to the edges of a box.
+    /// The same camera, which follows a body only within a box.
     pub(super) fn within(self, bounds: Bounds) -> Eye {
         let moving = self.moving.map(|moving| Moving { within: Some(bounds), ..moving });
         Eye { moving, ..self }
@@ -207,12 +208,12 @@ impl Eye {
         &self.placed
     }
 
-    /// Whether it is not the same in all frames.
+    /// Whether it moves.
     pub(super) fn moves(&self) -> bool {
         self.moving.is_some()
     }
 
-    /// The camera at a time (s), if what it follows were still where it starts.
+    /// The camera at a time (s) for a followed body at its initial position.
     pub(super) fn early(&self, time: f64) -> Placed {
         let Some(Moving { camera, followed, .. }) = &self.moving else { return self.placed };
         let (_, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
@@ -236,14 +237,14 @@ impl Eye {
     }
 }
 
-/// Half the width of a body as it is drawn, in the direction of its own axes in which it is widest, m; none for a plane.
+/// Half the largest width of a body as drawn, along its own axes, m; none for a plane.
 pub(super) fn half_width(body: &Body) -> Option<f64> {
     let drawn = body.drawn();
     let reach = |direction| drawn.support(DQuat::IDENTITY, direction);
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).reduce(f64::max)
 }
 
-/// The point that a camera looks at if the scene gives only its place: the middle of the motion, or straight ahead.
+/// The aim of a camera whose scene gives only its position: the middle of the motion, or straight ahead.
 fn aim(location: DVec3, auto: Framing) -> DVec3 {
     let far = auto.location.distance(auto.look_at);
     if location.distance(auto.look_at) > 1e-6 * far { auto.look_at } else { location - DVec3::Z * far }

@@ -1,24 +1,25 @@
 //! The shape of a rope that hangs between two points: a catenary of its length.
 //!
-//! With the depth y below the first end, the horizontal way x from there, and a parameter τ that grows by 2u along
-//! the rope, x = a (τ − τ₀) and y = a (cosh τ₀ − cosh τ); its arc length is a (sinh τ − sinh τ₀). For ends whose horizontal
-//! distance is h and whose heights differ by v, a rope of the length L has h = 2 a u, tanh((τ₀ + τ₁)/2) = v/L and
-//! sinh(u)/u = √(L² − v²)/h. Source: E. H. Lockwood, *A Book of Curves* (1961), chapter 13.
+//! Let y be the depth below the first end, x the horizontal distance from it, and τ a parameter that grows by
+//! 2u along the rope. Then x = a (τ − τ₀), y = a (cosh τ₀ − cosh τ), and the arc length is a (sinh τ − sinh
+//! τ₀). For a rope of length L whose ends are h apart horizontally and v vertically, h = 2 a u, tanh((τ₀ +
+//! τ₁)/2) = v/L and sinh(u)/u = √(L² − v²)/h. Source: E. H. Lockwood, *A Book of Curves* (1961), chapter 13.
 
 use glam::DVec3;
 
-/// The number of straight pieces that a curve is drawn of. All of them are equally far from the curve: at most h u / 2304.
+/// The number of straight pieces of a drawn curve. Each deviates from the curve by at most h u / 2304.
 const PIECES: u32 = 24;
 
-/// Ends whose horizontal distance is a smaller part of the rope's length hang one below the other.
+/// If the horizontal distance of the ends is a smaller part of the rope's length, the rope hangs straight
+/// down.
 const UPRIGHT: f64 = 1e-9;
 
-/// A rope that is longer than the distance of its ends by a smaller part of it is straight.
+/// If the slack is a smaller part of the distance of the ends, the rope is straight.
 const TAUT: f64 = 1e-12;
 
-/// The points of a rope without stiffness that hangs between two ends, m; two of them where it is taut. `down` is the
-/// direction of gravity, a unit vector; without it the rope is the arc of a circle. The ends of a rope that is shorter than their
-/// distance are joined by a straight line.
+/// The points of a rope without stiffness between two ends, m; two points if it is taut. `down` is the
+/// direction of gravity, a unit vector; without gravity the rope is a circular arc. A rope shorter than the
+/// distance of its ends is a straight line.
 pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec<DVec3> {
     let distance = ends[0].distance(ends[1]);
     if length - distance <= TAUT * length {
@@ -40,7 +41,7 @@ pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec
 struct Catenary {
     ends: [DVec3; 2],
     down: DVec3,
-    /// The horizontal way from the first end to the second, m.
+    /// The horizontal vector from the first end to the second, m.
     across: DVec3,
     /// Half of the range of the parameter τ.
     half_range: f64,
@@ -49,7 +50,7 @@ struct Catenary {
 }
 
 impl Catenary {
-    /// The curve for a length that is larger than the distance of the ends; none where these hang one below the other.
+    /// The curve for a length larger than the distance of the ends; none if one end is below the other.
     fn new(ends: [DVec3; 2], length: f64, down: DVec3) -> Option<Catenary> {
         let way = ends[1] - ends[0];
         let rise = -way.dot(down);
@@ -58,16 +59,17 @@ impl Catenary {
         if width < UPRIGHT * length {
             return None;
         }
-        // (L² − v²)/h² − 1, without the difference of nearly equal numbers.
+        // (L² − v²)/h² − 1, without cancellation.
         let distance = way.length();
         let excess = (length - distance) * (length + distance) / (width * width);
         let half_range = solve(0.5 * libm::log1p(excess));
-        // sinh((τ₀ + τ₁)/2) = v/√(L² − v²), which is known better than v/L where that is nearly 1.
+        // sinh((τ₀ + τ₁)/2) = v/√(L² − v²), which is more accurate than v/L if that is nearly 1.
         let first = libm::asinh(rise / (width * libm::sqrt(1.0 + excess))) - half_range;
         Some(Catenary { ends, down, across, half_range, first })
     }
 
-    /// The point at a part of the range of its parameter, from 0 to 1. This is also the part of the horizontal way.
+    /// The point at a fraction of the parameter's range. The same fraction of the horizontal distance lies
+    /// behind it.
     fn point(&self, part: f64) -> DVec3 {
         let Catenary { ends, down, across, half_range, first } = *self;
         let half = half_range * part;
@@ -83,8 +85,8 @@ impl Catenary {
     }
 }
 
-/// The positive u with ln(sinh(u)/u) = s. The left-hand side is convex and grows, so Newton's method converges from every
-/// starting point: after the first step from the right.
+/// The positive u with ln(sinh(u)/u) = s. The left-hand side is convex and increasing, so Newton's method
+/// converges from every starting point; after the first step, from the right.
 fn solve(s: f64) -> f64 {
     // ln(sinh(u)/u) ≈ u²/6, and ≈ u − ln 2u.
     let mut u = if s < 1.0 { libm::sqrt(6.0 * s) } else { s + libm::log(2.0 * s + 2.0) };
@@ -99,7 +101,7 @@ fn solve(s: f64) -> f64 {
     u
 }
 
-/// ln(sinh(u)/u) and its derivative for a positive u, without the difference of nearly equal numbers.
+/// ln(sinh(u)/u) and its derivative for a positive u, without cancellation.
 fn log_sinh_ratio(u: f64) -> (f64, f64) {
     if u < 0.5 {
         // sinh(u)/u − 1 = Σ u²ᵏ/(2k + 1)!, and its derivative.
@@ -116,11 +118,11 @@ fn log_sinh_ratio(u: f64) -> (f64, f64) {
     (u + libm::log1p(-fall) - libm::log(2.0 * u), (1.0 + fall) / (1.0 - fall) - 1.0 / u)
 }
 
-/// The arc of a circle with a length, larger than the distance of its ends; it bulges downward as far as it can.
+/// A circular arc whose length exceeds the distance of its ends. It bulges downward.
 fn arc(ends: [DVec3; 2], length: f64) -> Vec<DVec3> {
     let [from, to] = ends;
     let chord = from.distance(to);
-    // Half of the angle of the arc: sin(φ)/φ = chord/length, by bisection; from π to 0, the left-hand side grows.
+    // Half the angle of the arc: sin(φ)/φ = chord/length, by bisection; the left-hand side grows from π to 0.
     let (mut low, mut high) = (0.0, std::f64::consts::PI);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -1,15 +1,16 @@
-//! Colors that follow from others.
+//! Colors derived from others.
 
 use crate::scene::{Color, Look, Scene};
 
-/// The color of a ghost of a body of a color: nearer to what is behind it, which is `dark` or not.
+/// The color of a body's ghost: closer to the background, which is `dark` or light.
 pub fn pale(color: Color, dark: bool) -> Color {
     const PALER: f64 = 0.5;
     let towards = if dark { 0.12 } else { 0.93 };
     Color(color.0.map(|part| part + PALER * (towards - part)))
 }
 
-/// A color that is seen before what is behind it, which is `dark` or not: dark colors become lighter before the dark.
+/// A color that stands out from the background, which is `dark` or light: dark colors become lighter before a
+/// dark one.
 pub(super) fn seen(color: Color, dark: bool) -> Color {
     const BRIGHT_ENOUGH: f64 = 0.12;
     let [red, green, blue] = color.linear();
@@ -18,7 +19,7 @@ pub(super) fn seen(color: Color, dark: bool) -> Color {
     Color(color.0.map(|part| part + white * (1.0 - part)))
 }
 
-/// The single color of a look, if it has one that is known here.
+/// The single color of a look, if it has one.
 pub fn of_look(look: &Look) -> Option<Color> {
     match look {
         Look::Plain { color, .. } => Some(*color),
@@ -27,7 +28,7 @@ pub fn of_look(look: &Look) -> Option<Color> {
     }
 }
 
-/// The usual color of what is written.
+/// The usual color of text.
 pub(super) fn ink(scene: &Scene) -> Color {
     if scene.environment.is_dark() { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
 }

@@ -1,4 +1,4 @@
-//! The default place of the camera.
+//! The default position of the camera.
 
 use glam::DVec3;
 
@@ -9,14 +9,14 @@ use crate::simulate::Bounds;
 const FRONT: f64 = 1.0;
 const ASIDE: f64 = 0.16;
 const ABOVE: f64 = 0.11;
-/// A little more, so that numbers on the ground can be read.
+/// Higher, so that numbers on the ground can be read.
 const ABOVE_GRID: f64 = 0.36;
-/// High above: a circle on the ground is seen as an ellipse, and not from its edge.
+/// Much higher, so that a circle on the ground is seen as an ellipse and not edge-on.
 const HIGH_ABOVE: f64 = 0.7;
 
-/// From the middle of the motion towards a camera that the scene does not place. It looks onto the plane in which most
-/// happens: usually from the front; along x where everything moves in y and z; from above where it moves in x and z, and
-/// from a little above where the ground is to be read.
+/// The direction from the middle of the motion towards a camera without a given position. It faces the plane
+/// of the motion: from the front as a rule, along x for motion in y and z, from above for motion in x and z,
+/// and from a little above if the ground has numbers.
 pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     let extent = moving.max - moving.min;
     let from_the_side = extent.z > 2.0 * extent.x;
@@ -30,10 +30,10 @@ pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
 }
 
-/// The part of the picture that the motion may fill, each way.
+/// The largest part of the picture's width and height that the motion may fill.
 const FILL: f64 = 0.86;
 
-/// The place of a camera and the point that it looks at.
+/// The position of a camera and the point that it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Framing {
     pub(super) location: DVec3,
@@ -50,7 +50,7 @@ pub(super) struct Field {
 impl Field {
     /// The field of a camera with a horizontal angle in degrees.
     pub(super) fn new(angle: f64, output: Output) -> Field {
-        // An angle may reach 180°, where no distance would be enough.
+        // An angle may reach 180°, for which no distance is large enough.
         let horizontal = libm::tan(angle.min(160.0).to_radians() / 2.0);
         Field { horizontal, vertical: horizontal * f64::from(output.height) / f64::from(output.width) }
     }
@@ -63,21 +63,22 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, 
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
     if look_at.is_none() {
-        // Nearer things look larger, so the middle of the box is not the middle of its picture. Shift the aim until it is: each
-        // iteration leaves a small part of the error.
+        // Nearer things look larger, so the middle of the box is not the middle of its picture. Shift the aim
+        // until it is. Each iteration removes most of the error.
         for _ in 0..6 {
             let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
             aim += (right * x + up * y) * distance;
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
-    // A given aim may lie so far behind everything that all is seen even from there: the camera stands before it all the same.
+    // A given aim may lie so far behind everything that every distance will do. The camera still stands in
+    // front of it.
     let size = (bounds.max - bounds.min).length();
     rounded(aim, back, if distance > 1e-3 * size { distance } else { size })
 }
 
-/// Places a camera without perspective that is seen in the direction `towards`, and says the width (m) that it has to
-/// see.
+/// Places an orthographic camera in the direction `towards` from its aim. Also returns the width that it has
+/// to see, m.
 pub(super) fn orthographic(
     bounds: Bounds,
     output: Output,
@@ -92,20 +93,20 @@ pub(super) fn orthographic(
         offset.dot(right).abs().max(offset.dot(up).abs() * aspect)
     };
     let width = 2.0 * corners(bounds).into_iter().map(half).fold(0.0, f64::max) / FILL;
-    // Anywhere in front of everything: distance changes nothing in the picture.
+    // Any distance in front of everything gives the same picture.
     let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));
     (rounded(aim, back, distance), width)
 }
 
-/// Right, up and back of a camera that is seen in a direction from what it looks at.
+/// The right, up and back vectors of a camera, from the direction towards it.
 fn axes(towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
     let back = towards_camera.normalize();
-    // A camera that looks straight down has «up» pointing away from the viewer.
+    // For a camera that looks straight down, up points away from the viewer.
     let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
     (right, back.cross(right), back)
 }
 
-/// A place and an aim without more digits than make a difference.
+/// A position and an aim rounded to visible digits.
 fn rounded(aim: DVec3, back: DVec3, distance: f64) -> Framing {
     let step = decimal_step(distance) / 100.0;
     let round = |point: DVec3| (point / step).round() * step;
@@ -123,7 +124,7 @@ fn corners(bounds: Bounds) -> [DVec3; 8] {
     })
 }
 
-/// The least distance from the aim at which all corners are within the field.
+/// The least distance from the aim at which the field contains all corners.
 fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field: Field) -> f64 {
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
@@ -135,7 +136,7 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     corners.iter().map(needed).fold(0.0, f64::max)
 }
 
-/// The middle of the picture that the corners make, as slopes from the line of sight.
+/// The middle of the corners' picture, as slopes from the line of sight.
 fn middle_of_picture(
     corners: &[DVec3; 8],
     aim: DVec3,
@@ -155,11 +156,11 @@ fn middle_of_picture(
     (middle(|s| s.0), middle(|s| s.1))
 }
 
-/// Bounds rounded outward to two digits of their largest edge, so that a small edit of a scene does not move its
+/// Bounds rounded outward to two digits of their largest edge, so that small edits of a scene do not move its
 /// camera.
 pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
     let step = decimal_step((bounds.max - bounds.min).max_element()) / 10.0;
-    // A value that is on a mark up to rounding stays there.
+    // A value on a mark, up to rounding, stays there.
     let slack = DVec3::splat(1e-6);
     Bounds { min: (bounds.min / step + slack).floor() * step, max: (bounds.max / step - slack).ceil() * step }
 }

@@ -1,9 +1,9 @@
-//! The bodies as they were, every so many seconds.
+//! Ghosts: earlier copies of the bodies.
 
 use crate::scene::{Body, Scene};
 use crate::simulate::{Frame, Ghost};
 
-/// The distance within which a ghost is not drawn, m: two surfaces at the same place would be drawn as a mixture.
+/// A ghost nearer to its body than this is not drawn, m: POV-Ray mixes surfaces that coincide.
 pub(super) fn near(body: &Body) -> f64 {
     0.02 * body.drawn().half_thickness().unwrap_or(0.0)
 }
@@ -16,7 +16,7 @@ pub(super) fn is_turned(product: f64) -> bool {
 /// The ghosts of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Ghosts {
-    /// The bodies that have any, in the order of their numbers, and how near a ghost may be to its body, m.
+    /// The bodies with ghosts, in the order of their numbers, and how near a ghost may be to its body, m.
     bodies: Vec<(usize, f64)>,
 }
 
@@ -26,7 +26,8 @@ impl Ghosts {
         Ghosts { bodies: bodies.map(|(number, body)| (number, near(body))).collect() }
     }
 
-    /// The ghosts of a frame that are elsewhere than their bodies. Those of bodies that are gone stay.
+    /// The visible ghosts of a frame: those that are not at their bodies. Ghosts of bodies that are gone
+    /// stay.
     pub(super) fn drawn<'a>(&self, frame: &'a Frame) -> impl Iterator<Item = &'a Ghost> {
         frame.past.ghosts.iter().map(AsRef::as_ref).filter(|ghost| self.is_drawn(ghost, frame))
     }

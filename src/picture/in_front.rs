@@ -1,4 +1,5 @@
-//! Arrows that the ground, a spring or a joint would hide, moved towards the camera: so they look the same, and are seen.
+//! Moves arrows towards the camera if the ground, a spring or a joint would hide them. Their picture stays
+//! the same.
 
 use glam::DVec3;
 
@@ -12,7 +13,7 @@ use crate::scene::{Body, Quantity, Scene};
 /// No arrow is moved nearer to the camera than this part of its distance.
 const NEAREST: f64 = 0.02;
 
-/// The planes that may hide arrows in all frames: the ground, and the planes among the bodies.
+/// The planes that may hide arrows in all frames: the ground and plane bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Planes {
     /// A point of each, m, and its normal.
@@ -29,12 +30,12 @@ impl Planes {
         Planes { planes: ground.into_iter().chain(bodies).collect() }
     }
 
-    /// Moves an arrow in front of the planes that it would pass through away from the camera.
+    /// Moves an arrow towards the camera if it would pass through one of the planes.
     pub(super) fn lift(&self, arrow: &mut Arrow, camera: &Placed) {
         for (point, normal) in &self.planes {
             let above = |place: DVec3| (place - *point).dot(*normal);
             let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
-            // This much of the shaft and of the head must lie above the plane.
+            // How much the shaft and the head lack to lie above the plane.
             let lacking = (HEAD * shaft - above(arrow.to)).max(shaft - above(arrow.from));
             let eye = above(camera.location());
             if lacking > 0.0 && eye > 0.0 {
@@ -52,13 +53,13 @@ impl Planes {
     }
 }
 
-/// Moves an arrow that lies within a spring or a joint in front of it.
+/// Moves an arrow in front of a spring or a joint that contains it.
 pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;
     let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;
     let Some([begin, end]) = link.lines().find(is_hidden) else { return };
     let middle = (arrow.from + arrow.to) / 2.0;
-    // Along a line that is seen from its end, the way out of it would be long.
+    // For a line seen end-on, the way out would be long.
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
     *arrow = match camera.lens() {
@@ -67,8 +68,8 @@ pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed
     };
 }
 
-/// Moves an arrow for a load in front of the body that it acts on. Of two that lie on each other, friction is in front of the normal
-/// force, and that in front of the weight.
+/// Moves an arrow for a load in front of its body. Friction is in front of the normal force, and that in
+/// front of the weight.
 pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, camera: &Placed) {
     let middle = (arrow.from + arrow.to) / 2.0;
     let towards = camera.towards(middle);
@@ -86,7 +87,7 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
     }
 }
 
-/// The same arrow at a part of its distance from the camera, which sees no difference.
+/// The arrow moved to a fraction of its distance from the camera, which sees no difference.
 fn nearer(arrow: &Arrow, camera: &Placed, part: f64) -> Arrow {
     let eye = camera.location();
     let part = part.clamp(NEAREST, 1.0);

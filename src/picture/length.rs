@@ -1,4 +1,4 @@
-//! Lengths as rulers have them.
+//! Lengths as on a ruler.
 
 use super::number;
 
@@ -20,7 +20,7 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
     UNITS.iter().find(fits).copied().unwrap_or((1e-15, "fm"))
 }
 
-/// A number of a ruler: short, with a real minus sign.
+/// A number on a ruler: short, with a real minus sign.
 pub(super) fn value(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 6);

@@ -1,4 +1,4 @@
-//! The lights: those that a scene gives, at a moment, and those that shine where it gives none.
+//! The lights of a scene at a moment, and the default lights.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ pub struct PlacedLight {
     pub name: String,
     /// Its kind.
     pub kind: Lamp,
-    /// Its place, m; for a sun, a point that its light comes from.
+    /// Its position, m; for a sun, a point in its direction.
     pub location: DVec3,
     /// The diameter of an area light, m.
     pub size: Option<f64>,
@@ -44,7 +44,7 @@ impl Lamp {
     }
 }
 
-/// A light that shines where a scene gives none. Lengths are in sizes of the stage.
+/// A default light. Lengths are in sizes of the stage.
 struct Usual {
     name: &'static str,
     /// From the middle of the stage.
@@ -61,7 +61,7 @@ enum UsualColor {
     Srgb([f64; 3]),
 }
 
-/// The lights of an environment, as `templates/lights.inc` has them as well; a test of `emit` holds the two together.
+/// The lights of an environment. `templates/lights.inc` has the same ones; a test in `emit` compares them.
 fn usual(preset: Preset) -> &'static [Usual] {
     use UsualColor::{Linear, Srgb};
     const SUN: Usual = Usual {
@@ -118,7 +118,7 @@ fn usual(preset: Preset) -> &'static [Usual] {
     }
 }
 
-/// The lights that shine around a stage where a scene gives none.
+/// The default lights around a stage.
 pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
     let place = |light: &Usual| PlacedLight {
         name: light.name.to_owned(),
@@ -149,7 +149,7 @@ impl Lights {
         Lights { lights: scene.lights.clone(), center, reach }
     }
 
-    /// Whether they are not the same in all frames.
+    /// Whether they change between frames.
     pub(super) fn moves(&self) -> bool {
         self.lights.iter().any(Light::moves)
     }
@@ -163,7 +163,7 @@ impl Lights {
         let (kind, location, size) = match &light.kind {
             LightKind::Point { location } => (Lamp::Point, location.at(time), None),
             LightKind::Area { location, size } => (Lamp::Area, location.at(time), Some(*size)),
-            // Far enough to be outside of everything; its rays are parallel anyway.
+            // Far enough to be outside everything; its rays are parallel anyway.
             LightKind::Sun { direction } => (Lamp::Sun, self.center - *direction * self.reach * 10.0, None),
         };
         PlacedLight {

@@ -1,9 +1,8 @@
-//! Frames → what their pictures show.
+//! Frames → the contents of their pictures.
 //!
-//! A [`Plan`] is made once for a run and a camera; then it says of any frame, in any order and from several threads at
-//! once, where the camera stands, what shines, and what is drawn beside the bodies: arrows, axes, springs, joints, ghosts,
-//! trails, texts, a grid, a scale bar. All of it is in metres, and in no program's words, so that all that draws a
-//! frame draws the same.
+//! A [`Plan`] is made once for a run and a camera. For any frame, in any order and from several threads, it then gives
+//! the camera, the lights, and what is drawn beside the bodies: arrows, axes, springs, joints, ghosts, trails, texts, a
+//! grid, a scale bar. Everything is in metres and independent of the renderer, so all renderers draw the same.
 
 mod arrows;
 mod bar;

@@ -1,4 +1,4 @@
-//! Things that a scene asks for and no picture of the run shows.
+//! Finds things that a scene requests but no picture of the run shows.
 
 use super::arrows::{LONGEST, round_down};
 use super::decimal_step;
@@ -8,25 +8,25 @@ use super::text::MARGIN;
 use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
 
-/// An arrow whose longest is shorter is not seen, pixels.
+/// If the longest is shorter than this, an arrow is invisible, pixels.
 const SHORTEST: f64 = 1.0;
-/// A line that is thinner is not seen, pixels.
+/// A thinner line is invisible, pixels.
 const THINNEST: f64 = 0.1;
 
-/// Something that is asked for and that no picture shows, or none from a moment on. Lengths are in metres.
+/// A requested thing that no picture shows, or none after some moment. Lengths are in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotDrawn {
     /// The thing.
     pub what: Asking,
-    /// The name of the body or the force that asks for it.
+    /// The name of the body or the force that requests it.
     pub name: String,
     /// Why.
     pub why: Why,
-    /// The number of others that ask for the same in vain.
+    /// The number of others of the same kind that are not drawn either.
     pub others: usize,
 }
 
-/// The thing that is asked for.
+/// The requested thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asking {
     /// An arrow of a body.
@@ -48,21 +48,21 @@ pub enum Asking {
 /// Why something is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Why {
-    /// At its largest, it is so many pixels long or wide; `fit` is a value of its key with which it would be seen.
+    /// Its largest length or width is too few pixels. `fit` is a value of its key that would make it visible.
     TooSmall {
         /// Its length or width at most, pixels.
         pixels: f64,
         /// A value that would be visible, in the key's unit.
         fit: f64,
     },
-    /// Its tip is at no finite place from a time on, s.
+    /// Its tip becomes non-finite at some time.
     Lost {
         /// The time of the first frame, s.
         time: f64,
         /// A value that would be visible, in the key's unit. `None` if all of the run is lost.
         fit: Option<f64>,
     },
-    /// The body goes less far than half the width of its trail.
+    /// The path of the body is shorter than half the width of its trail.
     Wide {
         /// The length of its path.
         way: f64,
@@ -71,9 +71,9 @@ pub enum Why {
     },
     /// Nothing touches the body.
     Untouched,
-    /// The body stays where it is, or nearly so.
+    /// The body hardly moves.
     Still,
-    /// The body is gone before the first of its ghosts.
+    /// The body is gone before its first ghost.
     Gone,
     /// It is longer than the picture is wide.
     TooLong {
@@ -86,7 +86,7 @@ pub enum Why {
     NoRoom {
         /// Its radius.
         radius: f64,
-        /// A radius for which there is room; none if there is none at all.
+        /// A radius for which there is room, if any.
         fit: Option<f64>,
     },
 }
@@ -121,7 +121,7 @@ pub(super) fn find(
         let kind = Quantity::OF_LOADS.iter().position(|quantity| *quantity == arrow.quantity);
         let scale = kind.and_then(|kind| body.showing.loads[kind]?.scale);
         let why = match scale {
-            // Friction may be zero where something touches the body; the normal force is zero only where nothing does.
+            // Friction may be zero for a body in contact; the normal force is zero only without contact.
             _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Why::Untouched,
             Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < SHORTEST * pixel => {
                 let fit = round_down(LONGEST * view / arrow.longest);
@@ -155,7 +155,7 @@ pub(super) fn find(
             Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Why::Still,
             Some(_) => continue,
         };
-        // A fixed body has no ghosts, and needs none.
+        // A fixed body never has ghosts. That needs no warning.
         if !body.start.fixed {
             found.add(Asking::Ghosts, &body.name, why);
         }
@@ -178,7 +178,7 @@ pub(super) fn find(
     found.0
 }
 
-/// The findings, one for all of a kind.
+/// The findings, one of each kind.
 #[derive(Default)]
 struct Found(Vec<NotDrawn>);
 

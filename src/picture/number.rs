@@ -6,8 +6,7 @@ const POWERS: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Appends a finite number, rounded to so many significant digits (1 to 17), without trailing zeros. Zero has no
-/// sign.
+/// Appends a finite number, rounded to `digits` significant digits (1 to 17), without trailing zeros. Zero has no sign.
 pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     debug_assert!(number.is_finite(), "the emitter refuses numbers that are not finite");
     if number == 0.0 {
@@ -30,8 +29,8 @@ pub(crate) fn text(number: f64, digits: usize) -> String {
     out
 }
 
-/// The significant digits as a whole number, and the exponent of the first; `None` where the scaling to a whole
-/// number could round to the wrong side.
+/// The significant digits as a whole number, and the exponent of the first; `None` if the scaling might round to the
+/// wrong side.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -43,7 +42,7 @@ fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
     if digits > MOST_DIGITS || !(1e-9..1e15).contains(&magnitude) {
         return None;
     }
-    // log10(2) ≈ 1233 / 4096: the guess is right or one too large or small, and is put right below.
+    // log10(2) ≈ 1233 / 4096. The guess may be off by one and is corrected below.
     let binary_exponent = (magnitude.to_bits() >> 52) as i32 - 1023;
     let mut exponent = (binary_exponent * 1233) >> 12;
     let scale = |exponent: i32| {
@@ -69,7 +68,7 @@ fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
         return None;
     }
     let decimals = whole as u64 + u64::from(fraction > 0.5);
-    // Rounded up to the next power of ten, or the guess of the exponent was off by more: leave it to the exact way.
+    // Rounded up to the next power of ten, or a worse guess of the exponent: leave it to `exact`.
     let range = POWERS[digits - 1] as u64..POWERS[digits] as u64;
     range.contains(&decimals).then_some((decimals, exponent))
 }
@@ -83,7 +82,7 @@ fn exact(magnitude: f64, digits: usize) -> (u64, i32) {
     (decimals, exponent.parse().unwrap_or(0))
 }
 
-/// Writes digits with their point: plainly from 0.00001 to below 10^10, beyond with an exponent.
+/// Writes digits with their decimal point: in plain notation from 0.00001 to below 10^10, else with an exponent.
 fn layout(out: &mut String, mut decimals: u64, exponent: i32, digits: usize) {
     let mut buffer = [b'0'; 20];
     let mut length = digits;

@@ -7,19 +7,19 @@ use super::catenary::hanging;
 /// The number of straight pieces of a rope around a wheel.
 const PIECES: u32 = 10;
 
-/// A wheel is at most so many of its radii from the point over which the rope runs.
+/// A wheel is at most this many of its radii from its corner of the rope.
 const FARTHEST: f64 = 3.0;
 
-/// A rope from an end over one or two wheels to the other end.
+/// A rope from one end over one or two wheels to the other end.
 pub(super) struct Course {
     ends: [DVec3; 2],
-    /// The points over which it runs.
+    /// The corners over which it runs.
     over: [DVec3; 2],
-    /// Its turns around the wheels.
+    /// The arcs around the wheels.
     pub(super) turns: Vec<Turn>,
 }
 
-/// The turn of a rope around a wheel.
+/// The arc of a rope around a wheel.
 pub(super) struct Turn {
     /// The centre of the wheel, m.
     pub(super) centre: DVec3,
@@ -30,7 +30,7 @@ pub(super) struct Turn {
 }
 
 impl Course {
-    /// The course from the first point over the second and the third to the last, m. Two that are at one place have one wheel.
+    /// The course from the first point over two corners to the last point, m. Coinciding corners share one wheel.
     pub(super) fn new([from, first, second, to]: [DVec3; 4], radius: f64) -> Course {
         let turns = if first.distance(second) > 1e-9 * first.distance(from) {
             vec![Turn::new(from, first, second, radius), Turn::new(first, second, to, radius)]
@@ -40,12 +40,12 @@ impl Course {
         Course { ends: [from, to], over: [first, second], turns }
     }
 
-    /// The points of the rope, m. What there is too much of it hangs in both outer parts alike; the length counts the second of
-    /// them `ratio` times.
+    /// The points of the rope, m. Slack is shared equally by both outer parts. The length counts the second part
+    /// `ratio` times.
     pub(super) fn points(&self, length: f64, ratio: f64, down: Option<DVec3>) -> Vec<DVec3> {
         let [first, last] = [0, 1].map(|i| self.ends[i].distance(self.over[i]));
         let slack = 0.5 * (length - first - ratio * last).max(0.0);
-        // A rope that is taut but for rounding is straight.
+        // Slack from rounding is none.
         let slack = if slack > 1e-9 * length { slack } else { 0.0 };
         let part = |from: DVec3, to: DVec3, slack: f64| hanging([from, to], from.distance(to) + slack, down);
         let mut points = vec![self.ends[0]];
@@ -64,21 +64,21 @@ impl Course {
 }
 
 impl Turn {
-    /// The wheel of a radius that lies in the corner of a rope from `from` over `corner` to `to`, and touches both of its parts.
+    /// A wheel in the corner of a rope from `from` over `corner` to `to`, which touches both parts of the rope.
     fn new(from: DVec3, corner: DVec3, to: DVec3, radius: f64) -> Turn {
         let back = (from - corner).normalize_or(DVec3::NEG_Y);
         let on = (to - corner).normalize_or(DVec3::NEG_Y);
         let across = |way: DVec3| way.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
         let axis = back.cross(on).try_normalize().unwrap_or_else(|| across(back));
         let middle = (back + on).try_normalize();
-        // A rope that goes straight on lies on its wheel.
+        // A straight rope lies on its wheel.
         let inward = middle.unwrap_or_else(|| {
             let side = axis.cross(back);
             if side.y > 0.0 { -side } else { side }
         });
         let sine = inward.cross(back).length();
         let centre = corner + inward * (radius / sine.max(1.0 / FARTHEST));
-        // Angles about the axis, from the way inward on: the rope comes from below 0, and goes around the far side.
+        // Angles about the axis, from `inward`: the rope comes from below 0, and goes around the far side.
         let side = axis.cross(inward);
         let angle = |point: DVec3| {
             let way = point - centre;
@@ -96,7 +96,7 @@ impl Turn {
                 };
                 (0..=PIECES).map(at).collect()
             }
-            // An end within the wheel.
+            // An end lies within the wheel.
             _ => vec![corner],
         };
         Turn { centre, axis, points }

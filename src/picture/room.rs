@@ -1,4 +1,4 @@
-//! Which parts of a picture are taken, so that texts stand where there is room.
+//! Records which parts of a picture are taken, so that texts stand where there is room.
 
 use glam::DVec3;
 
@@ -25,8 +25,8 @@ struct Stripe {
     half: f64,
 }
 
-/// The occupied parts of a picture. Each cell of the picture lists the things that reach into it, so the search for a free part
-/// looks only at near ones.
+/// The taken parts of a picture. Each cell lists the things that reach into it, so the search for a free part looks
+/// only at nearby things.
 #[derive(Debug)]
 pub(super) struct Room {
     /// The height of the picture, as part of its width.
@@ -62,7 +62,7 @@ impl Cell {
 }
 
 impl Room {
-    /// A picture of which nothing is taken.
+    /// A picture with no space taken.
     pub(super) fn new(aspect: f64) -> Room {
         let (across, upward) = (CELLS, (CELLS * aspect).ceil().clamp(1.0, CELLS));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "both are 48 at most")]
@@ -79,12 +79,12 @@ impl Room {
         });
     }
 
-    /// Takes the part of the picture in which a text stands.
+    /// Takes the area of a text.
     pub(super) fn take_text(&mut self, text: &Text<'_>) {
         self.take(text.area(self.aspect));
     }
 
-    /// Whether a text is in the picture and nothing of its part is taken.
+    /// Whether a text is inside the picture, on free space.
     pub(super) fn has_room_for(&self, text: &Text<'_>) -> bool {
         self.is_free(text.area(self.aspect))
     }
@@ -94,7 +94,7 @@ impl Room {
         self.aspect
     }
 
-    /// Takes a line in the world, from one point to another and of a width, m, as it is seen on the plane of a camera.
+    /// Takes a line in the world, from one point to another with a width, m, as seen in the image plane.
     pub(super) fn cross(&mut self, ends: [DVec3; 2], width: f64, screen: &Screen) {
         if let [Some(from), Some(to)] = ends.map(|end| screen.spot(end)) {
             self.stripe([from.x, from.y], [to.x, to.y], width * to.metre);
@@ -111,7 +111,7 @@ impl Room {
         });
     }
 
-    /// Whether a part is in the picture and nothing of it is taken.
+    /// Whether a part is inside the picture and free.
     pub(super) fn is_free(&self, part: Rectangle) -> bool {
         let inside =
             part.left >= -1.0 && part.right <= 1.0 && part.bottom >= -self.aspect && part.top <= self.aspect;
@@ -123,7 +123,7 @@ impl Room {
         inside && !cells.any(is_taken)
     }
 
-    /// Does something with the cells, and their places, into which a part of the picture reaches.
+    /// Calls `work` with each cell that overlaps a part of the picture, and the cell's area.
     fn each_cell(&mut self, part: Rectangle, mut work: impl FnMut(&mut Cell, Rectangle)) {
         if self.cells.is_empty() {
             self.cells = vec![Cell::default(); self.across * self.upward];
@@ -134,7 +134,7 @@ impl Room {
         }
     }
 
-    /// The numbers of the cells into which a part of the picture reaches.
+    /// The indices of the cells that overlap a part of the picture.
     fn numbers(&self, part: Rectangle) -> impl Iterator<Item = usize> + use<> {
         let across = self.across;
         let columns = range([part.left, part.right], 1.0, across);
@@ -142,7 +142,7 @@ impl Room {
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 
-    /// The place of a cell.
+    /// The area of a cell.
     #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
     fn place(&self, number: usize) -> Rectangle {
         let (row, column) = (number / self.across, number % self.across);
@@ -156,8 +156,8 @@ impl Room {
     }
 }
 
-/// The numbers of the cells between two places, of so many between `-half` and `half`. One more on both sides makes up
-/// for rounding.
+/// The indices of the cells between two coordinates; `count` cells lie between `-half` and `half`. One more on both
+/// sides covers rounding.
 #[allow(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -178,7 +178,7 @@ impl Rectangle {
             && other.bottom < self.top
     }
 
-    /// The part of it within another part that it overlaps.
+    /// Its overlap with another part.
     fn within(self, other: Rectangle) -> Rectangle {
         Rectangle {
             left: self.left.max(other.left),
@@ -188,7 +188,7 @@ impl Rectangle {
         }
     }
 
-    /// Whether this part contains another one.
+    /// Whether it contains another part.
     fn covers(self, other: Rectangle) -> bool {
         self.left <= other.left
             && other.right <= self.right
@@ -198,7 +198,7 @@ impl Rectangle {
 }
 
 impl Stripe {
-    /// The part of the picture that it is in.
+    /// Its bounding box in the picture.
     fn bounds(self) -> Rectangle {
         let [low, high] =
             [f64::min, f64::max].map(|of| [0, 1].map(|axis| of(self.from[axis], self.to[axis])));
@@ -210,7 +210,7 @@ impl Stripe {
         }
     }
 
-    /// Whether some of it is in a rectangle: clips its middle line at the four edges (Liang and Barsky).
+    /// Whether it overlaps a rectangle: clips its middle line at the four edges (Liang and Barsky).
     fn meets(self, part: Rectangle) -> bool {
         let edges = [
             (self.from[0], self.to[0], part.left - self.half, part.right + self.half),

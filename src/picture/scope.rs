@@ -1,5 +1,5 @@
-//! The part of a run that an automatic camera frames: all of it; or, if the bodies would then be too small to be seen, the
-//! surroundings of the only body, or the start.
+//! Chooses the part of a run that an automatic camera frames. This is all of it or, if the bodies would then be too
+//! small, the surroundings of the only body, or the start.
 
 use super::camera::{Eye, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
@@ -7,22 +7,22 @@ use super::plan::reads_ground;
 use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
-/// The largest body is well seen if it is as wide as this part of the picture: 4 pixels of 1280.
+/// The largest body is visible enough at this part of the picture's width: 4 pixels of 1280.
 const LEAST: f64 = 0.0031;
-/// If the body would be smaller in the whole run, the camera frames only a part of the start, in which the body is this wide: 12
-/// pixels.
+/// If the body would be smaller in the whole run, the camera frames only so much of the start that the body is this
+/// wide: 12 pixels.
 const GOOD: f64 = 0.0094;
 
-/// A camera that goes along with a body shows it as wide as this part of the picture.
+/// A camera that follows a body shows it at this part of the picture's width.
 const ALONG: f64 = 0.05;
 
-/// An empty scene is framed like this.
+/// The bounds that are framed for an empty scene.
 const NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
 
 /// The part of a run that a camera frames.
 #[derive(Clone, Debug)]
 pub(super) struct Scope {
-    /// The camera, which goes along with the only body where it could not show it otherwise.
+    /// The camera. It follows the only body if that would be too small otherwise.
     pub(super) camera: Camera,
     /// The part of the run that is framed.
     pub(super) span: Span,
@@ -34,11 +34,11 @@ pub(super) struct Scope {
 /// The part of a run that a camera frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
-    /// All of it, or what the scene says.
+    /// All of it, or what the scene gives.
     Whole,
     /// Its start until this time, s.
     Start(f64),
-    /// The surroundings of the body of this number: the camera follows it.
+    /// The surroundings of the body with this number: the camera follows it.
     AroundBody(usize),
 }
 
@@ -83,13 +83,13 @@ impl Scope {
     }
 }
 
-/// The time by which all bodies have come that do in the run, s: a start that is framed is not over before.
+/// The time by which all bodies of the run have appeared, s. A framed start lasts at least until then.
 fn all_have_come(scene: &Scene) -> f64 {
     let come = scene.bodies.iter().filter_map(|body| body.presence.first_from(0.0));
     come.filter(|time| *time <= scene.simulation.end()).fold(0.0, f64::max)
 }
 
-/// The only body but planes, if the ground or a plane shows that it moves, and it is always there.
+/// The only body besides planes, if the ground or a plane shows that it moves, and it is always present.
 fn alone_over_ground(scene: &Scene) -> Option<usize> {
     let is_plane = |body: &usize| scene.bodies[*body].shape.is_unbounded();
     let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
@@ -101,8 +101,8 @@ fn alone_over_ground(scene: &Scene) -> Option<usize> {
     (has_ground || !planes.is_empty()).then_some(body)
 }
 
-/// As which part of the picture a body that is alone must be seen, or the camera goes along with it. A picture of a whole
-/// fall is empty beside it, unless ghosts are there.
+/// The least part of the picture that a lone body may take before the camera follows it. Without ghosts, a picture of a
+/// whole fall is empty apart from the body.
 fn least_alone(scene: &Scene, body: usize, whole: &Span) -> f64 {
     let extent = whole.moving.max - whole.moving.min;
     let is_fall = extent.y > 2.0 * extent.x.max(extent.z);
@@ -110,7 +110,7 @@ fn least_alone(scene: &Scene, body: usize, whole: &Span) -> f64 {
     if is_fall && !has_ghosts { GOOD } else { LEAST }
 }
 
-/// A camera that goes along with a body and sees a width of `view` (m); none where more is said of it.
+/// A camera that follows a body with a width in view of `view` (m); none if the scene moves or places the camera.
 fn along_with(body: usize, view: f64, camera: &Camera, scene: &Scene) -> Option<Camera> {
     let mut camera = camera.clone();
     if camera.look_at.is_some() || camera.motion.moves() {
@@ -125,15 +125,15 @@ fn along_with(body: usize, view: f64, camera: &Camera, scene: &Scene) -> Option<
     Some(camera)
 }
 
-/// Whether the whole picture follows from the motion. A trail shows where a body is, however small that is, so with
-/// trails all of the run is framed.
+/// Whether the scene leaves the whole picture to the motion. A trail shows even a tiny body, so with trails the whole
+/// run is framed.
 fn is_automatic(scene: &Scene, camera: &Camera) -> bool {
     let motion = &camera.motion;
     let is_placed = camera.location.is_some() || motion.location.is_some() || motion.follow.is_some();
     !is_placed && !scene.bodies.iter().any(|body| body.showing.trail.is_some())
 }
 
-/// The body that is drawn largest; none if there is no body but planes.
+/// The largest body as drawn; none if there are only planes.
 pub(super) fn largest(scene: &Scene) -> Option<&Body> {
     let sized = scene.bodies.iter().filter_map(|body| Some((half_width(body)?, body)));
     sized

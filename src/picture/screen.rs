@@ -1,12 +1,11 @@
-//! The plane before a camera on which texts stand: they face the viewer, are as large wherever they are, and nothing
-//! of the scene is in front of them.
+//! The image plane: texts on it face the viewer, have the same size everywhere, and nothing of the scene covers them.
 
 use glam::DVec3;
 
-/// The distance of the plane before the camera, as part of the distance to the point it looks at.
+/// The distance of the plane from the camera, as part of the distance to the camera's aim.
 const NEAR: f64 = 0.01;
 
-/// The plane before a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the
+/// The image plane of a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the
 /// same scale, and 0 in the middle.
 #[derive(Clone, Copy, Debug)]
 pub struct Screen {
@@ -22,20 +21,20 @@ pub struct Screen {
     slope: Option<f64>,
 }
 
-/// A place on the plane.
+/// A point on the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// How far to the right of the middle.
     pub x: f64,
     /// How far above the middle.
     pub y: f64,
-    /// How large a metre is there.
+    /// The length of a metre there.
     pub metre: f64,
 }
 
 impl Screen {
-    /// The plane of a camera at a location that looks at a point, and sees all that is within a slope, or a width of
-    /// parallel rays. `sharp` is the distance at which everything is sharp, if not everywhere: there the plane must be.
+    /// The plane of a camera at a location that looks at a point. Its view is limited by a slope or, for parallel rays,
+    /// a width. `sharp` is the distance of sharp focus with depth of field; the plane has to lie there.
     pub(super) fn new(
         location: DVec3,
         look_at: DVec3,
@@ -44,7 +43,7 @@ impl Screen {
         sharp: Option<DVec3>,
     ) -> Screen {
         let back = (location - look_at).normalize_or(DVec3::Z);
-        // As [`Placed`](super::Placed) says which way is up when it looks straight down.
+        // The same rule for a vertical camera as in [`Placed`](super::Placed).
         let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
         let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
         let depth = match sharp {
@@ -55,17 +54,17 @@ impl Screen {
         Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }
     }
 
-    /// The point of the world that is in the middle of the plane, m.
+    /// The point of the world in the middle of the plane, m.
     pub fn middle(&self) -> DVec3 {
         self.location - self.back * self.depth
     }
 
-    /// What 1 to the right, up, and towards the viewer on the plane is in the world, m.
+    /// The vectors in the world of the plane's units to the right, up, and towards the viewer, m.
     pub fn axes(&self) -> [DVec3; 3] {
         [self.right * self.half, self.up * self.half, self.back * self.half]
     }
 
-    /// Where on the plane a point of the world is seen; none if it is not before the camera.
+    /// The image of a point of the world; none if the point is not in front of the camera.
     pub fn spot(&self, point: DVec3) -> Option<Spot> {
         let offset = point - self.location;
         let depth = -offset.dot(self.back);
@@ -78,8 +77,8 @@ impl Screen {
         (depth > 0.0 && spot.x.is_finite() && spot.y.is_finite()).then_some(spot)
     }
 
-    /// The ray through a place on the plane: a point of it, m, and its direction, of which the part straight away from
-    /// the viewer is 1.
+    /// The ray through a point on the plane: its origin, m, and its direction, whose component away from the viewer is
+    /// 1.
     pub(super) fn ray(&self, x: f64, y: f64) -> (DVec3, DVec3) {
         let aside = self.right * x + self.up * y;
         match self.slope {
@@ -88,12 +87,12 @@ impl Screen {
         }
     }
 
-    /// The direction in the world that is up in the picture.
+    /// The direction in the world that points up in the picture.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// The direction in the world that is right in the picture.
+    /// The direction in the world that points right in the picture.
     pub fn right(&self) -> DVec3 {
         self.right
     }

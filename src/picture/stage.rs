@@ -1,4 +1,4 @@
-//! What surrounds the bodies: ground, sky and haze, each as given or as it follows from the motion.
+//! The surroundings of the bodies: ground, sky and haze, as given or chosen to fit the motion.
 
 use glam::DVec3;
 
@@ -8,14 +8,14 @@ use super::scope::Part;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
 
-/// What surrounds the bodies. Lengths are in metres.
+/// The surroundings of the bodies. Lengths are in metres.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// The diagonal of the box in which everything takes place.
+    /// The diagonal of the box that contains the motion.
     pub size: f64,
     /// The middle of that box.
     pub center: DVec3,
-    /// The ground, if one is seen.
+    /// The ground, if it is visible.
     pub ground: Option<StageGround>,
     /// The edge of a tile of a checkered plane.
     pub tile: f64,
@@ -23,19 +23,19 @@ pub struct Stage {
     pub tiles_fade: f64,
     /// The distance from the middle over which ground and checkered planes fade into the horizon.
     pub fade: f64,
-    /// The surroundings, where nothing else is given.
+    /// The preset for everything not given.
     pub preset: Preset,
-    /// The ambient light, linear; none: as materials expect it.
+    /// The ambient light, linear; none for the materials' default.
     pub ambient: Option<[f64; 3]>,
-    /// The color of a plain sky; none is the usual sky of the preset.
+    /// The color of a plain sky; none for the sky of the preset.
     pub sky: Option<Color>,
-    /// Whether there is nothing behind the bodies.
+    /// Whether the background is transparent.
     pub transparent: bool,
     /// Whether the ground fades into haze.
     pub fog: bool,
-    /// Where everything takes place, for what is measured there.
+    /// The extent of the motion, and the sizes that follow from it.
     pub scenery: Scenery,
-    /// The box of the whole run, not rounded, also where the camera frames only its start.
+    /// The box of the whole run, not rounded, even if the camera frames only the start.
     pub whole: Bounds,
 }
 
@@ -50,40 +50,40 @@ pub struct StageGround {
     pub tiles_fade: f64,
 }
 
-/// Where everything takes place, in metres.
+/// The extent of the motion and the sizes that follow from it, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scenery {
-    /// The box in which everything takes place, not rounded.
+    /// The box that contains the framed motion, not rounded.
     pub bounds: Bounds,
     /// The height of the ground, or where it would be.
     pub ground: f64,
     /// The edge of one of its tiles.
     pub tile: f64,
-    /// The edge of a tile where none is given.
+    /// The default edge of a tile.
     pub usual_tile: f64,
-    /// The distance between the lines of a grid where none is given.
+    /// The default distance between grid lines.
     pub spacing: f64,
-    /// The size of what is seen, m: of the motion, and of the air below it where the camera frames only a part of a fall.
+    /// The size of the visible scene, m: of the motion and, if the camera frames part of a fall, of the air below.
     pub size: f64,
 }
 
 impl Scenery {
-    /// What is measured where a camera frames the bounds `framed` and sees a width of `view` (m). The whole run takes
-    /// place within `whole`, of which `framed` may be only a part.
+    /// The sizes for a camera that frames the bounds `framed` and sees a width of `view` (m). `framed` may be only a
+    /// part of `whole`, the bounds of the run.
     pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, part: Part) -> Scenery {
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
-        // A camera that goes along with a body is nearly always high above the ground, and looks far.
+        // A camera that follows a body is nearly always high above the ground, and sees far.
         let (depth, far) = match part {
             Part::Whole => (0.0, 1.0),
             Part::Start(_) => (deep(), 1.0),
             Part::AroundBody(_) => (deep(), 2.0),
         };
         let size = far * framed_size.max(depth);
-        // A camera near to a long motion sees little of it: then tiles are as large as fits its picture.
+        // A camera close to a long motion sees little of it. Then the tiles fit its picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));
         let given_tile = around.and_then(|ground| ground.tile).or(ruled_tile(scene, usual_tile));
@@ -98,13 +98,13 @@ impl Scenery {
     }
 }
 
-/// The spacing of a grid on the ground, whose lines are to be the edges of tiles, if it is fit for that.
+/// The spacing of a grid on the ground, if tiles of that size would do. Its lines then lie on the edges of tiles.
 fn ruled_tile(scene: &Scene, usual: f64) -> Option<f64> {
     let spacing = scene.grid.filter(|grid| grid.plane == GridPlane::Ground)?.spacing?;
     (0.1 * usual..10.0 * usual).contains(&spacing).then_some(spacing)
 }
 
-/// The width of a line that is well seen in a picture that shows a width of `view`, m.
+/// The width of a clearly visible line in a picture `view` wide, m.
 pub(super) fn stroke(view: f64, output: Output) -> f64 {
     STROKE.max(LEAST_STROKE / f64::from(output.width)) * view
 }
@@ -114,13 +114,13 @@ fn size(bounds: Bounds) -> f64 {
     two_digits_up(framing::rounded_outward(bounds).diagonal())
 }
 
-/// The width of lines, as part of the picture's: four pixels of 1280.
+/// The width of lines, as part of the picture's width: four pixels of 1280.
 const STROKE: f64 = 0.0031;
 /// The least width of lines, pixels.
 const LEAST_STROKE: f64 = 1.5;
 
 impl Stage {
-    /// The surroundings of a scene that a camera sees, whose whole run takes place within bounds.
+    /// The surroundings of a scene for a camera. `whole` contains the whole run.
     pub(super) fn new(scene: &Scene, scenery: Scenery, whole: Bounds, camera: &Placed) -> Stage {
         let bounds = framing::rounded_outward(scenery.bounds);
         let (center, size, far) = (bounds.middle(), size(scenery.bounds), scenery.size);
@@ -129,7 +129,7 @@ impl Stage {
         let ground = around.filter(|_| !scene.output.transparent).map(|_| StageGround {
             height: scenery.ground,
             tile: scenery.tile,
-            // Tiles that are given may be larger than all that moves.
+            // Given tiles may be larger than the whole motion.
             tiles_fade: (4.5 * far).max(38.0 * scenery.tile),
         });
         Stage {
@@ -138,7 +138,7 @@ impl Stage {
             ground,
             tile: scenery.usual_tile,
             tiles_fade: 4.5 * far,
-            // From far away, more of the ground is to be seen.
+            // From far away, more of the ground is visible.
             fade: 11.0 * far.max(distance / 2.0),
             preset: scene.environment.preset,
             ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
@@ -154,12 +154,11 @@ impl Stage {
     }
 }
 
-/// The ambient light, linear: that of the preset, or what a plain sky sends.
+/// The ambient light, linear: of the preset, or from a plain sky.
 fn ambient(environment: &Environment) -> [f64; 3] {
     match environment.sky {
         Sky::Gradient => environment.preset.ambient(),
-        // A plain sky of a light gray is as bright as the usual one. A little is left below a black one, since no
-        // place is quite without light.
+        // A light gray plain sky is as bright as the usual one. Even a black sky leaves a little light.
         Sky::Plain(color) => color.linear().map(|c| (0.03 + 1.6 * c).min(1.0)),
     }
 }

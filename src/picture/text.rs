@@ -1,4 +1,4 @@
-//! A text in the picture, and where it stands.
+//! A text in the picture, and its position.
 
 use std::borrow::Cow;
 
@@ -12,28 +12,28 @@ pub(super) const MARGIN: f64 = 0.035;
 const ABOVE: f64 = 0.75;
 const BELOW: f64 = 0.25;
 
-/// A line of text on the plane before the camera, whose x goes from -1 at the left edge of the picture to 1 at the
-/// right one. Its y has the same scale.
+/// A line of text in the image plane. There, x goes from -1 at the left edge of the picture to 1 at the right one. Its
+/// y has the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text<'a> {
     /// The source of the text: the name of the label, `grid`, or `scale bar`.
     pub name: &'a str,
-    /// What it says.
+    /// The words.
     pub says: Cow<'a, str>,
-    /// Where it stands across the picture.
+    /// Its horizontal position.
     pub x: f64,
-    /// Where its base line is.
+    /// The height of its base line.
     pub y: Vertical,
     /// The height of a line.
     pub height: f64,
-    /// Which part of it stands at its place: 0 if it begins there, 0.5 if its middle is there, 1 if it ends there.
+    /// The part of the text that is at `x`: 0 for its start, 0.5 for its middle, 1 for its end.
     pub align: f64,
     /// Its color.
     pub color: Color,
 }
 
 impl Text<'_> {
-    /// The part of the picture that it takes, whose height is a part of its width.
+    /// Its area in a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
         let wide = width(&self.says, self.height);
         let (left, base) = (self.x - self.align * wide, self.y.above_middle(aspect));
@@ -46,8 +46,7 @@ impl Text<'_> {
     }
 }
 
-/// A height in the picture, whose width is 2. The upper and the lower edge are those of the image that is made, whatever
-/// its shape.
+/// A height in a picture 2 wide. The upper and lower edges are those of the final image, whatever its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Vertical {
     /// Above the middle.
@@ -59,7 +58,7 @@ pub enum Vertical {
 }
 
 impl Vertical {
-    /// The height above the middle, in a picture that is so many times as high as it is wide.
+    /// The height above the middle, in a picture with the given ratio of height to width.
     pub fn above_middle(self, aspect: f64) -> f64 {
         match self {
             Vertical::Middle(height) => height,
@@ -68,7 +67,7 @@ impl Vertical {
         }
     }
 
-    /// A height that is higher by so much.
+    /// A height raised by a distance.
     #[must_use]
     pub fn raised(self, by: f64) -> Vertical {
         match self {
@@ -79,12 +78,12 @@ impl Vertical {
     }
 }
 
-/// The height of a line of text that is so many pixels high in an image, on the screen.
+/// The height on the screen of a text line that is `pixels` high in the image.
 pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }
 
-/// About how wide a text is on the screen in lines of a height: the advance widths of Times, rounded.
+/// The approximate width of a text on the screen for a line height: the advance widths of Times, rounded.
 pub(super) fn width(says: &str, height: f64) -> f64 {
     let em = |letter: char| match letter {
         'i' | 'j' | 'l' | 't' | 'f' | '\'' | '|' | '.' | ',' | ':' | ';' | ' ' => 0.27,
@@ -97,7 +96,7 @@ pub(super) fn width(says: &str, height: f64) -> f64 {
     height * says.chars().map(em).sum::<f64>()
 }
 
-/// Where a text in a corner stands across the picture, and which part of it is there.
+/// The horizontal position of a text in a corner, and its alignment.
 pub(super) fn across(corner: Corner) -> (f64, f64) {
     match corner {
         Corner::TopLeft | Corner::BottomLeft => (MARGIN - 1.0, 0.0),

@@ -1,4 +1,4 @@
-//! Lines along the ways of bodies.
+//! Lines along the paths of bodies.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,16 +11,16 @@ use crate::simulate::{Frame, Passed, Way};
 
 /// The color of the trail of a body that has no single color.
 const AMBER: Color = Color([0.93, 0.55, 0.08]);
-/// A trail bends by less than this from one piece to the next, radians, where pieces are long enough to be seen.
+/// The largest bend between visible pieces of a trail, radians.
 const BEND: f64 = 0.06;
-/// The most pieces from one point of the way to the next.
+/// The most pieces from one point of the path to the next.
 const MOST_PIECES: f64 = 16.0;
 
-/// The width of a trail is so many times what can be told apart in it, at least. A trail is some pixels wide.
+/// A trail is at least this many times as wide as the smallest visible distance. A trail is some pixels wide.
 const FINEST: f64 = 50.0;
 /// The number of pieces in a stretch. A piece goes from one kept frame to the next.
 const STRETCH: usize = 32;
-/// The number of stretches of a trail that are remembered: twice the most that one frame has.
+/// The number of stretches of a trail in the cache: twice the most in one frame.
 const REMEMBERED: usize = 32;
 
 /// The trail of a body up to a moment.
@@ -30,22 +30,22 @@ pub struct Trail {
     pub body: usize,
     /// The points of the line, m, the oldest first: two at least.
     pub points: Vec<DVec3>,
-    /// The stretches of the line that are the same in all frames that have them, in order.
+    /// The stretches of the line, in order. Each is the same in all frames that contain it.
     pub stretches: Vec<Stretch>,
-    /// The largest coordinate of its points, without its sign, m.
+    /// The largest coordinate of its points by magnitude, m.
     pub reach: f64,
     /// Half its width, m.
     pub radius: f64,
-    /// What is nearer than this cannot be told apart in the picture, m.
+    /// Smaller distances than this are invisible, m.
     pub fineness: f64,
-    /// Whether it becomes thin towards its end.
+    /// Whether it tapers towards its end.
     pub tapers: bool,
     /// Its color.
     pub color: Color,
 }
 
-/// A part of a trail that a body has left behind: its points are the same bits in all later frames, however thick the
-/// trail is in each. `stride` and `number` name it among the stretches of its body.
+/// A finished part of a trail. Its points are bit-identical in all later frames, whatever the width of the trail.
+/// `stride` and `number` identify it among the stretches of its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stretch {
     /// Every so many frames a point of the way is kept.
@@ -59,7 +59,7 @@ pub struct Stretch {
 }
 
 impl Trail {
-    /// The same, as wide as a stroke (m) if no width is given.
+    /// The same trail, as wide as a stroke (m) unless it has a width.
     fn of_width(self, stroke: f64) -> Trail {
         let radius = if self.radius > 0.0 { self.radius } else { stroke / 2.0 };
         Trail { radius, ..self }
@@ -86,19 +86,19 @@ pub(super) struct Trails {
 struct Planned {
     /// The trail without points. Its radius is 0 if no width is given.
     trail: Trail,
-    /// The least distance between its points, m. It is the same in all frames, so that stretches are.
+    /// The least distance between its points, m. It is the same in all frames, which makes stretches reusable.
     least: f64,
     stretches: Arc<Remembered>,
 }
 
-/// The points of the stretches of a trail that were made last. A frame has nearly the same stretches as the one before,
-/// so making them anew for each would be most of the work.
+/// A cache of a trail's latest stretches, with points. Consecutive frames share nearly all stretches, and making them
+/// is most of the work.
 #[derive(Debug, Default)]
 struct Remembered {
     made: Mutex<VecDeque<Made>>,
 }
 
-/// A stretch with its points, named by its stride and number.
+/// A stretch with its points, identified by its stride and number.
 #[derive(Clone, Debug)]
 struct Made {
     stride: usize,
@@ -106,7 +106,7 @@ struct Made {
     part: Part,
 }
 
-/// The points of a part of a line, and the largest of their coordinates, m: infinite if one is no number.
+/// The points of a part of a line, and the largest of their coordinates, m: infinite if one is not finite.
 #[derive(Clone, Debug)]
 struct Part {
     points: Arc<[DVec3]>,
@@ -121,7 +121,7 @@ impl Part {
 }
 
 impl Remembered {
-    /// The stretch of a stride and a number, which is made if it is not remembered.
+    /// The stretch of a stride and a number, from the cache or made now.
     fn part(&self, (stride, number): (usize, usize), make: impl FnOnce() -> Part) -> Part {
         let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let is_it = |made: &&Made| (made.stride, made.number) == (stride, number);
@@ -139,7 +139,7 @@ impl Remembered {
 }
 
 impl Trails {
-    /// The trails of a scene. The narrowest stroke of the run (m) decides how fine those without a width are.
+    /// The trails of a scene. The narrowest stroke of the run (m) sets the fineness of trails without a width.
     pub(super) fn new(scene: &Scene, narrowest: f64) -> Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
@@ -162,7 +162,7 @@ impl Trails {
         Trails { trails }
     }
 
-    /// All that are asked for, without points. Those without a width are as wide as a stroke, m.
+    /// All requested trails, without points. Those without a width are as wide as a stroke, m.
     pub(super) fn planned(&self, stroke: f64) -> impl Iterator<Item = Trail> {
         self.trails.iter().map(move |planned| planned.trail.clone().of_width(stroke))
     }
@@ -180,19 +180,19 @@ impl Trails {
     }
 }
 
-/// The points of a line along a way.
+/// The points of a line along a path.
 struct Line {
     points: Vec<DVec3>,
     stretches: Vec<Stretch>,
-    /// The largest of the coordinates, m: infinite if one is no number.
+    /// The largest of the coordinates, m: infinite if one is not finite.
     reach: f64,
     /// The least distance from one point to the next, m.
     least: f64,
 }
 
 impl Line {
-    /// The line along a way whose points are no nearer to each other than given, m. So the points of a stretch follow
-    /// from its own part of the way alone.
+    /// The line along a path, with points at least a given distance apart, m. Thus the points of a stretch depend only
+    /// on its own part of the path.
     fn along(way: &Way, least: f64, remembered: &Remembered) -> Line {
         let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
         let mut rest = way.points.as_slice();
@@ -208,7 +208,7 @@ impl Line {
             line.reach = line.reach.max(reach);
             match number {
                 Some(number) if points.len() > 1 => {
-                    // Where two points coincide, the first one ends the previous stretch.
+                    // If two points coincide, the first ends the previous stretch.
                     if line.points.last() == points.first() {
                         line.points.pop();
                     }
@@ -228,7 +228,7 @@ impl Line {
         line
     }
 
-    /// Appends a point that is far enough from the last.
+    /// Appends a point unless it is too near to the last.
     fn put(&mut self, point: DVec3) {
         if self.points.last().is_none_or(|last| last.distance(point) > self.least) {
             self.points.push(point);
@@ -236,8 +236,8 @@ impl Line {
     }
 }
 
-/// The number of the stretch that the first of some points begins, if all its points are there, and how many pieces it has: at impacts,
-/// there are points beside those of frames.
+/// If a whole stretch begins at the first of some points: its number, and its count of pieces. Impacts add points
+/// between those of frames.
 fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
     let frames = stride * STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
@@ -246,15 +246,15 @@ fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
     (frame == begin + frames).then_some((begin / frames, end))
 }
 
-/// How many pieces there are until a stretch may begin, or the way ends: one at least.
+/// The count of pieces until a stretch may begin or the path ends: at least one.
 fn until_stretch(points: &[Passed], stride: usize) -> usize {
     let begins = |point: &Passed| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
     let next = points.iter().skip(1).position(begins);
     next.map_or(points.len() - 1, |next| next + 1)
 }
 
-/// The points of the line along a part of a way, no nearer to each other than given; its ends are among them, unless all
-/// of it is nearer.
+/// The points of the line along a part of a path, at least `least` apart. Both ends are included unless the whole part
+/// is shorter.
 fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
     let mut line: Vec<DVec3> = way.first().map(|point| point.location).into_iter().collect();
     let mut put = |point: DVec3| {
@@ -272,7 +272,7 @@ fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
             piece += 1.0;
         }
     }
-    // The next part begins at the end of this one, so that is where the line ends.
+    // The line ends where the next part begins.
     if let Some(end) = way.last().map(|point| point.location) {
         let is_near = |point: &DVec3| point.distance(end) <= least;
         while line.len() > 1 && line.last().is_some_and(is_near) {

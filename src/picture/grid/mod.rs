@@ -14,23 +14,23 @@ use crate::simulate::{Bounds, anchors};
 
 pub(super) use self::numbers::Ruled;
 
-/// The height of the numbers at rulers, as part of the picture's height.
+/// The height of the numbers at grid lines, as part of the picture's height.
 pub(super) const SIZE: f64 = 0.045;
 /// The least height of these numbers, pixels.
 pub(super) const LEAST_PIXELS: f64 = 11.0;
-/// The most lines of the grid, each way.
+/// The most lines of the grid in each direction.
 const MOST_LINES: f64 = 400.0;
 /// The radius of a line, in strokes.
 const RADIUS: f64 = 0.22;
-/// The least radius of a line, pixels: thinner lines break up.
+/// The least radius of a line, pixels: thinner lines look broken.
 const LEAST_RADIUS: f64 = 0.6;
-/// How far a grid reaches each way from the point that a moving camera looks at, in widths of the picture.
+/// How far a grid reaches in each direction from the aim of a moving camera, in widths of the picture.
 const WINDOW: f64 = 1.5;
 
 /// The lines of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// The lines, first those that are crossed by the axis to the right.
+    /// The lines, first those that cross the axis to the right.
     pub lines: Vec<Line>,
     /// Their color.
     pub color: Color,
@@ -47,7 +47,7 @@ pub struct Line {
     pub radius: f64,
 }
 
-/// The data of a grid before its picture: its plane and its extent.
+/// A grid before it is laid out for a camera: its plane and its extent.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     plane: GridPlane,
@@ -72,7 +72,7 @@ pub(super) struct Ruler {
 }
 
 impl Ruler {
-    /// The grid of a scene. A camera that moves sees only a width of `part` (m) of it.
+    /// The grid of a scene. `part` is the width in view of a moving camera, m.
     pub(super) fn new(
         scene: &Scene,
         grid: scene::Grid,
@@ -112,7 +112,7 @@ impl Ruler {
         }
     }
 
-    /// The spacing that the scene gives and the one that is drawn, m, if the first would make too many lines.
+    /// The spacing that the scene gives and the drawn one, m, if the first would make too many lines.
     pub(super) fn too_fine(&self) -> Option<(f64, f64)> {
         self.too_fine.map(|given| (given, self.spacing))
     }
@@ -126,7 +126,7 @@ impl Ruler {
         Bounds { min, max }
     }
 
-    /// A point of an upright grid, or the one above it where the ground ends.
+    /// Lifts a point of an upright grid to the ground.
     fn above_floor(&self, point: DVec3) -> DVec3 {
         match self.plane {
             GridPlane::Ground => point,
@@ -134,7 +134,7 @@ impl Ruler {
         }
     }
 
-    /// The axes that span the plane, and a point of it. It stays where it is along the third: just before ground or air.
+    /// The axes that span the plane, and a point of it, slightly off the ground so that both are seen.
     fn axes(&self) -> (DVec3, DVec3, DVec3) {
         match self.plane {
             GridPlane::Ground => (DVec3::X, DVec3::Z, DVec3::Y * self.ground),
@@ -142,19 +142,20 @@ impl Ruler {
         }
     }
 
-    /// The whole grid with its numbers, in a picture where a stroke is so wide and the camera sees a width of `view`, m.
+    /// The whole grid with its numbers, for a stroke width and a width in view, m.
     pub(super) fn whole(&self, stroke: f64, view: f64) -> Ruled {
         self.rule(self.low, self.high, stroke, view)
     }
 
-    /// The part of the grid that a camera sees that moves: its lines leave the picture on all sides.
+    /// The part of the grid around the view of a moving camera. Its lines leave the picture on all sides.
     pub(super) fn seen_by(&self, camera: &Placed, stroke: f64, view: f64) -> Ruled {
         let (first, second, place) = self.axes();
         let (look_at, normal) = (camera.look_at(), first.cross(second));
         let screen = camera.screen();
         let window = DVec3::splat(WINDOW * view);
         let far = 2.0 * window.x + camera.location().distance(look_at);
-        // The points of the plane in the corners of the picture; where it is not to be seen there, some that are far.
+        // The points of the plane in the corners of the picture, or distant ones where the plane is out of
+        // sight.
         let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]].map(|[x, y]| {
             let (origin, direction) = screen.ray(x, y * self.aspect);
             let away = (place - origin).dot(normal) / direction.dot(normal);
@@ -177,7 +178,7 @@ impl Ruler {
         let (a0, a1) = (low.dot(first), high.dot(first));
         let (b0, b1) = (low.dot(second), high.dot(second));
         let is_hidden = |b: f64| self.plane == GridPlane::Wall && b * spacing < self.floor;
-        // Numbers stand at the near end of lines, or at the lower one.
+        // Numbers stand at the near end of lines on the ground, and at the lower end on a wall.
         let (near, far) = if self.plane == GridPlane::Ground { (b1, b0) } else { (b0, b1) };
         let across = marks(a0, a1).map(|a| (a, [corner(a, near), corner(a, far)]));
         let along = marks(b0, b1).filter(|b| !is_hidden(*b)).map(|b| (b, [corner(a0, b), corner(a1, b)]));
@@ -191,7 +192,7 @@ impl Ruler {
             let number = |&(line, ends): &(f64, _)| Number { line, says: value(line * spacing / unit), ends };
             lines.iter().map(number).collect::<Vec<_>>()
         };
-        // From the first to the last that is named: on the ground, the last is the far one.
+        // In the order of the labels: the last line along the ground is the far one.
         let (beside, name, along) = match self.plane {
             GridPlane::Ground => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
             GridPlane::Wall => (Beside::Left, "y", along.clone()),
@@ -211,13 +212,13 @@ impl Ruler {
     }
 }
 
-/// The first and the last lines of a grid that is drawn where everything takes place.
+/// The first and the last line of a grid that covers the whole motion.
 fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DVec3) {
-    // Bodies may reach out a little; and where 0 is near, it is there.
+    // Bodies may reach out a little. The grid includes 0 if it is near.
     let (low, high) = ((bounds.min / spacing + 0.3).floor(), (bounds.max / spacing - 0.3).ceil());
     let mut low = DVec3::select(low.cmpgt(DVec3::ZERO) & low.cmple(0.3 * high), DVec3::ZERO, low);
     let mut high = high.max(low + 1.0);
-    // Motion along a line needs a plane to be seen in: at least 0.4 times as wide as long.
+    // Motion along a line gets a plane at least 0.4 times as wide as long.
     let widen = |low: &mut f64, high: &mut f64, least: f64| {
         let lacking = (least - (*high - *low)).max(0.0);
         *low -= (lacking / 2.0).ceil();
@@ -234,14 +235,14 @@ fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DV
     (low, high)
 }
 
-/// The whole numbers from `low` to `high`. They are counted: far from 0, the sum of a number and 1 is that number.
+/// The whole numbers from `low` to `high`, by a counter: far from 0, adding 1 to a number may not change it.
 fn marks(low: f64, high: f64) -> impl Iterator<Item = f64> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what is too large is cut")]
     let last = (high - low).min(MOST_LINES) as u32;
     (0..=last).map(move |number| low + f64::from(number)).filter(move |mark| *mark <= high)
 }
 
-/// The color of the lines of a grid: seen, and no more than that.
+/// The color of the lines of a grid: just visible.
 fn line_color(scene: &Scene) -> Color {
     match scene.environment.preset {
         _ if scene.environment.is_dark() => Color([0.34, 0.38, 0.43]),

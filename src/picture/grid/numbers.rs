@@ -1,4 +1,4 @@
-//! The numbers of a grid and the names of its axes, on the plane before a camera.
+//! The numbers of a grid and the names of its axes, in the image plane.
 
 use glam::DVec3;
 
@@ -8,9 +8,9 @@ use super::super::text::{MARGIN, Text, Vertical, width};
 use super::Grid;
 use crate::scene::Color;
 
-/// Numbers stand at every line, every second, every fifth and so on, as there is room.
+/// Every line has a number, or every second, every fifth and so on, as there is room.
 const STEPS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
-/// A line whose end is outside the picture is looked at in so many points for one that is in it.
+/// The number of points at which a line with an end outside the picture is searched for one inside.
 const POINTS: u32 = 48;
 
 /// A grid with its numbers.
@@ -43,18 +43,18 @@ pub(super) struct Number {
     /// Which line it is, counted from the origin.
     pub(super) line: f64,
     pub(super) says: String,
-    /// The ends of the line, m; at the first, the number stands.
+    /// The ends of the line, m. The number stands at the first.
     pub(super) ends: [DVec3; 2],
 }
 
-/// The place of the numbers at the ends of their lines.
+/// The position of numbers relative to the ends of their lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Beside {
-    /// Below, and the name of the axis behind the last.
+    /// Below; the axis name is to the right of the last number.
     Below,
-    /// To the left, and the name of the axis above the last.
+    /// To the left; the axis name is above the last number.
     Left,
-    /// To the left, and the name of the axis in the place of the last.
+    /// To the left; the axis name replaces the last number.
     LeftOnGround,
 }
 
@@ -64,7 +64,7 @@ pub(in super::super) struct Written {
     pub(in super::super) numbers: Vec<Text<'static>>,
 }
 
-/// A text that has its place, without its color: its base line begins at x; how wide it is.
+/// A text with a position but no color: its base line begins at x.
 struct Placed {
     line: f64,
     says: String,
@@ -81,8 +81,8 @@ impl Ruled {
         &self.grid
     }
 
-    /// The numbers and names as they stand on the plane before a camera, where there is room for them. They keep off
-    /// coils, but a name stands on one rather than nowhere.
+    /// The numbers and names in the image plane, where there is room. They keep off coils, except for a name
+    /// with no other free position.
     pub(in super::super) fn written(&self, screen: &Screen, room: &Room, coils: &Room) -> Written {
         let lines = self.axes.each_ref().map(|axis| self.in_picture(axis, screen));
         let mut titles: Vec<Placed> = Vec::new();
@@ -110,12 +110,12 @@ impl Ruled {
         Written { titles: texts(titles), numbers: texts(placed) }
     }
 
-    /// The numbers of an axis that are in the picture.
+    /// The visible numbers of an axis.
     fn in_picture(&self, axis: &Axis, screen: &Screen) -> Vec<Placed> {
         axis.numbers.iter().filter_map(|number| self.place(number, axis.beside, screen)).collect()
     }
 
-    /// The place of a number: at the end of its line, or where the line comes into the picture if its end is outside.
+    /// The position of a number: the end of its line, or the point where the line enters the picture.
     fn place(&self, number: &Number, beside: Beside, screen: &Screen) -> Option<Placed> {
         let [begin, end] = number.ends;
         let at = |part: f64| self.at(number, begin.lerp(end, part), beside, screen);
@@ -130,7 +130,7 @@ impl Ruled {
             let middle = (outside + inside) / 2.0;
             if is_in(middle).is_some() { inside = middle } else { outside = middle }
         }
-        // Numbers come in over their own edge of the picture alone, or both axes would stand at one edge.
+        // Numbers enter over their own edge only, or both axes would stand at one edge.
         let over = at(outside);
         let own = over.is_none_or(|text| match beside {
             Beside::Below => text.y <= self.lowest(),
@@ -154,8 +154,8 @@ impl Ruled {
         Placed { line, says, x, y, align, middle: x + (1.0 - 2.0 * align) * half, half }
     }
 
-    /// The name of an axis: behind or above its last number, or in the place of one, as near to the last as there is
-    /// room, on no coil if that is possible.
+    /// The name of an axis: next to its last number or, if there is no room, in the place of one as near to
+    /// the last as possible, and off coils if possible.
     fn title(
         &self,
         axis: &Axis,
@@ -173,7 +173,7 @@ impl Ruled {
             Beside::Left => Some(title((last.x + 0.4 * height, last.y + height), 0.5)),
             Beside::LeftOnGround => None,
         };
-        // In the place of the only one, it would leave no number.
+        // Replacing the only number would leave none.
         let behind = title((last.middle + last.half + 0.6 * height, last.y), 0.0);
         let behind = (numbers.len() == 1 && axis.beside != Beside::Below).then_some(behind);
         let instead = numbers.iter().skip(1).rev().map(|number| match axis.beside {
@@ -183,7 +183,7 @@ impl Ruled {
         let is_free = |text: &Placed| {
             room.is_free(self.area(text)) && !others.iter().any(|other| self.collide(other, text))
         };
-        // Moved to the edge, it would stand on the number that it is to stand behind.
+        // At the edge, the name would cover the number that it follows.
         let beyond = beyond.filter(|text| !self.collide(text, last));
         let mut free = beyond.into_iter().chain(behind).chain(instead).filter(is_free);
         let off_coils = |text: &Placed| coils.is_free(self.area(text));

@@ -9,7 +9,7 @@ use crate::dynamics::BodySnapshot;
 use crate::scene::Side;
 
 impl Labels {
-    /// The place of a body or a ghost in the picture, and the part that it covers. A plane covers nothing.
+    /// The position of a body or a ghost in the picture, and the area that it covers. A plane covers nothing.
     pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
         let shape = self.bodies[at.id].drawn();
         let spot = screen.spot(at.location)?;
@@ -24,9 +24,9 @@ impl Labels {
         Some((spot, area))
     }
 
-    /// A label beside a body, if the body is in the picture. It stays inside the picture; and it stands on another side
-    /// or farther away where it would lie on an arrow or on another text; and on another side where it would lie on
-    /// another body, if it can stay near.
+    /// A label beside a body, if the body is in the picture. The label stays inside the picture. It moves to
+    /// another side or farther away if it would cover an arrow or a text, and to another near side if it
+    /// would cover another body.
     pub(super) fn beside<'a>(
         &'a self,
         planned: &'a Planned,
@@ -55,7 +55,7 @@ impl Labels {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
             Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
         };
-        // A line farther on its own side, or on the opposite one, before the other two sides.
+        // First one line farther on its own side or the opposite one, then the other two sides.
         let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
         let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
         let candidates =

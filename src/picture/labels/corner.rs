@@ -19,16 +19,16 @@ impl Labels {
     }
 }
 
-/// The space taken at the upper edge, and at the lower one.
+/// The space taken at the upper edge or the lower one.
 pub(super) struct Taken {
     is_top: bool,
-    /// From where to where across the picture.
+    /// The range across the picture.
     across: [f64; 2],
-    /// From how far to how far from the edge.
+    /// The range of distances from the edge.
     inset: [f64; 2],
 }
 
-/// The space that a scale bar takes. Its length is a quarter of the picture at most.
+/// The space of a scale bar. Its length is at most a quarter of the picture.
 pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
     let (x, align) = across(corner);
     let left = x - 0.5 * align;
@@ -39,8 +39,8 @@ pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
     }
 }
 
-/// How far the middle of a line of text in a corner is from the edge: as near as the lines there leave room. Beyond the
-/// other edge of the picture, at `most`, nothing is seen, so no room is kept.
+/// The distance from the edge to the middle of a line of text in a corner: the least that overlaps no other
+/// line. No room is kept beyond the other edge of the picture, at `most`, where nothing is visible.
 pub(super) fn inset_without_overlap(
     taken: &mut Vec<Taken>,
     corner: Corner,

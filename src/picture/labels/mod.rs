@@ -1,4 +1,4 @@
-//! Texts in the picture, with the values of the moment.
+//! Texts in the picture, with current values.
 
 mod beside;
 mod corner;
@@ -18,7 +18,7 @@ use crate::simulate::{Frame, Ghost};
 
 /// The usual height of a line, as part of the picture's height.
 const SIZE: f64 = 0.055;
-/// The least height of a line where none is given, pixels.
+/// The least height of a line without a given height, pixels.
 const LEAST_PIXELS: f64 = 13.0;
 /// The distance from the base line of one line of text to the next, in heights of a line.
 const LINE: f64 = 1.15;
@@ -27,7 +27,7 @@ const LINE: f64 = 1.15;
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
-    /// The bodies of the scene, if labels look at any.
+    /// The bodies of the scene, if labels show any of their values.
     bodies: Vec<Body>,
     /// The coordinates of hinges and sliders, by the numbers of the joints.
     joints: Vec<Option<Coordinate>>,
@@ -56,7 +56,7 @@ impl Labels {
             let mut height = label.size.map_or(usual, |size| 2.0 * aspect * size);
             let mut inset = 0.0;
             if let LabelPlace::Corner(corner) = label.place {
-                // A line that is wider than the picture is made smaller.
+                // A line wider than the picture is made smaller.
                 let wide = width(&longest(label), 1.0);
                 height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
                 inset = inset_without_overlap(&mut taken, corner, [wide * height, height], 2.0 * aspect);
@@ -74,12 +74,12 @@ impl Labels {
         self.labels.len()
     }
 
-    /// A picture of which nothing is taken.
+    /// A picture with no space taken.
     pub(super) fn room(&self) -> Room {
         Room::new(self.aspect)
     }
 
-    /// The labels of a frame that stand in corners, each with its number.
+    /// The labels in the corners of a frame, each with its number.
     pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
         let now = Moment::now(frame);
         let labels = self.labels.iter().enumerate();
@@ -87,8 +87,8 @@ impl Labels {
         labels.filter_map(text).collect()
     }
 
-    /// The labels of a frame that stand beside bodies, each with its number, on the plane before its camera. They keep
-    /// off what is taken.
+    /// The labels beside bodies in a frame, each with its number, in the image plane. They keep off taken
+    /// space.
     pub(super) fn beside_bodies(
         &self,
         frame: &Frame,
@@ -118,7 +118,7 @@ impl Labels {
         texts
     }
 
-    /// The ghosts of a frame by the numbers of their bodies, if a label stands at ghosts.
+    /// The ghosts of a frame by the numbers of their bodies, if ghosts have labels.
     fn ghosts_by_body<'a>(&self, frame: &'a Frame) -> HashMap<usize, Vec<&'a Ghost>> {
         let mut by_body: HashMap<usize, Vec<&Ghost>> = HashMap::new();
         let at_ghosts =

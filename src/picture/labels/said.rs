@@ -6,15 +6,15 @@ use crate::dynamics::{Balance, BodyId, BodySnapshot, Reaction, find};
 use crate::scene::{Body, BodyMeasure, Format, Label, Measure, Piece, Quantity, RunMeasure};
 use crate::simulate::{Frame, Ghost, ImpactCounts, shown};
 
-/// The moment that a label speaks of.
+/// The moment whose values a label shows.
 pub(super) struct Moment<'a> {
     time: f64,
     frame: usize,
     balance: Option<&'a Balance>,
     bodies: &'a [BodySnapshot],
-    /// The reactions of the joints, which ghosts do not keep.
+    /// The reactions of the joints; none for ghosts.
     reactions: &'a [Reaction],
-    /// The impacts so far; of ghosts, they are not kept.
+    /// The impacts so far; none for ghosts.
     impacts: Option<&'a ImpactCounts>,
 }
 
@@ -90,7 +90,7 @@ impl Labels {
     }
 }
 
-/// A text as long as what a label may say at any moment: numbers have up to four digits before their point.
+/// A text of the greatest expected length: numbers have up to four digits before the point.
 pub(super) fn longest(label: &Label) -> String {
     let piece = |piece: &Piece| match piece {
         Piece::Words(words) => words.clone(),
@@ -115,7 +115,7 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
         BodyMeasure::Spin => at.angular_velocity.length(),
         BodyMeasure::Mass => mass,
         BodyMeasure::Momentum => mass * at.velocity.length(),
-        // Frames count them.
+        // Only frames count impacts.
         BodyMeasure::Impacts => f64::NAN,
         BodyMeasure::Kinetic => {
             let turned = at.orientation * body.start.principal_axes;
@@ -125,18 +125,18 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
     }
 }
 
-/// A number as a label has it, with a real minus sign. What is no number is shown as such.
+/// A number in the format of a label, with a real minus sign. Non-finite values are shown as such.
 fn written(value: f64, format: Format) -> String {
     if !value.is_finite() {
         return "?".to_owned();
     }
     let text = match format {
         Format::Short => short_of(value),
-        // Longer numbers are no easier to read, and what draws them may know short texts only.
+        // Longer numbers are not easier to read, and some renderers accept short texts only.
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };
-    // −0.00 would be a sign without a number.
+    // Zero gets no sign.
     let text = match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,

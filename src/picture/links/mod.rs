@@ -1,6 +1,6 @@
-//! Springs and joints as they are drawn: coils, rods, ropes, pins and rails.
+//! Springs and joints as drawn: coils, rods, ropes, pins and rails.
 //!
-//! Their parts are planned once for a run (`plan`). Each frame says where they are.
+//! Their parts are planned once for a run (`plan`). Each frame gives their positions.
 
 mod plan;
 
@@ -12,7 +12,7 @@ use crate::dynamics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
-/// The radius of the wire of a coil, as part of that of the coil.
+/// The radius of the wire of a coil, as part of the coil's radius.
 const WIRE: f64 = 0.14;
 
 /// A part of a spring or of a joint, as it is drawn in a frame.
@@ -20,7 +20,7 @@ const WIRE: f64 = 0.14;
 pub struct Link<'a> {
     /// The name of the force or the joint in the scene.
     pub name: &'a str,
-    /// The form and its place.
+    /// The form and its position.
     pub form: LinkForm,
     /// Its color.
     pub color: Color,
@@ -83,7 +83,7 @@ pub enum LinkForm {
         /// Its radius.
         radius: f64,
     },
-    /// A rope, from point to point: two of them where it is taut.
+    /// A rope through points; two points if it is taut.
     Rope {
         /// Its points.
         points: Vec<DVec3>,
@@ -93,7 +93,7 @@ pub enum LinkForm {
 }
 
 impl Link<'_> {
-    /// The straight lines along which it stands, m: of a coil, its axis; none for a pin.
+    /// The straight lines along which it lies, m: for a coil, its axis; none for a pin.
     pub(super) fn lines(&self) -> impl Iterator<Item = [DVec3; 2]> {
         let points: &[DVec3] = match &self.form {
             LinkForm::Pin { .. } => &[],
@@ -103,7 +103,7 @@ impl Link<'_> {
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
 
-    /// The distance from these lines that it reaches, m.
+    /// How far it extends from these lines, m.
     pub(super) fn reach(&self) -> f64 {
         match self.form {
             LinkForm::Coil { radius, wire, .. } => radius + wire,
@@ -117,7 +117,7 @@ impl Link<'_> {
 /// The springs and joints of a scene that are drawn.
 #[derive(Clone, Debug)]
 pub(super) struct Links {
-    /// In the order of the forces, their links, and the joints; each with its parts in a row.
+    /// In the order of the forces, their links, and the joints. The parts of each are adjacent.
     parts: Vec<Part>,
     /// The drawn shapes of bodies, by their numbers.
     shapes: Vec<Shape>,
@@ -136,13 +136,13 @@ pub(super) struct Links {
 pub(super) struct SpringSize {
     /// Its radius, m.
     pub(super) radius: f64,
-    /// The length between its ends above which it is drawn, m.
+    /// The least distance between its ends at which it is drawn, m.
     pub(super) room: f64,
     /// Whether it is a coil, and not a straight line.
     pub(super) is_coil: bool,
 }
 
-/// A part of a spring or of a joint. It is drawn while both ends of the spring or the joint are there.
+/// A part of a spring or of a joint. It is drawn while both ends of the spring or the joint exist.
 #[derive(Clone, Debug)]
 struct Part {
     name: String,
@@ -154,16 +154,16 @@ struct Part {
 /// The form of a part in any frame. Lengths are in metres.
 #[derive(Clone, Copy, Debug)]
 enum Form {
-    /// A ball at a place.
+    /// A ball at a point.
     Pin { at: Anchor, radius: f64 },
     /// A coil from end to end.
     Coil { radius: f64, turns: u32 },
-    /// A rod. An end at the centre of a body is drawn from the surface of the body on.
+    /// A rod. An end at the centre of a body starts at the body's surface.
     Rod { between: [Anchor; 2], radius: f64 },
-    /// A rod through a point. The direction is a unit vector in the axes of the point's body; `reach` is where it begins and ends
+    /// A rod through a point. The direction is a unit vector in the axes of the point's body; `reach` is its extent
     /// along that direction.
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
-    /// A rope of a length, which hangs where it is slack.
+    /// A rope of a given length. It hangs if it is slack.
     Rope { between: [Anchor; 2], length: f64, radius: f64 },
     /// The rope of a pulley, over its wheels.
     OverWheels { pulley: Pulley, wheel: f64, radius: f64 },
@@ -191,19 +191,19 @@ impl Links {
         &self.springs
     }
 
-    /// The parts that are fastened to a body, as they are in a frame.
+    /// The parts that are fastened to a body, in a frame.
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
         its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
     }
 
-    /// The parts that are drawn in a frame: those whose ends are there.
+    /// The parts that are drawn in a frame.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
     }
 
-    /// All parts, whether they are drawn or not.
+    /// All parts, drawn or not.
     pub(super) fn planned(&self) -> impl Iterator<Item = PlannedLink<'_>> {
         self.parts.iter().map(|part| PlannedLink {
             name: &part.name,
@@ -217,14 +217,14 @@ impl Links {
         })
     }
 
-    /// The same parts, as far as they are drawn in a frame.
+    /// For each part, its link in a frame; `None` if it is not drawn.
     pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
         self.parts.iter().map(|part| self.link(part, frame))
     }
 
-    /// A part as it is in a frame. `None` while an end is away, or where bodies that touch leave no room for it.
+    /// A part in a frame. `None` while one of its ends is absent, or if touching bodies leave no room for it.
     fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Link<'a>> {
-        // A point of the world is always there.
+        // A point of the world is always present.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
         if !part.between.into_iter().all(is_there) {
             return None;
@@ -260,14 +260,14 @@ impl Links {
         Some(Link { name: &part.name, form, color: part.color })
     }
 
-    /// The course of the rope of a pulley whose wheels have a radius, m.
+    /// The course of the rope of a pulley with wheels of the given radius, m.
     fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> Course {
         let [from, to] = pulley.between.map(|end| self.place(end, frame));
         let [first, second] = pulley.over.map(|end| self.place(end, frame));
         Course::new([from, first, second, to], wheel)
     }
 
-    /// The place at which an end is drawn, m. If the body is drawn larger than it is, its points are farther from its centre.
+    /// The position at which an end is drawn, m. On a body drawn larger, it is farther from the centre in proportion.
     fn place(&self, end: Anchor, frame: &Frame) -> DVec3 {
         let drawn = match end {
             Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },
@@ -279,13 +279,13 @@ impl Links {
         })
     }
 
-    /// The visible part of a straight line from one end to another, m. At a body that holds it by its centre, it begins at the
-    /// surface. `None` where less than `room` is left.
+    /// The visible part of a straight line between two ends, m. It begins at the surface of a body that holds it by its
+    /// centre. `None` if less than `room` is left.
     fn span(&self, between: [Anchor; 2], frame: &Frame, room: f64) -> Option<[DVec3; 2]> {
         let [from, to] = between.map(|end| self.place(end, frame));
         let along = (to - from).normalize_or_zero();
         let depth = |end: Anchor, direction: DVec3| match end {
-            // A little below the surface, so that no gap is seen where that is not flat.
+            // Start a little below the surface, so that no gap is seen where the surface is curved.
             Anchor::Body { id, .. } if end.is_centre() => {
                 0.95 * surface(&self.shapes[id.index()], turn(end, frame), direction)
             }
@@ -303,7 +303,7 @@ fn turn(end: Anchor, frame: &Frame) -> DQuat {
     body.map_or(DQuat::IDENTITY, |body| body.orientation)
 }
 
-/// The least length of a coil with a radius, m.
+/// The least length of a coil of a given radius, m.
 fn room_for(radius: f64) -> f64 {
     4.0 * WIRE * radius
 }

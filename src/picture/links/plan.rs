@@ -58,8 +58,8 @@ fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &m
     parts.push(part(form));
 }
 
-/// The radius of a spring, m, and its length at rest or at the start between what it is fastened to, m. A coil is about as
-/// wide as half the smaller of the bodies at its ends; a straight line is thinner than a rod.
+/// The radius of a spring, m, and its length at rest or, failing that, between the bodies at the start, m. A coil is
+/// about half as wide as the smaller body at its ends. A straight line is thinner than a rod.
 fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
     let [from, to] = link.between.map(|end| start(scene, end));
     let along = to - from;
@@ -86,12 +86,12 @@ fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
         SpringLine::Straight => (0.06, 1.0 / 100.0),
     };
     let radius = look.radius.unwrap_or_else(|| (of_body * smallest).min(of_length * free));
-    // Bodies at the same place, with a spring without length.
+    // For bodies that coincide, with a spring of zero length.
     let radius = if radius > 0.0 { radius } else { of_body * smallest.min(1.0) };
     (radius, free)
 }
 
-/// A usual number of turns.
+/// The usual number of turns.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
 fn usual_turns(usual: f64) -> u32 {
     usual.round().clamp(4.0, 24.0) as u32
@@ -139,7 +139,7 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
             }
             add(Form::OverWheels { pulley: *pulley, wheel, radius });
         }
-        // The wheels are bodies.
+        // The wheels are bodies already.
         JointKind::Gear(_) => {}
         JointKind::Slider(slider) => rail(scene, slider, look, travel).for_each(add),
     }
@@ -157,26 +157,26 @@ fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
     between.into_iter().filter_map(thickness).reduce(f64::min).unwrap_or(0.05)
 }
 
-/// A rod is a fifth as thick as the thinner of the bodies at its ends, and never thicker than a thirtieth of its length.
+/// The radius of a rod: a fifth of the half-thickness of the thinner body, and at most a thirtieth of its length.
 fn rod_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.2 * thinnest(scene, between)).min(length / 30.0)
 }
 
-/// A rope is a tenth as thick as the thinner of the bodies at its ends, and never thicker than a hundredth of its length.
+/// The radius of a rope: a tenth of the half-thickness of the thinner body, and at most a hundredth of its length.
 fn rope_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.1 * thinnest(scene, between)).min(length / 100.0)
 }
 
-/// Rods from bodies to the point of a joint, where that is outside of them.
+/// Rods from bodies to the point of a joint, if it lies outside them.
 fn arms(scene: &Scene, between: [Anchor; 2], look: JointLook) -> impl Iterator<Item = Form> {
     between.into_iter().filter_map(move |end| arm(scene, end, between, look))
 }
 
-/// A rod from the centre of a body to a point of it, where that is outside of its shape.
+/// A rod from the centre of a body to a point outside its shape.
 fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Option<Form> {
     let Anchor::Body { id, at } = end else { return None };
     let drawn = scene.bodies[id.index()].drawn();
-    // A plane has no centre that an arm could begin in.
+    // A plane has no centre for an arm to begin in.
     drawn.half_thickness()?;
     let at = at * scene.bodies[id.index()].look.scale;
     let length = at.length();
@@ -186,7 +186,7 @@ fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Opt
     is_outside.then_some(Form::Rod { between: [Anchor::centre(id), end], radius })
 }
 
-/// The axle of a hinge: thicker than its arms, and a little longer than the bodies are there.
+/// The axle of a hinge: thicker than its arms, and a little longer than the bodies are thick.
 fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     let thickest = arms.iter().fold(0.0_f64, |most, arm| match arm {
         Form::Rod { radius, .. } => most.max(*radius),
@@ -207,8 +207,9 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     Form::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
 }
 
-/// The rail of a slider. It reaches to the limits, or else as far as the slider moves in the run. It is fastened to a point of the world if
-/// an end is one, or else to the end that moves less. Where the rail does not pass through the moving body, an arm joins them.
+/// The rail of a slider. It extends to the limits or, without limits, over the slider's travel in the run. It is
+/// fastened to the world if one end is there, else to the end that moves less. If the rail misses the moving body, an
+/// arm joins them.
 fn rail(
     scene: &Scene,
     slider: &Slider,
@@ -226,7 +227,7 @@ fn rail(
     let travel = travel.map(|travel| [travel.least, travel.most]).filter(|[least, most]| least <= most);
     let [least, most] = slider.freedom.limits.or(travel).unwrap_or([0.0; 2]);
     let direction = in_world(scene, base, along);
-    // The point of the rail beside which the centre of what slides is, from its own point on, and how far it reaches from there.
+    // The point of the rail nearest to the sliding body's centre, how far the rail extends beyond it, and the arm.
     let (foot, beyond, arm) = match rider {
         Anchor::Point(_) => (0.0, 0.0, None),
         Anchor::Body { id, at } => {

@@ -1,4 +1,4 @@
-//! Arrows in front of what would hide them.
+//! Moves arrows in front of what would hide them.
 
 use super::Plan;
 use crate::picture::arrows::{Arrow, Bearer};
@@ -6,8 +6,8 @@ use crate::picture::in_front::lift_from_link;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
-    /// The arrows of a frame; those that the ground or a spring would hide are nearer to the camera, which sees them as they
-    /// would be without it.
+    /// The arrows of a frame. Those behind the ground or a spring move towards the camera, and their picture stays the
+    /// same.
     pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
         let mut arrows = self.arrows(frame);
         if !arrows.is_empty() {
@@ -26,7 +26,7 @@ impl Plan {
         arrows
     }
 
-    /// The arrows of a body as it was, in front of the ground.
+    /// The arrows of a ghost, in front of the ground.
     pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         let mut arrows = self.ghost_arrows(frame, ghost);
         let camera = self.eye.at(frame);

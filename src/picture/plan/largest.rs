@@ -7,10 +7,10 @@ use super::reads_ground;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
-/// A body that is less wide than this, in pixels, is a dot.
+/// A body less wide than this, in pixels, is a dot.
 const SMALLEST_SEEN: f64 = 4.0;
 
-/// The largest body, and how small it is in the picture.
+/// The largest body, and its size in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Largest {
     /// Its name.
@@ -22,7 +22,7 @@ pub struct Largest {
 }
 
 impl Largest {
-    /// The largest body of a scene, with its size in the picture of a camera.
+    /// The largest body of a scene, with its size as a camera sees it.
     pub(super) fn seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?;
@@ -46,7 +46,7 @@ impl Largest {
     }
 }
 
-/// The narrowest view of a camera in a run that takes place within bounds, m. One that moves is looked through at 33 times.
+/// The narrowest view of a camera in a run within the given bounds, m. A moving camera is sampled at 33 times.
 pub(super) fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
     let times = if eye.moves() { 32 } else { 0 };
     let views = (0..=times).map(|number| {

@@ -1,4 +1,4 @@
-//! The part common to all frames of a run, which then gives the picture of each frame.
+//! The plan of a run's pictures, which then gives the picture of each frame.
 
 mod in_front;
 mod largest;
@@ -30,7 +30,7 @@ use super::{colors, framing};
 use crate::scene::{Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
-/// The part common to all frames of a run that one camera sees. It is made once.
+/// The part common to all frames of a run for one camera. It is made once.
 #[derive(Clone, Debug)]
 pub struct Plan {
     stage: Stage,
@@ -48,9 +48,9 @@ pub struct Plan {
     ruled: Option<Ruled>,
     bar: Option<ScaleBars>,
     labels: Labels,
-    /// The plane before the camera as it is at the start, if anything is written on it.
+    /// The image plane at the start, if anything is written on it.
     screen: Option<Screen>,
-    /// The sizes of what is drawn beside the bodies, as the camera sees them at the start.
+    /// The sizes of things drawn beside the bodies, for the camera at the start.
     sizes: Sizes,
     largest: Option<Largest>,
     /// The part of the run that the camera frames.
@@ -61,9 +61,9 @@ pub struct Plan {
 /// The sizes of things in a picture.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
-    /// The width of what the camera sees, m.
+    /// The width in view of the camera, m.
     view: f64,
-    /// The width of a line that is well seen, m.
+    /// The width of a clearly visible line, m.
     stroke: f64,
     arrows: ArrowSizes,
 }
@@ -73,20 +73,20 @@ pub(crate) fn has_texts(scene: &Scene) -> bool {
     !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
-/// Whether there are numbers to be read from the ground.
+/// Whether the ground has numbers.
 pub(super) fn reads_ground(scene: &Scene) -> bool {
     scene.grid.is_some_and(|grid| grid.plane == GridPlane::Ground)
 }
 
 impl Plan {
-    /// The plan of a scene that one of its cameras sees, and whose run has been looked over.
+    /// The plan of a surveyed scene for one of its cameras.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
         let towards = framing::towards_camera(span.moving, reads_ground(scene));
         let eye_on =
             |bounds: Bounds| Eye::new(&scope.camera, framing::rounded_outward(bounds), towards, scene);
-        // Arrows and grid are as large as a camera asks for that sees the bodies; then the camera is placed so that it
+        // Arrows and grid get the size that suits a camera that sees the bodies. Then the camera is placed so that it
         // sees their ends, too.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
@@ -104,7 +104,7 @@ impl Plan {
             seen = seen.union(grid.bounds());
         }
         let eye = match scope.part {
-            // A body that has gone through the ground is not followed below it.
+            // Do not follow a body below the ground it fell through.
             Part::AroundBody(_) => eye_on(seen).within(span.bounds),
             Part::Whole | Part::Start(_) => eye_on(seen),
         };
@@ -115,10 +115,10 @@ impl Plan {
         let sizes = Sizes {
             view: early,
             stroke: width,
-            // The round scales are those for which the camera has made room.
+            // The camera has made room for these round scales.
             arrows: arrows.still_sizes(scales, early, width),
         };
-        // The ground is made for the bodies; arrows and axes are no reason to lower it.
+        // The ground is placed for the bodies. Arrows and axes do not lower it.
         let stage = Stage::new(scene, scenery, whole, placed);
         let distance = placed.location().distance(stage.center);
         let lights = Lights::new(scene, stage.center, stage.size.max(distance));
@@ -149,7 +149,7 @@ impl Plan {
         }
     }
 
-    /// The sizes of what is drawn beside the bodies of a frame: the same in all frames, if the camera stands still.
+    /// The sizes of things drawn beside the bodies of a frame: constant for a fixed camera.
     fn sizes(&self, frame: &Frame) -> Sizes {
         if !self.eye.moves() {
             return self.sizes;
@@ -164,12 +164,13 @@ impl Plan {
         &self.stage
     }
 
-    /// The camera of a frame, whether it moves or not.
+    /// The camera of a frame, moving or not.
     pub fn camera(&self, frame: &Frame) -> Placed {
         self.eye.at(frame)
     }
 
-    /// A camera or light without a finite place at a moment, in words. Formulas are checked at the times of frames only.
+    /// Names a camera or light with a non-finite position at a moment. Formulas are checked at the times of frames
+    /// only.
     pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
         let is_lost = |camera: &Placed| !camera.location().is_finite() || !camera.look_at().is_finite();
         if self.camera_moves() && is_lost(&self.camera(frame)) {
@@ -182,27 +183,27 @@ impl Plan {
             .map(|light| format!("the light `{}`", light.name))
     }
 
-    /// The camera before it moves: of all frames, if it does not.
+    /// The camera before it moves; if it is fixed, the camera of all frames.
     pub fn placed(&self) -> &Placed {
         self.eye.placed()
     }
 
-    /// Whether the camera is not the same in all frames.
+    /// Whether the camera moves.
     pub fn camera_moves(&self) -> bool {
         self.eye.moves()
     }
 
-    /// The lights that are given, at a time (s). None of them means that the usual ones shine.
+    /// The lights of the scene at a time (s). If there are none, the default lights shine.
     pub fn lights(&self, time: f64) -> Vec<PlacedLight> {
         self.lights.at(time)
     }
 
-    /// The lights of the surroundings, which shine where none is given. They never move.
+    /// The default lights of the surroundings. They never move.
     pub fn usual_lights(&self) -> Vec<PlacedLight> {
         lights::usual_lights(&self.stage)
     }
 
-    /// Whether the lights are not the same in all frames.
+    /// Whether the lights change between frames.
     pub fn lights_move(&self) -> bool {
         self.lights_move
     }
@@ -217,27 +218,27 @@ impl Plan {
         self.arrows.axes(frame)
     }
 
-    /// The parts of springs and joints that are drawn, as they are in a frame.
+    /// The drawn parts of springs and joints, in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.links.at(frame)
     }
 
-    /// All parts of springs and joints, whether a frame shows them or not.
+    /// All parts of springs and joints, drawn or not.
     pub fn planned_links(&self) -> impl Iterator<Item = PlannedLink<'_>> {
         self.links.planned()
     }
 
-    /// The same parts, as far as they are drawn in a frame.
+    /// For each of these parts, its link in a frame; `None` if it is not drawn.
     pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
         self.links.each(frame)
     }
 
-    /// The ghosts of a frame that are drawn: those that are elsewhere than their bodies.
+    /// The visible ghosts of a frame: those that are not at their bodies.
     pub fn ghosts<'a>(&self, frame: &'a Frame) -> impl Iterator<Item = &'a Ghost> {
         self.ghosts.drawn(frame)
     }
 
-    /// The arrows of a body as it was, in the picture of a frame, if its ghosts have any.
+    /// The arrows of a ghost in the picture of a frame, if its body has any.
     pub fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
@@ -247,17 +248,17 @@ impl Plan {
         self.trails.up_to(frame, self.stroke(frame))
     }
 
-    /// The width of a line that is well seen in a frame, m: that of trails without a width.
+    /// The width of a clearly visible line in a frame, m. Trails without a width have it.
     pub fn stroke(&self, frame: &Frame) -> f64 {
         self.sizes(frame).stroke
     }
 
-    /// The trails that are asked for, without their points, as wide as at the start.
+    /// The requested trails, without points, with their widths at the start.
     pub fn planned_trails(&self) -> Vec<Trail> {
         self.trails.planned(self.sizes.stroke).collect()
     }
 
-    /// The lines of the grid, if they are the same in all frames: if the camera stands still.
+    /// The lines of the grid if they are the same in all frames, as with a fixed camera.
     pub fn still_grid(&self) -> Option<&Grid> {
         self.ruled.as_ref().map(Ruled::grid)
     }
@@ -267,7 +268,7 @@ impl Plan {
         Some(self.ruled(frame)?.grid().clone())
     }
 
-    /// The grid in a frame: around what the camera looks at, if the camera moves.
+    /// The grid in a frame. With a moving camera, it surrounds the camera's aim.
     fn ruled(&self, frame: &Frame) -> Option<Cow<'_, Ruled>> {
         if let Some(ruled) = &self.ruled {
             return Some(Cow::Borrowed(ruled));
@@ -277,7 +278,7 @@ impl Plan {
         self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.seen_by(&camera, sizes.stroke, sizes.view)))
     }
 
-    /// The spacing that the scene gives the grid and the one that is drawn, m, if the first would make too many lines.
+    /// The spacing that the scene gives the grid and the drawn one, m, if the first would make too many lines.
     pub fn too_fine_grid(&self) -> Option<(f64, f64)> {
         self.ruler.as_ref()?.too_fine()
     }
@@ -288,7 +289,7 @@ impl Plan {
         Some(bar.on(&self.screen(frame)?)?.0)
     }
 
-    /// The plane before the camera of a frame on which texts stand, if there are any.
+    /// The image plane of a frame's camera, if there are texts on it.
     pub fn screen(&self, frame: &Frame) -> Option<Screen> {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
     }
@@ -298,7 +299,7 @@ impl Plan {
         self.part
     }
 
-    /// Things that the scene asks for and no picture shows.
+    /// The requested things that no picture shows.
     pub fn not_drawn(&self) -> &[NotDrawn] {
         &self.not_drawn
     }

@@ -1,4 +1,4 @@
-//! The texts of a frame, each placed where there is room.
+//! Places the texts of a frame where there is room.
 
 use glam::{DMat3, DVec3};
 
@@ -13,7 +13,7 @@ use crate::simulate::Frame;
 /// The texts of a frame.
 #[derive(Clone, Debug)]
 pub struct Written<'a> {
-    /// The plane on which it stands.
+    /// The image plane on which they stand.
     pub screen: Screen,
     /// The names and numbers of the grid.
     pub grid: Vec<Text<'a>>,
@@ -24,7 +24,7 @@ pub struct Written<'a> {
 }
 
 impl Plan {
-    /// The texts of a frame: the numbers at the grid, the length of the scale bar, the labels.
+    /// The texts of a frame: the numbers of the grid, the length of the scale bar, the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
         let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
         grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
@@ -32,9 +32,9 @@ impl Plan {
 
     /// The texts of a frame, by kind. `None` if there are none.
     ///
-    /// Labels in corners and the scale bar have fixed places. Then follow the names of the grid's axes, the labels beside bodies,
-    /// and the numbers of the grid, each where there is room. None of these covers a spring or a joint, unless there is no other
-    /// place for the name of an axis.
+    /// Labels in corners and the scale bar have fixed positions. The names of the grid's axes come next, then the
+    /// labels beside bodies, then the numbers of the grid, each where there is room. No text covers a spring or a
+    /// joint, except an axis name without another position.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
@@ -67,8 +67,7 @@ impl Plan {
         Some(Written { screen, grid, bar, labels })
     }
 
-    /// The lines of a frame on which no text should stand, each with its width, m: arrows, axes, springs
-    /// and joints.
+    /// The lines of a frame that texts avoid, each with its width, m: arrows, axes, springs and joints.
     fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let mut arrows = self.arrows(frame);
         arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, ghost)));
@@ -80,7 +79,7 @@ impl Plan {
         arrows.chain(axes).chain(self.linked(frame)).collect()
     }
 
-    /// The lines along which springs and joints stand in a frame, each with its width, m.
+    /// The lines of springs and joints in a frame, each with its width, m.
     fn linked(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let links = self.links(frame);
         let lines = |link: &Link<'_>| link.lines().map(|line| (line, 2.0 * link.reach())).collect::<Vec<_>>();
