@@ -1,4 +1,4 @@
-//! How jabuka starts a program in the sandbox.
+//! The command line that starts a program in the sandbox.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,9 +13,9 @@ impl Launcher {
         Launcher(absolute(&jabuka.into()))
     }
 
-    /// The running program, which must be `jabuka`; `None` where the system does not tell its path.
+    /// The running program, which must be `jabuka`; `None` if the system does not reveal its path.
     pub fn of_this_program() -> Option<Launcher> {
-        // This link stays right when the file is replaced by a newer version while the program runs.
+        // This link stays right even if the file is replaced by a newer version meanwhile.
         let link = Path::new("/proc/self/exe");
         if link.exists() {
             return Some(Launcher(link.to_owned()));
@@ -26,35 +26,35 @@ impl Launcher {
 
 /// What the programs that jabuka starts may do.
 ///
-/// The default confines nothing: a library does not know where the launcher is.
+/// The default confines nothing, since a library does not know the launcher's path.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Confinement {
     launcher: Option<Launcher>,
     /// Whether programs may read all files.
     reads_all: bool,
-    /// What programs may write in addition to what they need.
+    /// Paths that programs may write in addition to their needs.
     writable: Vec<PathBuf>,
 }
 
-/// What one program needs.
+/// The needs of one program.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Needs<'a> {
-    /// The files and folders that it reads, beside what every program may read.
+    /// The files and folders that it reads, besides those open to every program.
     pub(crate) read: &'a [&'a Path],
     /// The files and folders that it writes. The first folder also takes its temporary files.
     pub(crate) write: &'a [&'a Path],
-    /// Whether other programs go first.
+    /// Whether it runs at low priority.
     pub(crate) humble: bool,
 }
 
 impl Confinement {
-    /// Programs read and write what they need and nothing else. `None` confines nothing.
+    /// Programs read and write only what they need. `None` confines nothing.
     pub fn new(launcher: Option<Launcher>) -> Confinement {
         Confinement { launcher, reads_all: false, writable: Vec::new() }
     }
 
-    /// The same for a scene that is trusted: programs may read all files, and write below its folder and these as well.
-    /// `None` stands for scripts without their scene.
+    /// The same for a trusted scene: programs may also read all files, and write below the scene's folder and
+    /// `writable`. `None` stands for scripts without their scene.
     #[must_use]
     pub fn trusting(self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         let own = scene.map(absolute).and_then(|scene| scene.parent().map(Path::to_owned));
@@ -62,7 +62,7 @@ impl Confinement {
         Confinement { reads_all: true, writable, ..self }
     }
 
-    /// The same, but programs may read all files.
+    /// The same with read access to all files.
     #[must_use]
     pub(crate) fn reading_all(&self) -> Confinement {
         Confinement { reads_all: true, ..self.clone() }
@@ -78,7 +78,7 @@ impl Confinement {
         self.launcher.is_some()
     }
 
-    /// The command that starts a program, confined; its arguments are to be added.
+    /// The command that starts a confined program. The caller adds the arguments.
     pub(crate) fn command(&self, program: &Path, needs: Needs<'_>) -> Command {
         let Some(Launcher(launcher)) = &self.launcher else { return Command::new(program) };
         let mut command = Command::new(launcher);
@@ -98,8 +98,8 @@ impl Confinement {
     }
 }
 
-/// The whole path: programs start in folders of their own.
+/// The absolute path: programs start in folders of their own.
 fn absolute(path: &Path) -> PathBuf {
-    // This fails only where the present folder is gone, and then nothing can be started anyway.
+    // This fails only if the current folder is gone. Then no program can start anyway.
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

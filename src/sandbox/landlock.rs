@@ -1,4 +1,4 @@
-//! The rules as Linux takes them, by Landlock, and what this kernel can enforce.
+//! The rules for Linux's Landlock, and what this kernel can enforce.
 
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -10,16 +10,16 @@ use landlock::{
 
 use super::LaunchError;
 
-/// The newest rules that jabuka was tested with. An older kernel enforces those that it knows.
+/// The newest rules that jabuka was tested with. An older kernel enforces those it knows.
 const NEWEST: ABI = ABI::V7;
 
-/// Restricts this thread, and all that it starts, to reading and writing these paths. What is to be read need not exist.
-/// TCP, signals to others and abstract sockets are refused altogether.
+/// Restricts this thread, and all that it starts, to reading and writing these paths. Paths to read need not exist.
+/// TCP, signals to other processes and abstract sockets are refused altogether.
 ///
 /// # Errors
 /// If the kernel refuses the rules, or a path to write does not exist.
 pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
-    // A program makes no devices, no links and no pipes: jabuka reads what it leaves behind.
+    // Programs may not create devices, links or pipes: jabuka reads their output files.
     let written = AccessFs::from_all(NEWEST)
         & !make_bitflags!(AccessFs::{Execute | MakeChar | MakeBlock | MakeSock | MakeFifo | MakeSym | IoctlDev});
     let refused = |error: RulesetError| LaunchError::Refused(error.to_string());
@@ -29,20 +29,20 @@ pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), Launch
         .and_then(|ruleset| ruleset.scope(Scope::from_all(NEWEST)))
         .and_then(Ruleset::create)
         .map_err(refused)?;
-    // A missing path needs no rule: nothing is there to be read.
+    // A missing path needs no rule.
     let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST)).ok());
     let writing: Result<Vec<_>, LaunchError> = write
         .iter()
         .map(|path| beneath(path, written).map_err(|why| LaunchError::Write(path.clone(), why)))
         .collect();
-    // Scripts throw away what others say by this file.
+    // Scripts discard output by writing to this file.
     let null = beneath(Path::new("/dev/null"), written).ok();
     let rules = reading.chain(writing?).chain(null).map(Ok::<_, RulesetError>);
     ruleset.add_rules(rules).and_then(landlock::RulesetCreated::restrict_self).map_err(refused)?;
     Ok(())
 }
 
-/// The rule for a file, or a folder with all that is below it.
+/// The rule for a file, or for a folder and everything below it.
 fn beneath(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd>, String> {
     let opened = PathFd::new(path).map_err(|error| error.to_string())?;
     let access = if path.is_dir() { access } else { access & AccessFs::from_file(NEWEST) };
@@ -51,7 +51,7 @@ fn beneath(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd
 
 /// What this kernel enforces, in a few words: for people and for logs.
 pub fn enforced() -> String {
-    // The crate tells it only to a thread that has restricted itself. This one does nothing else.
+    // The crate reveals it only to a thread that has restricted itself. This thread does nothing else.
     let ask = || {
         let ruleset = Ruleset::default().handle_access(AccessFs::MakeBlock).ok()?.create().ok()?;
         ruleset.restrict_self().ok().map(|status| status.landlock)
@@ -77,7 +77,7 @@ pub fn enforced() -> String {
     }
 }
 
-/// What the rules of an older kernel do not cover.
+/// The gaps in the rules of an older kernel.
 fn lacking(abi: ABI) -> Vec<&'static str> {
     let mut lacking = Vec::new();
     if abi < ABI::V3 {

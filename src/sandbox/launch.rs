@@ -1,4 +1,4 @@
-//! What the launcher does before it becomes the program.
+//! The launcher's steps before it becomes the program.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -9,20 +9,20 @@ use std::process::Command;
 
 use super::{landlock, readable};
 
-/// A program that is to be started in the sandbox.
+/// A program to start in the sandbox.
 #[derive(Clone, Debug, Default)]
 pub struct Launch {
-    /// The program: a path, or a name that is looked for in the `PATH`.
+    /// The program: a path, or a name to search for in the `PATH`.
     pub program: PathBuf,
     /// Its arguments.
     pub arguments: Vec<OsString>,
-    /// What it may read and run, beside what every program may: files, or folders with all that is below them.
+    /// Paths that it may read and run besides those open to every program: files, or folders with everything below.
     pub read: Vec<PathBuf>,
-    /// What it may read and write. Files must exist. The first folder also takes its temporary files.
+    /// Paths that it may read and write. Files must exist. The first folder also takes its temporary files.
     pub write: Vec<PathBuf>,
-    /// The process that must be its parent: where that has ended, the program does not start.
+    /// The process that must be its parent. If that has ended, the program does not start.
     pub parent: Option<i32>,
-    /// How far it lets other processes go first, as `nice` counts.
+    /// Its niceness, as for `nice`.
     pub nice: Option<i32>,
 }
 
@@ -35,9 +35,9 @@ pub enum LaunchError {
     Orphan,
     /// The kernel refuses the rules.
     Refused(String),
-    /// A path that is to be written does not exist or cannot be opened.
+    /// A path to write does not exist or cannot be opened.
     Write(PathBuf, String),
-    /// The system does not start the program.
+    /// The system cannot start the program.
     Start(PathBuf, io::Error),
 }
 
@@ -52,14 +52,14 @@ impl LaunchError {
 }
 
 impl Launch {
-    /// Confines this process, and becomes the program. From then on, the program ends when the thread that started this
-    /// process ends. Returns only if it fails.
+    /// Confines this process and becomes the program. The program ends when the thread that started this process ends.
+    /// Returns only on failure.
     pub fn run(&self) -> LaunchError {
         if let Some(error) = self.follow_parent() {
             return error;
         }
         if let Some(nice) = self.nice {
-            // A system that refuses this only shares its processors differently.
+            // Failure is harmless: it changes only the share of the processors.
             let _ = rustix::process::nice(nice);
         }
         let Ok(program) = which::which(&self.program) else {
@@ -89,7 +89,7 @@ impl Launch {
         if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
             return Some(LaunchError::Refused(error.to_string()));
         }
-        // A parent that ended before this line sent no signal.
+        // No signal comes from a parent that ended before this line.
         let parent = getppid().map(Pid::as_raw_pid);
         (self.parent.is_some() && self.parent != parent).then_some(LaunchError::Orphan)
     }

@@ -1,13 +1,13 @@
-//! What every program may read: the system's folders, and the files of the program itself.
+//! Paths readable by every program: the system's folders, and the files of the program itself.
 //!
-//! Other folders hold what belongs to people: their homes, `/tmp`, `/srv`, `/mnt`, `/media`, `/data`. None of them is here.
+//! Folders with personal data are excluded: homes, `/tmp`, `/srv`, `/mnt`, `/media`, `/data`.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
-/// Programs, libraries and what they are configured by, on all distributions.
+/// Programs, libraries and their configuration, on all distributions.
 const SYSTEM: &[&str] = &[
     "/usr",
     "/bin",
@@ -44,7 +44,7 @@ const SYSTEM: &[&str] = &[
     "/dev/tty",
     "/dev/urandom",
     "/dev/zero",
-    // Number of processors and free memory. A process finds itself below its own number.
+    // Number of processors and free memory. A process reads about itself below its own number.
     "/proc/cpuinfo",
     "/proc/filesystems",
     "/proc/meminfo",
@@ -56,16 +56,16 @@ const SYSTEM: &[&str] = &[
     "/sys/fs/cgroup",
 ];
 
-/// What lies beside the folder `bin` of a program that was installed outside of the system's folders.
+/// The companions of the folder `bin` of a program installed outside the system's folders.
 const INSTALLED: &[&str] = &["lib", "lib32", "lib64", "libexec", "etc/povray"];
 
-/// What all programs may read.
+/// Paths that all programs may read.
 pub(super) fn by_all() -> impl Iterator<Item = PathBuf> {
     SYSTEM.iter().map(PathBuf::from)
 }
 
-/// What a program may read beside: its own folder, its libraries, its configuration, and the folders and settings that its
-/// arguments name.
+/// Paths that one program may read in addition: its own folder, libraries and configuration, and the folders and
+/// settings that its arguments name.
 pub(super) fn by(program: &Path, arguments: &[OsString]) -> Vec<PathBuf> {
     let home = std::env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
     let canonical = program.canonicalize().unwrap_or_else(|_| program.to_owned());
@@ -82,8 +82,7 @@ pub(super) fn by(program: &Path, arguments: &[OsString]) -> Vec<PathBuf> {
     paths
 }
 
-/// Whether a folder is not one that holds everything of somebody: a home, what homes are in, or the folder of all
-/// temporary files.
+/// Whether a folder is neither a home, nor a parent of homes, nor the folder of all temporary files.
 fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
     let temporary = std::env::temp_dir();
     let broad = [Some(Path::new("/tmp")), Some(Path::new("/var/tmp")), Some(temporary.as_path()), home];
@@ -95,7 +94,7 @@ fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
         })
 }
 
-/// What was installed together with a program in a folder `bin`.
+/// The files installed together with a program in a folder `bin`.
 fn installed_with(program: &Path) -> Vec<PathBuf> {
     let folder = program.parent().filter(|folder| folder.file_name() == Some(OsStr::new("bin")));
     let Some(root) = folder.and_then(Path::parent) else { return Vec::new() };
@@ -107,7 +106,7 @@ fn installed_with(program: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// The folder of includes, or the file of settings, that an argument of POV-Ray's names with its whole path.
+/// The include folder or settings file that a POV-Ray argument names by its absolute path.
 fn named(argument: &OsStr) -> Option<PathBuf> {
     let bytes = argument.as_bytes();
     let library = [&b"+L"[..], b"-L", b"Library_Path="].iter().find_map(|start| bytes.strip_prefix(*start));

@@ -1,18 +1,18 @@
-//! What is left of materials for a renderer that knows no POV-Ray.
+//! Approximates materials for renderers other than POV-Ray.
 
 use crate::scene::{Color, Finish, LibraryMaterial, Look, PlainLook, Preset};
 
-/// What a material looks like to a renderer that knows no POV-Ray, in the terms of metallic-roughness shading, as glTF
-/// has it. Colors are linear light from 0 to 1.
+/// The look of a material in a renderer other than POV-Ray, in the terms of metallic-roughness shading, as in glTF.
+/// Colors are linear light from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Appearance {
-    /// Its color: red, green, blue, and how much it covers (1: nothing shines through).
+    /// Its color: red, green, blue, and opacity (1: opaque).
     pub color: [f64; 4],
     /// Whether it is a metal (1) or not (0).
     pub metallic: f64,
-    /// How much it scatters what it reflects: from 0, a mirror, to 1, chalk.
+    /// The diffuseness of its reflection: from 0, a mirror, to 1, chalk.
     pub roughness: f64,
-    /// Whether it shines by itself, in its color.
+    /// Whether it glows in its color.
     pub emissive: bool,
     /// Its pattern.
     pub pattern: Motif,
@@ -20,21 +20,21 @@ pub struct Appearance {
     pub second: Option<[f64; 3]>,
 }
 
-/// A pattern that shows how a body turns. All lengths are in radii of a ball of the body's volume, but for those of
-/// the ground; the pattern's middle and axes are the body's.
+/// A pattern that makes rotation visible. All lengths are in radii of a ball of the body's volume, except the ground's.
+/// The pattern's centre and axes are the body's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Motif {
     /// None.
     None,
-    /// Cubes of 0.5 of both colors by turns; a corner of theirs is in the middle of the body, and the one from 0 to 0.5
-    /// along all axes has the second color.
+    /// Cubes with edge 0.5 in alternating colors. The body's centre is a corner, and the cube from 0 to 0.5 along all
+    /// axes has the second color.
     Checkered,
-    /// Bands of 0.22 of both colors by turns around y; the middle one, from -0.11 to 0.11, has the second color.
+    /// Bands of height 0.22 around y in alternating colors. The middle one, from -0.11 to 0.11, has the second color.
     Striped,
-    /// Six sectors around y, in the colors [`BEACH_BALL`]; the poles, from |y| = 0.911 on, have the second color. The
-    /// color of the whole is the mean.
+    /// Six sectors around y in the colors [`BEACH_BALL`]. The poles, |y| ≥ 0.911, have the second color. The body's
+    /// color is the mean.
     BeachBall,
-    /// Tiles of edge 1 of both colors by turns, on a plane along x and z; the one from 0 to 1 has the second color.
+    /// Tiles with edge 1 in alternating colors, on the x-z plane. The one from 0 to 1 has the second color.
     Ground,
 }
 
@@ -51,13 +51,13 @@ pub const BEACH_BALL: [Color; 6] = [
 /// The white of toys.
 const WHITE: Color = Color([0.96, 0.95, 0.92]);
 
-/// What is not known: the words of POV-Ray may mean anything.
+/// The color of materials in POV-Ray's words, whose color is not known.
 const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
 
-/// How much covers what is transparent by words of POV-Ray, which may say how much in many ways.
+/// The opacity of materials that POV-Ray's words make transparent, since their amount is not parsed.
 const CLEAR: f64 = 0.35;
 
-/// The words of POV-Ray for what light passes through. Source: its documentation, 3.4.1.7 (colors).
+/// POV-Ray's words for transparency. Source: its documentation, 3.4.1.7 (colors).
 const SHINES_THROUGH: [&str; 8] = ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
 
 impl Appearance {
@@ -71,7 +71,7 @@ impl Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
     }
 
-    /// The colors of its pattern, in the order of [`Motif::split`]; without one, its color.
+    /// The colors of its pattern, in the order of [`Motif::split`]; without a pattern, its color.
     #[must_use]
     pub fn colors(&self) -> Vec<[f64; 3]> {
         let [red, green, blue, _] = self.color;
@@ -82,7 +82,7 @@ impl Appearance {
         first.into_iter().chain(self.second).collect()
     }
 
-    /// The color for one that draws no patterns: the mean of both.
+    /// The color without patterns: the mean of both.
     #[must_use]
     pub fn mean(&self) -> [f64; 4] {
         match (self.pattern, self.second) {
@@ -95,8 +95,7 @@ impl Appearance {
     }
 }
 
-/// What a look is like; gray where only POV-Ray knows. The checkered look of the ground is that of daylight (see
-/// [`ground`]).
+/// The appearance of a look; gray if only POV-Ray knows it. The checkered ground is that of daylight (see [`ground`]).
 #[must_use]
 pub fn appearance(look: &Look) -> Appearance {
     match look {
@@ -112,7 +111,7 @@ pub fn appearance(look: &Look) -> Appearance {
     }
 }
 
-/// Whether words of POV-Ray say that something shines through.
+/// Whether words of POV-Ray make something transparent.
 fn is_clear(text: &str) -> bool {
     let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
     text.split(|letter| !is_word(letter)).any(|word| SHINES_THROUGH.contains(&word))
@@ -125,13 +124,13 @@ fn plain(color: Color, finish: Finish) -> Appearance {
         Finish::Satin => Appearance::new(color, 0.0, 0.5),
         Finish::Glossy => Appearance::new(color, 0.0, 0.2),
         Finish::Metal => Appearance::new(color, 1.0, 0.25),
-        // It reflects in no color, and has a hint of its own.
+        // A mirror reflects without a color and has a slight tint of its own.
         Finish::Mirror => Appearance::new(color.map(|part| 0.85 + 0.06 * part), 1.0, 0.03),
         Finish::Luminous => Appearance { emissive: true, ..Appearance::new(color, 0.0, 1.0) },
     }
 }
 
-/// A material of the library whose color is given, if it takes one.
+/// A material of the library, in the given color if it takes one.
 fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     let PlainLook { tone, cover, metallic, roughness } = material.plain;
     let tint = tint.linear();
@@ -148,7 +147,7 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     Appearance { color: [red, green, blue, cover], emissive: material.glows(), ..look }
 }
 
-/// The mean of some colors, which is one of light.
+/// The mean of some colors as linear light.
 fn mean(colors: &[Color; 6]) -> [f64; 3] {
     let sum = colors.iter().fold([0.0; 3], |sum, color| {
         let [red, green, blue] = color.linear();
@@ -157,7 +156,7 @@ fn mean(colors: &[Color; 6]) -> [f64; 3] {
     sum.map(|part| part / 6.0)
 }
 
-/// The checkered ground of surroundings, and of planes without a material there.
+/// The checkered ground of an environment, also for planes without a material.
 #[must_use]
 pub fn ground(preset: Preset) -> Appearance {
     let [light, dark] = tiles(preset);

@@ -1,4 +1,4 @@
-//! The forms that shapes are drawn of.
+//! The unit forms from which shapes are built.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -8,22 +8,22 @@ use glam::DVec3;
 use super::{Triangles, helix, lathe, mesh, straight};
 use crate::dynamics::Mesh;
 
-/// A form in a standard size, which many bodies share: each scales it as it needs. What has an axis has it along y.
+/// A form of standard size, shared by many bodies that each scale it. Its axis, if any, is y.
 ///
-/// Forms are equal, and the same key of a map, where their names and numbers are so bit for bit; meshes, where they are
-/// one and the same in memory.
+/// Two forms are equal, and the same key of a map, if their names and numbers agree bit for bit; two meshes, if they
+/// are the same object in memory.
 #[derive(Clone, Debug)]
 pub struct Form(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// What follows from a few numbers.
+    /// A form computed from a few numbers.
     Made { name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles },
     /// A mesh, in its own units.
     Mesh(Arc<Mesh>),
 }
 
-/// How fine forms are divided.
+/// The resolution of forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Detail {
     /// A ball has about 1,100 vertices: for pictures.
@@ -50,17 +50,17 @@ impl Form {
     pub const CUBE: Form = Form::made("cube", [0.0; 4], |_, _| straight::cube());
     /// A cylinder of radius 1 from y = -1 to 1.
     pub const CYLINDER: Form = Form::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
-    /// A square from -1 to 1 along x and z, seen from above. Whoever draws it chooses how large.
+    /// A square from -1 to 1 along x and z, seen from above. The renderer chooses its size.
     pub const PLANE: Form = Form::made("plane", [0.0; 4], |_, _| straight::plane());
 
-    /// A form that follows from some numbers. By its name and these it is known, and the function makes its triangles of
-    /// the numbers and of how many sides a circle has.
+    /// A form computed from some numbers, which with its name identify it. The function makes its triangles from the
+    /// numbers and the number of sides of a circle.
     #[must_use]
     pub const fn made(name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles) -> Form {
         Form(Kind::Made { name, numbers, make })
     }
 
-    /// A cone or a frustum of height 2 about its centre of mass, of the radii of its lower and upper end, of which the larger is 1.
+    /// A cone or frustum of height 2 about its centre of mass, with its lower and upper radius. The larger is 1.
     #[must_use]
     pub fn cone(bottom: f64, top: f64) -> Form {
         Form::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
@@ -68,7 +68,7 @@ impl Form {
         })
     }
 
-    /// A cylinder of radius 1 with half a ball on either end; the whole reaches from y = -1 - `straight` to 1 + `straight`.
+    /// A cylinder of radius 1 with a hemisphere on either end, from y = -1 - `straight` to 1 + `straight`.
     #[must_use]
     pub fn capsule(straight: f64) -> Form {
         Form::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
@@ -76,13 +76,14 @@ impl Form {
         })
     }
 
-    /// A ring around y, the middle of whose tube is at distance 1; its tube has the given radius, at most 1.
+    /// A ring around y with major radius 1. Its tube has the given radius, at most 1.
     #[must_use]
     pub fn torus(tube: f64) -> Form {
         Form::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
     }
 
-    /// A box with round edges about the origin, of half its edges, the longest of which is 1, and the radius of its edges.
+    /// A box with rounded edges about the origin: half its edge lengths, the longest being 1, and the radius of its
+    /// edges.
     #[must_use]
     pub fn rounded_box(half: DVec3, rounding: f64) -> Form {
         Form::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
@@ -90,7 +91,7 @@ impl Form {
         })
     }
 
-    /// The coil of a spring about y, from y = -1 to 1, with its radius 1 and so many turns; its wire has the given radius.
+    /// A spring's coil about y, from y = -1 to 1, with radius 1 and `turns` turns. Its wire has the given radius.
     #[must_use]
     pub fn coil(turns: u32, wire: f64) -> Form {
         Form::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
@@ -104,7 +105,7 @@ impl Form {
         Form(Kind::Mesh(mesh))
     }
 
-    /// Its triangles. A mesh has those that it has, however fine they are.
+    /// Its triangles. Those of a mesh do not depend on the detail.
     #[must_use]
     pub fn triangles(&self, detail: Detail) -> Triangles {
         match &self.0 {
@@ -113,7 +114,7 @@ impl Form {
         }
     }
 
-    /// Whether it encloses something, so that its inside is never seen.
+    /// Whether it is closed, so that its inside is never visible.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         match &self.0 {
@@ -122,7 +123,7 @@ impl Form {
         }
     }
 
-    /// A short name of what it is: `ball`; of a mesh, its own.
+    /// A short name: `ball`; for a mesh, its own.
     #[must_use]
     pub fn name(&self) -> &str {
         match &self.0 {
@@ -131,11 +132,11 @@ impl Form {
         }
     }
 
-    /// What tells it from all others: its name and its numbers.
+    /// Its identity: its name and its numbers.
     fn key(&self) -> (Option<&'static str>, [u64; 4]) {
         match &self.0 {
             Kind::Made { name, numbers, .. } => (Some(name), numbers.map(f64::to_bits)),
-            // Two meshes that live at the same time are at different places.
+            // Two meshes alive at the same time have different addresses.
             Kind::Mesh(mesh) => (None, [Arc::as_ptr(mesh).addr() as u64, 0, 0, 0]),
         }
     }

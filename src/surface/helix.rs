@@ -5,18 +5,18 @@ use glam::DVec3;
 use super::Triangles;
 use super::angles::circle;
 
-/// The length of a coil as it is made, in radii, for each of its turns: about that of a usual spring at rest.
+/// The length per turn of a coil as it is built, in radii: that of a usual spring at rest.
 const PITCH: f64 = 1.5;
 
-/// A coil of radius 1 about y, from y = -1 to 1, of so many turns. Its wire is round, with the given radius, where the coil is
-/// drawn 1.5 radii long for each turn. As in the scripts, it begins and ends on the axis.
+/// A coil of radius 1 about y, from y = -1 to 1. Its wire is round, with the given radius, if the coil is drawn 1.5
+/// radii long per turn. As in the scripts, it begins and ends on the axis.
 pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
     let length = PITCH * turns;
     let across = (sides / 6).max(4).next_multiple_of(4);
     let middles = path(turns, length, (sides / 3).max(8).next_multiple_of(4));
     let mut out = Triangles::default();
     let mut rings: Vec<Vec<u32>> = Vec::with_capacity(middles.len());
-    // It is not along any piece of the path.
+    // A direction that is parallel to no piece of the path.
     let mut aside = DVec3::X;
     for (i, middle) in middles.iter().enumerate() {
         let before = middles[i.saturating_sub(1)];
@@ -30,7 +30,7 @@ pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
             let (cosine, sine) = circle(side, across);
             let normal = cosine * aside + sine * other;
             let point = *middle + wire * normal;
-            // To the standard size, in which normals are flatter.
+            // Scale to the standard size, which flattens the normals.
             let flat = 0.5 * length;
             out.vertex(
                 DVec3::new(point.x, point.y / flat, point.z),
@@ -48,7 +48,7 @@ pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
     out
 }
 
-/// The middle of the wire, from end to end.
+/// The centre line of the wire, from end to end.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "turns are a small whole number")]
 fn path(turns: f64, length: f64, per_turn: u32) -> Vec<DVec3> {
     let count = turns as u32 * per_turn;

@@ -1,4 +1,4 @@
-//! Forms that look the same all around the y axis: a profile, turned.
+//! Surfaces of revolution about the y axis: a profile, swept around.
 
 use glam::DVec3;
 
@@ -11,23 +11,23 @@ use crate::dynamics::cone_base;
 struct Point {
     radius: f64,
     y: f64,
-    /// The part of the normal that points away from the axis, and that along the axis.
+    /// The normal's components away from the axis and along it.
     normal: [f64; 2],
 }
 
 impl Point {
-    /// Whether it is one point for all sides: a pole, or the middle of a disk.
+    /// Whether all sides share it: a pole, or the centre of a disk.
     fn is_single(self) -> bool {
         self.radius == 0.0 && self.normal[0] == 0.0
     }
 }
 
-/// A ball of radius 1 that is cut at its equator and drawn apart by `straight` on either side.
+/// A ball of radius 1, cut at its equator and pulled apart by `straight` on either side.
 pub(super) fn capsule(straight: f64, sides: u32) -> Triangles {
     let quarter = sides / 4;
     let at = |part: u32| {
         let (cosine, sine) = circle(part, sides);
-        // Parts are counted from the lower pole on, past the largest radius, to the upper one.
+        // Parts are counted from the lower pole, past the largest radius, to the upper pole.
         Point { radius: sine, y: -cosine, normal: [sine, -cosine] }
     };
     let lower = (0..=quarter).map(at).map(|point| Point { y: point.y - straight, ..point });
@@ -54,10 +54,11 @@ pub(super) fn cone(bottom: f64, top: f64, sides: u32) -> Triangles {
     turned(&profile, sides)
 }
 
-/// A ring whose tube has the given radius, and its middle the radius 1.
+/// A ring with major radius 1 and the given tube radius.
 pub(super) fn torus(tube: f64, sides: u32) -> Triangles {
     let half = sides / 2;
-    // From the inside, along the bottom, to the inside again; the tube has half as many sides as the ring.
+    // The profile runs once around the tube, starting at the inside and along the bottom. The tube has half as many
+    // sides as the ring.
     let at = |part: u32| {
         let (cosine, sine) = circle((part + half / 2) % half, half);
         Point { radius: 1.0 + tube * cosine, y: tube * sine, normal: [cosine, sine] }
@@ -65,8 +66,8 @@ pub(super) fn torus(tube: f64, sides: u32) -> Triangles {
     turned(&(0..=half).map(at).collect::<Vec<_>>(), sides)
 }
 
-/// What a profile sweeps over in a turn about y. The profile goes from below to above where it is seen from outside.
-/// Edges are points that stand there twice, with a normal for either side.
+/// The surface of a profile swept about y. The profile goes upward where it is seen from outside. At an edge, two equal
+/// points have different normals.
 fn turned(profile: &[Point], sides: u32) -> Triangles {
     let mut out = Triangles::default();
     let mut starts = Vec::with_capacity(profile.len());
@@ -79,7 +80,7 @@ fn turned(profile: &[Point], sides: u32) -> Triangles {
         }
         for side in 0..sides {
             let (z, x) = circle(side, sides);
-            // The tip of a cone has the normal in the middle of each side.
+            // The tip of a cone has a normal in the middle of each side.
             let (nz, nx) = if point.radius == 0.0 { circle(2 * side + 1, 2 * sides) } else { (z, x) };
             let position = DVec3::new(point.radius * x, point.y, point.radius * z);
             out.vertex(position, DVec3::new(across * nx, along, across * nz));
@@ -90,7 +91,7 @@ fn turned(profile: &[Point], sides: u32) -> Triangles {
             |which: usize, side: u32| start[which] + if pair[which].is_single() { 0 } else { side % sides };
         for side in 0..sides {
             let quad @ [a, b, c, d] = [at(0, side), at(0, side + 1), at(1, side + 1), at(1, side)];
-            // At a tip, the corner counts that belongs to this side.
+            // At a tip, use the corner that belongs to this side.
             if pair[1].radius == 0.0 { out.quad([b, c, d, a]) } else { out.quad(quad) }
         }
     }

@@ -1,7 +1,7 @@
-//! Shapes as triangles, and materials as renderers know them that are not POV-Ray.
+//! Shapes as triangles, and materials for renderers other than POV-Ray.
 //!
-//! A shape is drawn of [`pieces`], each a [`Form`] in a standard size, so that all balls of a scene share the
-//! [`Triangles`] of one; [`appearance`] is what remains of a material without POV-Ray's patterns and reflections.
+//! A shape consists of [`pieces`], each a [`Form`] of standard size, so all balls of a scene share the same
+//! [`Triangles`]. [`appearance`] is a material without POV-Ray's patterns and reflections.
 
 mod angles;
 mod appearance;
@@ -24,20 +24,20 @@ pub use piece::{Piece, pieces};
 
 /// A surface of triangles.
 ///
-/// Seen from outside, the corners of each triangle go around counter-clockwise. Vertices at the same place with
-/// different normals are vertices of their own.
+/// Seen from outside, the corners of each triangle go counter-clockwise. Vertices at the same position with different
+/// normals are separate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
-    /// Where the vertices are.
+    /// The positions of the vertices.
     pub positions: Vec<[f32; 3]>,
     /// The unit normals at the vertices; they point outward.
     pub normals: Vec<[f32; 3]>,
-    /// The numbers of the vertices at the corners of the triangles, three for each.
+    /// The vertex indices at the corners of the triangles, three for each.
     pub indices: Vec<u32>,
 }
 
 impl Triangles {
-    /// Adds a vertex, and gives its number.
+    /// Adds a vertex and returns its index.
     #[allow(clippy::cast_possible_truncation, reason = "no surface has more vertices than 32 bits can count")]
     fn vertex(&mut self, position: DVec3, normal: DVec3) -> u32 {
         self.positions.push(position.as_vec3().to_array());
@@ -45,7 +45,7 @@ impl Triangles {
         self.positions.len() as u32 - 1
     }
 
-    /// Adds a triangle, unless two of its corners are at the same place.
+    /// Adds a triangle, unless two of its corners coincide.
     fn triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|corner| self.positions[corner as usize]);
         if a != b && b != c && c != a {

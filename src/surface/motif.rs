@@ -1,4 +1,4 @@
-//! Patterns whose borders are planes: triangles are cut along them, so that each part has one color.
+//! Patterns with plane borders. Triangles are cut along the borders, so that each part has one color.
 
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_3;
@@ -11,9 +11,9 @@ use super::{Motif, Triangles};
 const CUBE: f64 = 0.5;
 /// The height of a band of the striped pattern.
 const BAND: f64 = 0.22;
-/// From here on, the poles of a beach ball are white.
+/// Beyond this height, the poles of a beach ball are white.
 const POLE: f64 = 0.455 * 2.002;
-/// The largest number of planes; with more, nothing would be seen of the pattern but its mean.
+/// The largest number of planes. A finer pattern would only look like its mean.
 const MOST_PLANES: f64 = 200.0;
 
 /// A corner of a piece of a triangle.
@@ -21,20 +21,20 @@ const MOST_PLANES: f64 = 200.0;
 struct Corner {
     place: DVec3,
     normal: DVec3,
-    /// Where it is in the pattern.
+    /// Its position in the pattern.
     at: DVec3,
 }
 
-/// A plane of points p with `normal` · p = `distance`, in the pattern.
+/// In the pattern, a plane of points p with `normal` · p = `distance`.
 struct Border {
     normal: DVec3,
     distance: f64,
 }
 
 impl Motif {
-    /// Cuts triangles along the borders of the pattern: for each of [`colors`](super::Appearance::colors), the parts that
-    /// have it. The map takes their places to those in the pattern. Without a pattern, or where it is too fine to be
-    /// seen, nothing is given.
+    /// Cuts triangles along the borders of the pattern. For each of [`colors`](super::Appearance::colors), returns the
+    /// parts with this color. The map takes their positions to the pattern's. `None` without a pattern, or if it is too
+    /// fine to be visible.
     #[must_use]
     pub fn split(self, triangles: &Triangles, to_pattern: DAffine3) -> Option<Vec<Triangles>> {
         let corners: Vec<Corner> = triangles
@@ -95,7 +95,7 @@ impl Motif {
         Some((all.collect(), 2))
     }
 
-    /// The number of the color at a place of the pattern.
+    /// The index of the color at a point of the pattern.
     fn color_at(self, at: DVec3) -> usize {
         let second_where = |even: f64| usize::from(even.rem_euclid(2.0) < 0.5);
         match self {
@@ -113,9 +113,9 @@ impl Motif {
 }
 
 impl Border {
-    /// Cuts a convex piece in two, if the border goes through it.
+    /// Cuts a convex piece in two if the border crosses it.
     fn cut(&self, piece: Vec<Corner>) -> Vec<Vec<Corner>> {
-        // What is as near is on the border.
+        // Corners this close count as on the border.
         const NEAR: f64 = 1e-7;
         let side = |corner: &Corner| {
             let side = self.normal.dot(corner.at) - self.distance;
@@ -145,7 +145,7 @@ impl Border {
 }
 
 impl Corner {
-    /// The corner that is a part of the way to another.
+    /// The corner at a fraction of the distance to another.
     fn towards(&self, other: &Corner, part: f64) -> Corner {
         let normal = self.normal.lerp(other.normal, part);
         Corner {
@@ -160,7 +160,7 @@ impl Corner {
 #[derive(Default)]
 struct Part {
     triangles: Triangles,
-    /// The number of each vertex, by its place and its normal; the map is only asked, never walked through.
+    /// The index of each vertex, by its position and its normal. The map is never iterated.
     known: HashMap<[u32; 6], u32>,
 }
 

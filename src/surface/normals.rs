@@ -1,18 +1,18 @@
-//! The normals of surfaces that look round.
+//! Smooth normals of meshes.
 
 use glam::DVec3;
 
 use crate::dynamics::Mesh;
 
-/// The normals of a mesh, and which of them each corner of each triangle has.
+/// The normals of a mesh, and their indices for the corners of each triangle.
 pub(crate) struct Normals {
     pub(crate) vectors: Vec<DVec3>,
     pub(crate) corners: Vec<[u32; 3]>,
 }
 
-/// The normals at the corners of each triangle: the mean of its own and of those of all triangles at the same vertex that
-/// it meets at no more than `smooth` rad, each weighing as the angle of its corner (G. Thürmer, C. A. Wüthrich, *Computing
-/// Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998).
+/// The normals at the corners of each triangle. Each is the mean of its own normal and those of all triangles at the
+/// vertex within an angle of `smooth` (rad), weighted by the angles of their corners (G. Thürmer, C. A. Wüthrich,
+/// *Computing Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998).
 #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer corners than 32 bits can count")]
 pub(crate) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
     let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
@@ -36,7 +36,7 @@ pub(crate) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
             });
             let mean = mean.sum::<DVec3>().try_normalize().or_else(|| own_normal.try_normalize());
             let mean = mean.unwrap_or(DVec3::Y);
-            // Triangles that see the same others have the same sum, bit for bit.
+            // Triangles with the same neighbors have the same sum, bit for bit.
             let number = normals.vectors[known..].iter().position(|normal| *normal == mean);
             let number = number.map_or(normals.vectors.len(), |number| known + number);
             if number == normals.vectors.len() {
@@ -57,9 +57,9 @@ fn angle(vertices: &[DVec3], triangle: [u32; 3], corner: usize) -> f64 {
 
 /// The triangles around each vertex.
 struct Around {
-    /// Where those of each vertex begin; one number more than there are vertices.
+    /// The start of each vertex's range in `corners`, and the end of the last.
     starts: Vec<u32>,
-    /// A triangle, and which of its corners is at the vertex.
+    /// A triangle, and the number of its corner at the vertex.
     corners: Vec<(u32, u8)>,
 }
 

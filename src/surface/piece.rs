@@ -1,4 +1,4 @@
-//! The forms that a body is drawn of.
+//! The forms that make up a body.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use super::Form;
 use crate::dynamics::{Shape, cone_base};
 use crate::scene::Color;
 
-/// One of the forms that a body is drawn of, in the body's own frame: it is scaled, then turned, then moved.
+/// One of the forms that make up a body, in the body's own frame: it is scaled, then rotated, then moved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The form.
     pub form: Form,
     /// The length of one unit of the form along each of its axes, m.
     pub scale: DVec3,
-    /// Where its origin is, m.
+    /// The position of its origin, m.
     pub location: DVec3,
-    /// How it is turned.
+    /// Its rotation.
     pub orientation: DQuat,
-    /// A color of its own, whatever the body is made of.
+    /// A fixed color, independent of the body's material.
     pub color: Option<Color>,
 }
 
@@ -29,8 +29,8 @@ impl Piece {
     }
 }
 
-/// The forms that a shape is drawn of. A compound has those of all its parts; a plane has a square of 2 m × 2 m, which
-/// whoever draws it makes as large as it has to be.
+/// The forms that make up a shape. A compound has those of all its parts. A plane has a square of 2 m × 2 m, which the
+/// renderer enlarges as needed.
 #[must_use]
 pub fn pieces(shape: &Shape) -> Vec<Piece> {
     let even = |form, length| vec![Piece::new(form, DVec3::splat(length))];
@@ -47,7 +47,7 @@ pub fn pieces(shape: &Shape) -> Vec<Piece> {
         }
         Shape::Capsule { radius, height } => {
             let straight = (height / 2.0 / radius - 1.0).max(0.0);
-            // As long as it is wide, it is a ball, but for rounding.
+            // A capsule as long as it is wide is a ball, up to rounding.
             even(if straight < 1e-6 { Form::BALL } else { Form::capsule(straight) }, radius)
         }
         Shape::Cone { radius, top_radius, height } => vec![cone(radius, top_radius, height)],
@@ -71,7 +71,7 @@ pub fn pieces(shape: &Shape) -> Vec<Piece> {
     }
 }
 
-/// A cone or a frustum; one with equal ends is a cylinder.
+/// A cone or a frustum; a cylinder if its ends are equal.
 fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
     let wide = radius.max(top_radius);
     let scale = DVec3::new(wide, height / 2.0, wide);
@@ -81,7 +81,7 @@ fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
     Piece::new(Form::cone(radius / wide, top_radius / wide), scale)
 }
 
-/// The color of the ball in the middle of axes, and of their arms along x, y and z: those of `templates/axes.inc`.
+/// The colors of the ball at the centre of axes, and of the arms along x, y and z: those of `templates/axes.inc`.
 const AXES: [Color; 4] =
     [Color([0.82, 0.81, 0.79]), Color([0.8, 0.1, 0.12]), Color([0.1, 0.54, 0.2]), Color([0.14, 0.3, 0.82])];
 

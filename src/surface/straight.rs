@@ -10,7 +10,7 @@ pub(super) fn cube() -> Triangles {
     let mut out = Triangles::default();
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         for normal in [axis, -axis] {
-            // The two other axes, so that the first, the second and the normal are right-handed.
+            // The other two axes, such that the first, the second and the normal are right-handed.
             let first = DVec3::new(normal.z.abs() + normal.y.abs(), 0.0, normal.x.abs());
             let second = normal.cross(first);
             let corner = |i: f64, j: f64| normal + first * i + second * j;
@@ -31,7 +31,7 @@ pub(super) fn plane() -> Triangles {
     out
 }
 
-/// A box with round edges: a ball that is cut in eight, whose parts are moved to the corners.
+/// A box with rounded edges: a ball cut in eight, with the parts moved to the corners.
 pub(super) fn rounded_box(half: DVec3, rounding: f64, sides: u32) -> Triangles {
     let mut out = Triangles::default();
     let inner = (half - rounding).max(DVec3::ZERO);
