@@ -1,10 +1,9 @@
 //! Impacts → a table with a row for each.
 
-use std::io::{self, Write};
-
-use csv::WriterBuilder;
+use std::io::Write;
 
 use super::ExportError;
+use super::table::Table;
 use crate::simulate::Recorded;
 
 /// The columns, with their units.
@@ -32,23 +31,18 @@ pub const EVENT_HEADER: [&str; 13] = [
 /// If it cannot be written, or the recording cannot be read.
 pub fn write_events(run: &Recorded<'_>, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
-    let mut csv = WriterBuilder::new().from_writer(out);
-    csv.write_record(EVENT_HEADER).map_err(io::Error::from)?;
-    let mut rows = 0;
+    let mut table = Table::new(out, &EVENT_HEADER)?;
     for impact in run.impacts() {
         let impact = impact?;
-        csv.write_field(impact.time.to_string()).map_err(io::Error::from)?;
+        table.numbers(&[impact.time])?;
         for id in impact.bodies {
-            let name = scene.bodies.get(id).map_or("ground", |body| &*body.name);
-            csv.write_field(name).map_err(io::Error::from)?;
+            table.text(scene.bodies.get(id).map_or("ground", |body| &body.name))?;
         }
-        let vectors = [impact.place, impact.normal, impact.impulse].map(|vector| vector.to_array());
-        for number in vectors.as_flattened().iter().chain([&impact.energy]) {
-            csv.write_field(number.to_string()).map_err(io::Error::from)?;
+        for vector in [impact.place, impact.normal, impact.impulse] {
+            table.numbers(&vector.to_array())?;
         }
-        csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
-        rows += 1;
+        table.numbers(&[impact.energy])?;
+        table.end_row()?;
     }
-    csv.flush()?;
-    Ok(rows)
+    table.finish()
 }

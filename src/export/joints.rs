@@ -1,10 +1,9 @@
 //! Frames → a table with a row for each time and joint: what the joints do to their bodies.
 
-use std::io::{self, Write};
-
-use csv::WriterBuilder;
+use std::io::Write;
 
 use super::ExportError;
+use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
 /// The columns, with their units.
@@ -22,23 +21,18 @@ pub fn write_joints(
     out: impl Write,
 ) -> Result<usize, ExportError> {
     let scene = run.scene();
-    let mut csv = WriterBuilder::new().from_writer(out);
-    csv.write_record(JOINT_HEADER).map_err(io::Error::from)?;
-    let mut rows = 0;
+    let mut table = Table::new(out, &JOINT_HEADER)?;
     for exposure in run.exposures(selection) {
         let frame = exposure?.frame;
         for (joint, reaction) in scene.joints.iter().zip(&frame.reactions) {
-            csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
-            csv.write_field(&joint.name).map_err(io::Error::from)?;
-            for number in reaction.force.to_array().into_iter().chain(reaction.torque.to_array()) {
-                csv.write_field(number.to_string()).map_err(io::Error::from)?;
-            }
-            csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
-            rows += 1;
+            table.numbers(&[frame.time])?;
+            table.text(&joint.name)?;
+            table.numbers(&reaction.force.to_array())?;
+            table.numbers(&reaction.torque.to_array())?;
+            table.end_row()?;
         }
     }
-    csv.flush()?;
-    Ok(rows)
+    table.finish()
 }
 
 #[cfg(test)]

@@ -1,13 +1,14 @@
 //! Frames → data for other programs.
 
-mod csv;
+mod bodies;
 mod error;
 mod events;
 mod glb;
 mod joints;
 mod particles;
+mod table;
 
-pub use self::csv::{HEADER, write_csv};
+pub use self::bodies::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::events::{EVENT_HEADER, write_events};
 pub use self::glb::{Exported, write_glb};

@@ -1,10 +1,9 @@
 //! Particles → a table with a row for each time and particle.
 
-use std::io::{self, Write};
-
-use csv::WriterBuilder;
+use std::io::Write;
 
 use super::ExportError;
+use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
 /// The columns, with their units.
@@ -25,27 +24,24 @@ pub fn write_particles(
     out: impl Write,
 ) -> Result<usize, ExportError> {
     let scene = run.scene();
-    let mut csv = WriterBuilder::new().from_writer(out);
-    csv.write_record(PARTICLE_HEADER).map_err(io::Error::from)?;
-    let mut rows = 0;
+    let mut table = Table::new(out, &PARTICLE_HEADER)?;
     for exposure in run.exposures(selection) {
         let frame = exposure?.frame;
         for (emitter, swarm) in scene.emitters.iter().zip(&frame.particles) {
             for particle in swarm.iter() {
-                csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
-                csv.write_field(&*emitter.name).map_err(io::Error::from)?;
-                csv.write_field(particle.number.to_string()).map_err(io::Error::from)?;
-                let vectors = [particle.location, particle.velocity].map(|vector| vector.to_array());
-                for number in vectors.as_flattened().iter().chain([&particle.born]) {
-                    csv.write_field(number.to_string()).map_err(io::Error::from)?;
+                table.numbers(&[frame.time])?;
+                table.text(&emitter.name)?;
+                table.text(&particle.number.to_string())?;
+                table.numbers(&particle.location.to_array())?;
+                table.numbers(&particle.velocity.to_array())?;
+                table.numbers(&[particle.born])?;
+                match particle.dies {
+                    dies if dies.is_finite() => table.numbers(&[dies])?,
+                    _ => table.text("")?,
                 }
-                let dies = if particle.dies.is_finite() { particle.dies.to_string() } else { String::new() };
-                csv.write_field(dies).map_err(io::Error::from)?;
-                csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
-                rows += 1;
+                table.end_row()?;
             }
         }
     }
-    csv.flush()?;
-    Ok(rows)
+    table.finish()
 }

@@ -1,10 +1,9 @@
 //! Frames → a table with a row for each time and body, which `motion.trajectory` reads.
 
-use std::io::{self, Write};
-
-use csv::WriterBuilder;
+use std::io::Write;
 
 use super::ExportError;
+use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
 /// The columns, with their units.
@@ -33,26 +32,18 @@ pub const HEADER: [&str; 15] = [
 /// If it cannot be written, or the recording cannot be read.
 pub fn write_csv(run: &Recorded<'_>, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
-    let mut csv = WriterBuilder::new().from_writer(out);
-    csv.write_record(HEADER).map_err(io::Error::from)?;
-    let mut rows = 0;
+    let mut table = Table::new(out, &HEADER)?;
     for exposure in run.exposures(selection) {
         let frame = exposure?.frame;
         for body in &frame.bodies {
-            csv.write_field(frame.time.to_string()).map_err(io::Error::from)?;
-            csv.write_field(&*scene.bodies[body.id].name).map_err(io::Error::from)?;
-            let vectors =
-                [body.location.to_array(), body.velocity.to_array(), body.angular_velocity.to_array()];
-            let [location, velocity, angular] = vectors;
-            let numbers =
-                location.into_iter().chain(body.orientation.to_array()).chain(velocity).chain(angular);
-            for number in numbers {
-                csv.write_field(number.to_string()).map_err(io::Error::from)?;
-            }
-            csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
-            rows += 1;
+            table.numbers(&[frame.time])?;
+            table.text(&scene.bodies[body.id].name)?;
+            table.numbers(&body.location.to_array())?;
+            table.numbers(&body.orientation.to_array())?;
+            table.numbers(&body.velocity.to_array())?;
+            table.numbers(&body.angular_velocity.to_array())?;
+            table.end_row()?;
         }
     }
-    csv.flush()?;
-    Ok(rows)
+    table.finish()
 }
