@@ -12,6 +12,7 @@ mod mutator;
     reason = "a test program has no outside, and cargo-fuzz tries them one by one"
 )]
 mod targets;
+mod texts;
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};

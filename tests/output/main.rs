@@ -11,6 +11,7 @@ mod edited;
 mod folder;
 mod frames;
 mod full;
+mod gltf;
 mod kill;
 mod memory;
 mod meshes;

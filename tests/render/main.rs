@@ -5,6 +5,7 @@ mod again;
 mod commands;
 mod crowded;
 mod faults;
+mod film;
 mod folders;
 mod killed;
 mod pictures;

@@ -1,4 +1,4 @@
-//! Tests of a file's promises, as far as they need no reader of glTF. Tests with readers are in `tests/gltf/`.
+//! Tests of a file's promises, as far as they need no reader of glTF. Tests with readers are in `tests/output/gltf.rs`.
 
 use glam::DQuat;
 use serde_json::Value;

@@ -11,7 +11,7 @@ pub fn reference() -> String {
     let text = String::from(
         "# The scene language, key by key\n\n\
          This page is made from the description of the keys that also reads and checks scenes; the test\n\
-         `tests/reference.rs` keeps it so. Coordinates are right-handed: x right, y up, z towards the viewer.\n\n\
+         `tests/docs/reference.rs` keeps it so. Coordinates are right-handed: x right, y up, z towards the viewer.\n\n\
          Wherever a number stands, a string with a [formula](#formulas) can stand: `radius = \"2*r\"`.\n",
     );
     let mut page = Page { text, sections: Vec::new() };

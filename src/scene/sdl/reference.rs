@@ -61,7 +61,7 @@ fn lines(words: &[&str]) -> String {
 
 const HEAD: &str = "# What POV-Ray's own words may do without `--trust`
 
-This page is made from the lists that the check uses; the test `tests/reference.rs` keeps it so.
+This page is made from the lists that the check uses; the test `tests/docs/reference.rs` keeps it so.
 
 POV-Ray opens, overwrites and includes any file of its user. A scene from somewhere else must not do that, so jabuka
 cuts its SDL into POV-Ray's tokens and lets pass only what stands below. That holds for `povray.sdl`, the SDL of

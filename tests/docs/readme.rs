@@ -1,0 +1,69 @@
+//! Every scene, command and output of the README and of the pages that it links to is real. To see what they should
+//! say: `JABUKA_UPDATE_DOCS=1 cargo test --test docs readme` writes the outputs into them.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use crate::page::Page;
+use crate::support;
+
+#[test]
+fn the_readme_is_real_and_short() {
+    // Not all of its pictures are made by its own commands: see `docs/*.sh`.
+    Page::check("README.md", &[]).check_pictures();
+    let lines = fs::read_to_string(support::root().join("README.md")).unwrap().lines().count();
+    assert!(lines <= 250, "{lines} lines: move some to docs/");
+}
+
+#[test]
+fn the_page_of_scenes_is_real() {
+    Page::check("docs/scenes.md", &[]).check_pictures();
+}
+
+#[test]
+fn the_page_of_commands_is_real() {
+    Page::check("docs/commands.md", &["README.md"]).check_pictures();
+}
+
+#[test]
+fn the_page_of_reports_is_real() {
+    Page::check("docs/report.md", &[]).check_pictures();
+}
+
+#[test]
+fn the_page_of_templates_is_real() {
+    Page::check("docs/reuse.md", &[]).check_pictures();
+}
+
+/// The names that GitHub gives to the headings of a page, for links.
+fn headings(page: &str) -> BTreeSet<String> {
+    let is_kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
+    let name =
+        |heading: &str| heading.to_lowercase().chars().filter(is_kept).collect::<String>().replace(' ', "-");
+    let headings = page.lines().filter(|line| line.starts_with('#'));
+    headings.map(|line| name(line.trim_start_matches('#').trim())).collect()
+}
+
+#[test]
+fn every_link_leads_to_a_file_and_a_heading_that_are_there() {
+    let docs = fs::read_dir(support::root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut pages: Vec<_> = docs.filter(|path| path.extension().is_some_and(|end| end == "md")).collect();
+    pages.extend(["README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"].map(|name| support::root().join(name)));
+    let mut broken = Vec::new();
+    for path in &pages {
+        let text = fs::read_to_string(path).unwrap();
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link);
+        for link in links.filter(|link| !link.starts_with("http")) {
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() { path.clone() } else { path.with_file_name(file) };
+            let is_there = match heading {
+                "" => target.exists(),
+                _ => headings(&fs::read_to_string(&target).unwrap_or_default()).contains(heading),
+            };
+            if !is_there {
+                broken.push(format!("{}: {link}", path.display()));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}

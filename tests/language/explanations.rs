@@ -1,0 +1,191 @@
+//! Every code is explained, and what its explanation shows is true.
+
+use std::fs;
+use std::process::Command;
+
+use crate::support::{self, commands, jabuka, root, stderr, stdout};
+use jabuka::diagnostic::{Code, Diagnostic, Report};
+use jabuka::explain::explanations;
+use jabuka::output::OutputError;
+use jabuka::{Run, Scene};
+
+/// That every code has a file, the compiler sees to.
+#[test]
+fn every_code_is_made_somewhere_and_every_file_is_of_a_code() {
+    let made = support::codes(&root().join("src"));
+    let unused: Vec<_> = Code::ALL.iter().filter(|code| !made.contains(code)).collect();
+    assert!(unused.is_empty(), "nothing in src/ makes {unused:?}");
+    for entry in fs::read_dir(root().join("explanations")).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        assert!(Code::named(name).is_some(), "{name} is no code: see src/diagnostic/code.rs");
+    }
+}
+
+#[test]
+fn every_explanation_has_its_parts_and_fits_a_terminal() {
+    for entry in explanations() {
+        let text = entry.to_string();
+        let title = entry.title();
+        assert!(title.starts_with(char::is_uppercase) && !title.ends_with('.'), "{}: {title}", entry.code);
+        let parts: Vec<_> = ["\n\nWrong:\n\n    ", "\n\nRight:\n\n    "].map(|part| text.find(part)).into();
+        assert!(parts[0].is_some() && parts[0] < parts[1], "explanations/{}.md: {parts:?}", entry.code);
+        let longest = text.lines().map(|line| line.chars().count()).max();
+        assert!(longest <= Some(80), "explanations/{}.md has a line of {longest:?}", entry.code);
+    }
+}
+
+#[test]
+fn what_an_explanation_calls_wrong_gets_the_code_and_what_it_calls_right_gets_none() {
+    for entry in explanations() {
+        let code = entry.code;
+        let (wrong, right) = (entry.wrong(), entry.right());
+        if commands::are(&wrong) {
+            assert!(commands::are(&right), "explanations/{code}.md: one is a scene, the other are commands");
+            continue;
+        }
+        let found = diagnostics(&wrong);
+        assert!(
+            found.iter().any(|diagnostic| diagnostic.code == code),
+            "explanations/{code}.md: what is wrong gets {found:?}"
+        );
+        let found = diagnostics(&right);
+        assert!(found.is_empty(), "explanations/{code}.md: what is right gets {found:?}");
+    }
+}
+
+/// All that is said of a scene from its text to its last script.
+fn diagnostics(scene: &str) -> Vec<Diagnostic> {
+    let failure = |error: OutputError| vec![Diagnostic::error(error.code(), error.to_string())];
+    let scene = match Scene::parse(scene) {
+        Ok(scene) => scene,
+        Err(Report { diagnostics, .. }) => return diagnostics,
+    };
+    let run = match Run::new(&scene) {
+        Ok(run) => run,
+        Err(error) => return failure(error.into()),
+    };
+    for frame in run.frames() {
+        if let Err(error) = run.script(&frame.unwrap()) {
+            return failure(error.into());
+        }
+    }
+    scene.warnings.diagnostics.iter().cloned().chain(run.warnings()).collect()
+}
+
+#[test]
+fn explain_prints_the_text_of_a_code() {
+    let output = jabuka().args(["explain", "zero-length"]).output().unwrap();
+    insta::assert_snapshot!(stdout(&output), @r"
+    zero-length: A direction that points nowhere
+
+    Only the direction of these numbers counts, not their length; where all are 0
+    there is none.
+
+    Wrong:
+
+        [body.floor]
+        shape.plane.normal = [0, 0, 0]
+
+    Right:
+
+        [body.floor]
+        shape.plane.normal = [0, 1, 0]
+    ");
+    assert!(output.status.success());
+}
+
+#[test]
+fn explain_alone_lists_every_code() {
+    let output = jabuka().arg("explain").output().unwrap();
+    let said = stdout(&output);
+    assert!(output.status.success());
+    assert_eq!(said.lines().count(), explanations().len());
+    for (line, entry) in said.lines().zip(explanations()) {
+        assert!(line.starts_with(entry.code.name()) && line.ends_with(entry.title()), "{line}");
+    }
+}
+
+#[test]
+fn a_code_that_there_is_not_is_an_error() {
+    let output = jabuka().args(["explain", "unknown-kee"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stderr(&output), "error: there is no code `unknown-kee`; did you mean `unknown-key`?\n");
+    let output = jabuka().args(["explain", "xyzzy"]).output().unwrap();
+    assert_eq!(stderr(&output), "error: there is no code `xyzzy`\n");
+    assert_eq!((output.status.code(), stdout(&output)), (Some(1), String::new()));
+}
+
+/// What the commands of the explanations find in their folder.
+const SCENE: &str = "
+    [simulation]
+    duration = 0.4
+    [output]
+    size = [32, 18]
+    [body.ball]
+    shape.sphere.radius = 1
+    velocity = [2, 0, 0]
+    ";
+
+#[test]
+fn every_command_of_an_explanation_is_one_that_jabuka_has() {
+    for entry in explanations() {
+        for (text, is_right) in [(entry.wrong(), false), (entry.right(), true)] {
+            for command in text.lines().filter_map(|line| line.strip_prefix("$ ")).flat_map(commands::of_line)
+            {
+                let Err(why) = commands::parses(&command) else { continue };
+                // A value may be what is wrong; an option that there is not never is.
+                let about_a_value = why.starts_with("error: invalid value");
+                assert!(!is_right && about_a_value, "explanations/{}.md: `{command}`: {why}", entry.code);
+            }
+        }
+    }
+}
+
+#[test]
+fn commands_that_an_explanation_calls_wrong_get_the_code_and_those_it_calls_right_succeed() {
+    let prepared = tempfile::tempdir().unwrap();
+    let place = |name: &str| prepared.path().join(name);
+    let write = |name: &str, text: &[u8]| fs::write(place(name), text).unwrap();
+    let table = "t [s],body,x [m],y [m],z [m]\n0,ball,0,0,0\n1,ball,1,0,0\n";
+    let lift = "[body.ball]\nshape.sphere.radius = 1\nmotion.trajectory.file = \"lift_as_measured.csv\"\n";
+    for name in ["scene.toml", "film.toml", "ball.toml", "lamp.toml", "caffè.toml"] {
+        write(name, format!("title = \"caffè\"\n{SCENE}").as_bytes());
+    }
+    write(
+        "old.toml",
+        format!("title = \"caff\u{e8}\"\n{SCENE}").chars().map(|c| c as u8).collect::<Vec<_>>().as_slice(),
+    );
+    write("lift.toml", lift.as_bytes());
+    write("lift_as_measured.csv", table.as_bytes());
+    write("notes.txt", b"years of work");
+    fs::File::create(place("film.mp4")).unwrap().set_len(5 << 30).unwrap();
+    fs::create_dir(place("mine")).unwrap();
+    fs::create_dir(place("empty_folder")).unwrap();
+    std::os::unix::fs::symlink(root().join("scenes"), place("scenes")).unwrap();
+    let output = jabuka().args(["render", "scene.toml"]).current_dir(prepared.path()).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+
+    let mut tried = 0;
+    for entry in explanations() {
+        let code = entry.code;
+        let (wrong, right) = (entry.wrong(), entry.right());
+        // A comment behind a command tells of what a test cannot arrange.
+        if !commands::are(&wrong) || wrong.contains(" # ") {
+            continue;
+        }
+        tried += 1;
+        let folder = tempfile::tempdir().unwrap();
+        let copied = Command::new("cp").arg("-a").arg(prepared.path().join(".")).arg(folder.path()).status();
+        assert!(copied.unwrap().success());
+        let output = commands::run(&wrong, folder.path());
+        let said = stderr(&output);
+        // Arguments that are wrong as such have the code 2 and no name of their own.
+        let named = said.contains(&format!("[{code}]")) || output.status.code() == Some(2);
+        assert!(!output.status.success() && named, "explanations/{code}.md: what is wrong says:\n{said}");
+        let output = commands::run(&right, folder.path());
+        let said = stderr(&output);
+        assert!(output.status.success(), "explanations/{code}.md: what is right says:\n{said}");
+    }
+    assert!(tried >= 20, "only {tried} examples were run");
+}

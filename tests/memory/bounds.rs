@@ -1,0 +1,146 @@
+//! What a small scene asks for is a small thing, or refused: no few lines fill the memory, or keep a machine busy for minutes.
+
+use std::fs;
+
+use jabuka::Scene;
+use jabuka::diagnostic::Report;
+use jabuka::scene::Options;
+
+const BALL: &str = "[body.a]\nshape.sphere.radius = 1\n";
+
+/// The bytes that are in use at most while a scene is read, whether or not it is right.
+fn bytes(text: &str) -> u64 {
+    allocation_counter::measure(|| drop(Scene::parse(text))).bytes_max
+}
+
+/// The number of allocations while a scene is read: a count of work.
+fn work(text: &str) -> u64 {
+    allocation_counter::measure(|| drop(Scene::parse(text))).count_total
+}
+
+/// What is said of a scene, errors or warnings.
+fn said(text: &str) -> Report {
+    Scene::parse(text).map_or_else(|report| report, |scene| scene.warnings)
+}
+
+/// The code of the only thing that is said of a scene, and its line.
+fn only(report: &Report) -> (&'static str, usize, String) {
+    let [diagnostic] = report.diagnostics.as_slice() else { panic!("{report}") };
+    let span = diagnostic.span().unwrap();
+    let line = report.sources.position(span.source, span.start).line;
+    (diagnostic.code.name(), line, diagnostic.labels[0].text.clone())
+}
+
+#[test]
+fn a_copy_takes_less_than_a_kilobyte() {
+    let of = |n: usize, body: &str, more: &str| bytes(&format!("{body}repeat = {n}\n{more}"));
+    let long = "x".repeat(5000);
+    let keyframes = (1..100).map(|n| format!("{{ time = {n}, location = [{n}, 0, 0] }}")).collect::<Vec<_>>();
+    for more in [
+        "",
+        "mass = 3\nvelocity = [1, 2, 3]\narrows.velocity = true\ntrail = true\naxes = true",
+        &format!("look.sdl_before = '// {long}'"),
+        &format!("material.sdl = 'pigment {{ rgb 1 }} // {long}'"),
+        &format!("location = ['i', 0, 0]\nlook.sdl_after = '// {long}'"),
+        "shape.compound.parts = [{ sphere.radius = 1 }, { sphere.radius = 2, location = [3, 0, 0] }]",
+        "[force.pull.constant]\non = ['a']\nforce = [1, 0, 0]",
+        "[force.chain.spring]\nbetween = ['a']\nstiffness = 1",
+    ] {
+        // A shape of its own takes the place of the ball's.
+        let body = if more.starts_with("shape") { "[body.a]\n" } else { BALL };
+        let each = (of(25_000, body, more) - of(5000, body, more)) / 20_000;
+        // A formula gives each copy a table of its own, which is an eighth of a kilobyte for each of its keys.
+        let most = if more.starts_with("location") { 1400 } else { 1000 };
+        assert!(each < most, "{each} bytes for each copy with `{more:.60}`");
+    }
+    // What each copy has of its own counts, and is limited.
+    let text = |n: usize| format!("{BALL}repeat = {n}\nmotion.keyframes.at = [{}]", keyframes.join(", "));
+    assert_eq!(said(&text(20_000)).diagnostics.len(), 0);
+    let (code, line, _) = only(&said(&text(21_000)));
+    assert_eq!((code, line), ("too-many-copies", 4));
+}
+
+#[test]
+fn copies_with_formulas_are_refused_before_they_are_made() {
+    let formula = ["sin(i)"; 100].join(" + ");
+    let text = format!("{BALL}location = ['{formula}', 0, 0]\nrepeat = 500000\n");
+    let (code, line, label) = only(&said(&text));
+    assert_eq!(
+        (code, line, label.as_str()),
+        ("too-many-copies", 4, "at most 97847 copies of this body are made")
+    );
+    assert!(work(&text) < 10_000, "{}", work(&text));
+    // Formulas of the time are kept, with their derivatives.
+    let text = format!("{BALL}motion.formula.location = ['sin(t + i)', 'cos(2*t)', 0]\nrepeat = 500000\n");
+    assert_eq!(only(&said(&text)).0, "too-many-copies");
+    assert!(work(&text) < 10_000, "{}", work(&text));
+    assert_eq!(said(&text.replace("500000", "1000")).diagnostics.len(), 0);
+}
+
+#[test]
+fn a_name_that_means_many_copies_counts_as_all_of_them() {
+    let text = |times: usize| {
+        let force = |n: usize| format!("[force.f{n}.drag]\nlinear = 1\non = ['a']\n");
+        format!("{BALL}repeat = 100000\n{}", (0..times).map(force).collect::<String>())
+    };
+    assert_eq!(said(&text(2)).diagnostics.len(), 0);
+    let report = said(&text(21));
+    let (code, line, _) = only(&report);
+    assert_eq!((code, line), ("too-many-copies", 3 + 3 * 21), "{report}");
+}
+
+#[test]
+fn what_many_copies_have_wrong_is_said_once() {
+    for (more, code) in [
+        ("charge = 1", "no-effect"),
+        ("fixed = true\nmass = 3", "no-effect"),
+        ("ghosts.every = 1e-9", "too-many-ghosts"),
+        ("restitusion = 1", "unknown-key"),
+        ("location = ['ii', 0, 0]", "unknown-name"),
+        ("location = ['i +', 0, 0]", "formula-syntax"),
+        ("[force.g.gravitation]", "same-place"),
+        ("[force.g.drag]\nlinear = 1\non = ['a', 'a']", "named-twice"),
+    ] {
+        let text = |n: usize| format!("{BALL}repeat = {n}\n{more}\n");
+        let report = said(&text(2000));
+        assert_eq!(report.diagnostics.iter().filter(|it| it.code.name() == code).count(), 1, "{report}");
+        assert!(report.diagnostics.len() <= 2, "{report}");
+        // Ten times as many copies are not more than ten times the work.
+        let (few, many) = (work(&text(2000)), work(&text(20_000)));
+        assert!(many < 11 * few, "{more}: {few} allocations become {many}");
+    }
+}
+
+#[test]
+fn a_long_formula_and_many_frames_are_looked_at_in_part() {
+    // A million frames and five thousand operations: all of them would take minutes.
+    let formula = ["t"; 2400].join(" + ");
+    let text = |rate: &str| {
+        format!(
+            "[simulation]\nduration = 1000\nframe_rate = {rate}\n{BALL}motion.formula.location = ['{formula}', 0, 0]\n"
+        )
+    };
+    let report = said(&text("999"));
+    assert_eq!(report.diagnostics.len(), 0, "{report}");
+    // The first and the last frame are always looked at.
+    let text = text("999").replace("['t +", "['1/(t - 1000) + t +");
+    assert_eq!(only(&said(&text)).0, "division-by-zero");
+}
+
+#[test]
+fn a_heightfield_in_as_many_sizes_as_copies_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    fs::copy(root.join("tests/bad/meshes/hills.png"), folder.path().join("hills.png")).unwrap();
+    let path = folder.path().join("scene.toml");
+    let read = |copies: usize| {
+        let text = "fixed = true\nshape.heightfield = { file = 'hills.png', size = ['1 + i', 1, 1] }";
+        fs::write(&path, format!("[body.a]\n{text}\nrepeat = {copies}\n")).unwrap();
+        Scene::from_path_with(&path, &Options::default())
+    };
+    assert!(read(3).is_ok());
+    let report = read(2000).err().unwrap();
+    let (code, line, label) = only(&report);
+    assert_eq!((code, line), ("bad-mesh", 3), "{report}");
+    assert!(label.contains("1000 meshes or 4000000 triangles"), "{label}");
+}

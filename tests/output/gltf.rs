@@ -1,0 +1,572 @@
+//! `jabuka export SCENE -o FILE.glb`, as the validator of Khronos and three.js see it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::support::{self, jabuka, root, shorter, stderr, stdout};
+use glam::{DQuat, DVec3};
+use jabuka::Scene;
+use jabuka::dynamics::Shape;
+use jabuka::picture::{Lamp, LinkForm, LinkKind, Plan};
+use jabuka::scene::{Options, Override};
+use jabuka::simulate::{Frame, Frames, survey};
+use serde::Deserialize;
+
+/// What `look.mjs` says of a file.
+#[derive(Deserialize)]
+struct Seen {
+    errors: u32,
+    warnings: u32,
+    messages: serde_json::Value,
+    triangles: u32,
+    times: Vec<f64>,
+    bodies: Vec<SeenBody>,
+    cameras: Vec<SeenCamera>,
+    lights: Vec<SeenLight>,
+}
+
+#[derive(Deserialize)]
+struct SeenCamera {
+    name: String,
+    near: f64,
+    far: f64,
+    /// Where bodies are seen at each time.
+    spots: Vec<Vec<[f64; 2]>>,
+}
+
+#[derive(Deserialize)]
+struct SeenLight {
+    name: String,
+    #[serde(rename = "type")]
+    kind: String,
+    color: [f64; 3],
+    intensity: f64,
+    places: Vec<[f64; 3]>,
+    toward: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+struct SeenBody {
+    name: String,
+    /// Around the triangles at the first time.
+    #[serde(rename = "box")]
+    bounds: [[f64; 3]; 2],
+    poses: Vec<[f64; 7]>,
+    /// At each time, and between each two.
+    sizes: Vec<f64>,
+}
+
+/// Looks at files, which must be good.
+fn look(files: &[PathBuf]) -> Vec<Seen> {
+    let output = Command::new(root().join("tests/output/gltf/look")).args(files).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let seen: Vec<Seen> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(seen.len(), files.len());
+    for (file, seen) in files.iter().zip(&seen) {
+        assert_eq!((seen.errors, seen.warnings), (0, 0), "{}: {}", file.display(), seen.messages);
+    }
+    seen
+}
+
+fn export(scene: &Path, file: &Path, arguments: &[&str]) -> String {
+    let output = jabuka().arg("export").arg(scene).arg("-o").arg(file).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    stdout(&output)
+}
+
+/// The rows of one frame of a table: its time, and the name, location and orientation of each body.
+type Rows = (f64, Vec<(String, DVec3, DQuat)>);
+
+fn table(file: &Path) -> Vec<Rows> {
+    let rows = csv::Reader::from_path(file).unwrap().into_records();
+    let rows: Vec<csv::StringRecord> = rows.map(Result::unwrap).collect();
+    let body = |row: &csv::StringRecord| {
+        let number = |i: usize| row[i].parse::<f64>().unwrap();
+        let location = DVec3::new(number(2), number(3), number(4));
+        (row[1].to_owned(), location, DQuat::from_xyzw(number(5), number(6), number(7), number(8)))
+    };
+    let frames = rows.chunk_by(|one, next| one[0] == next[0]);
+    frames.map(|rows| (rows[0][0].parse().unwrap(), rows.iter().map(body).collect())).collect()
+}
+
+/// Asserts that bodies are where a table says, to the accuracy of `f32`.
+fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
+    // Where nothing moves, there are no keys.
+    assert!(seen.times.len() == table.len() || seen.times == [0.0], "{name}");
+    let end = seen.times.len() - 1;
+    let faster = if end == 0 { 1.0 } else { table[end].0 / seen.times[end] };
+    for (i, &shown) in seen.times.iter().enumerate() {
+        let (time, bodies) = &table[i];
+        assert!(seen.bodies.len() >= bodies.len() && !bodies.is_empty(), "{name}");
+        assert!((shown * faster - time).abs() <= 3e-7 * time, "{name}: {shown} for {time}");
+        let mut places = seen.bodies.iter();
+        for (known, location, orientation) in bodies {
+            // In the order of the scene; those that are not there have no row.
+            let body = places.find(|body| body.name == *known).unwrap();
+            let [x, y, z, ref turn @ ..] = body.poses[i];
+            let off = (DVec3::new(x, y, z) - location).length();
+            assert!(off <= 1.2e-7 * location.length(), "{name}, {known} at {time} s: {off} m");
+            let turn = orientation.conjugate() * DQuat::from_array(*turn);
+            let off = 2.0 * DVec3::new(turn.x, turn.y, turn.z).length();
+            assert!(off < 1e-6, "{name}, {known} at {time} s: {off} rad");
+        }
+    }
+}
+
+/// Asserts that the triangles of bodies reach as far as their shapes.
+fn assert_same_extent(name: &str, seen: &Seen, scene: &Scene) {
+    let first = Frames::new(scene).next().unwrap().unwrap();
+    // Those that are there at the beginning.
+    for place in &first.bodies {
+        let (body, drawn) = (&seen.bodies[place.id], &scene.bodies[place.id]);
+        let shape = drawn.drawn();
+        let Some(size) = shape.bounding_radius() else { continue };
+        // Chords of 7.5° and 15°; mechanics takes axes for as thick as their tips everywhere.
+        let tolerance = if matches!(shape, Shape::Axes { .. }) { 0.1 } else { 0.02 };
+        for (axis, direction) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
+            for (end, sign) in [(1, 1.0), (0, -1.0)] {
+                let reach = shape.support(place.orientation, sign * direction).unwrap();
+                let found = sign * (body.bounds[end][axis] - place.location[axis]);
+                let most = tolerance * size + 1e-6 * place.location.length();
+                assert!((found - reach).abs() <= most, "{name}, {}: {found} for {reach}", body.name);
+            }
+        }
+    }
+}
+
+/// What a camera sees: how many spots were where they must be.
+fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) -> usize {
+    let survey = survey(scene, |_| {}).unwrap();
+    let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
+    let cameras: Vec<_> = std::iter::once(("camera".to_owned(), &scene.camera)).chain(views).collect();
+    assert_eq!(seen.cameras.len(), cameras.len(), "{name}");
+    let aspect = f64::from(scene.output.width) / f64::from(scene.output.height);
+    let mut compared = 0;
+    for (found, (known, camera)) in seen.cameras.iter().zip(cameras) {
+        assert_eq!(found.name, known, "{name}");
+        let plan = Plan::new(scene, camera, &survey);
+        let lens = plan.camera(&frames[0]).lens();
+        for (frame, spots) in frames.iter().zip(&found.spots) {
+            let placed = plan.camera(frame);
+            // An angle that changes is as it is at the start.
+            if placed.lens() != lens {
+                continue;
+            }
+            for body in &frame.bodies {
+                let Some([x, y]) = spots.get(body.id) else { continue };
+                let Some(spot) = placed.screen().spot(body.location) else { continue };
+                let (of_x, of_y) = (spot.x, spot.y * aspect);
+                if of_x.abs().max(of_y.abs()) > 1.5 {
+                    continue;
+                }
+                // Places are of `f32`.
+                let far = body.location.length().max(placed.location().length());
+                let most = 1e-5 + 2e-7 * far * spot.metre * aspect;
+                let off = (of_x - x).abs().max((of_y - y).abs());
+                assert!(off < most, "{name}, {known} at {} s: {spot:?}, seen at {x} {y}", frame.time);
+                let depth =
+                    (placed.look_at() - placed.location()).normalize().dot(body.location - placed.location());
+                let within = (found.near..found.far).contains(&depth);
+                assert!(within, "{name}, {known}: {depth} not in {}..{}", found.near, found.far);
+                compared += 1;
+            }
+        }
+    }
+    compared
+}
+
+/// Asserts that the lights are those of the picture, as bright in the middle of everything.
+fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) {
+    let plan = Plan::new(scene, &scene.camera, &survey(scene, |_| {}).unwrap());
+    let stage = plan.stage();
+    let at = |time: f64| Some(plan.lights(time)).filter(|lights| !lights.is_empty());
+    let at = |time: f64| at(time).unwrap_or_else(|| plan.usual_lights());
+    assert_eq!(seen.lights.len(), at(0.0).len(), "{name}");
+    for (frame, i) in frames.iter().zip(0..seen.times.len()) {
+        for (found, light) in seen.lights.iter().zip(at(frame.time)) {
+            let off = DVec3::from_array(found.places[i]).distance(light.location);
+            assert!(off <= 1.2e-7 * light.location.length(), "{name}, {}: {off} m off", light.name);
+        }
+    }
+    for (found, light) in seen.lights.iter().zip(at(frames[0].time)) {
+        assert_eq!(found.name, format!("light {}", light.name), "{name}");
+        let distance = light.location.distance(stage.center).max(stage.size / 2.0);
+        let sun = light.kind == Lamp::Sun;
+        let (kind, fades) = if sun { ("DirectionalLight", 1.0) } else { ("PointLight", distance * distance) };
+        assert_eq!(found.kind, kind, "{name}");
+        let here = DVec3::from_array(found.color) * found.intensity / (std::f64::consts::PI * fades);
+        assert!(here.abs_diff_eq(light.color.into(), 1e-9), "{name}, {}: {here}", light.name);
+        let toward = (stage.center - light.location).normalize();
+        let same = |found: [f64; 3]| DVec3::from_array(found).abs_diff_eq(toward, 1e-6);
+        assert!(found.toward.map_or(!sun, same), "{name}, {}: {:?}", light.name, found.toward);
+    }
+}
+
+/// Exports scenes as models and as tables, and holds one against the other.
+fn check(scenes: &[PathBuf], folder: &Path) {
+    let both = |scene: &PathBuf| {
+        let file = folder.join(scene.file_name().unwrap()).with_extension("glb");
+        export(scene, &file, shorter(scene));
+        export(scene, &file.with_extension("csv"), shorter(scene));
+        file
+    };
+    let files: Vec<PathBuf> = scenes.iter().map(both).collect();
+    for ((path, file), seen) in scenes.iter().zip(&files).zip(look(&files)) {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let overrides =
+            shorter(path).iter().skip(1).step_by(2).map(|setting| Override::new(*setting)).collect();
+        let options = Options { overrides, ..Options::default() };
+        let scene = Scene::from_path_with(path, &options).unwrap();
+        assert_same_motion(name, &seen, &table(&file.with_extension("csv")));
+        let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+        let spots = assert_same_picture(name, &seen, &scene, &frames);
+        assert!(spots > 0, "{name}: something is seen");
+        assert_same_lights(name, &seen, &scene, &frames);
+        // With many bodies, each is drawn more coarsely.
+        if scene.bodies.len() < 50 {
+            assert_same_extent(name, &seen, &scene);
+        }
+    }
+}
+
+#[test]
+fn every_scene_is_valid_and_moves_as_its_table_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let scenes = fs::read_dir(root().join("scenes")).unwrap().map(|entry| entry.unwrap().path());
+    let mut scenes: Vec<PathBuf> =
+        scenes.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    scenes.sort();
+    assert!(scenes.len() >= 15);
+    check(&scenes, folder.path());
+}
+
+/// What the gallery does not have: a plane that is turned, compounds, patterns, looks of all kinds, a body that is drawn larger.
+const ODD: &str = r##"
+    simulation.duration = 1
+    [material.words]
+    sdl = 'pigment { color rgb 1 }'
+    [body.slope]
+    shape.plane.normal = [1, 2, -0.5]
+    location = [0, -3, 0]
+    [body."a, b"]
+    shape.sphere.radius = 1
+    material = 'glass'
+    look.scale = 2
+    velocity = [1, 0, 0]
+    [body.same]
+    shape.sphere.radius = 0.5
+    location = [4, 0, 0]
+    material = 'words'
+    angular_velocity = [0, 1, 0]
+    [body.lamp]
+    shape.capsule = { radius = 0.2, height = 1 }
+    location = [0, 4, 0]
+    material = 'neon'
+    [body.crate]
+    shape.box.size = [1, 2, 1.5]
+    location = [-4, 4, 5]
+    material = 'checkered'
+    [body.beach]
+    shape.sphere.radius = 1
+    location = [-4, 0, 5]
+    material = 'beach_ball'
+    angular_velocity = [1, 2, 3]
+    [body.triad]
+    shape.axes.length = 2
+    location = [0, 4, 5]
+    angular_velocity = [0, 5, 1]
+    [body.top]
+    location = [0, 0, 5]
+    orientation = { axis = [1, 0, 0], angle = 30 }
+    angular_velocity = [0, 9, 1]
+    [[body.top.shape.compound.parts]]
+    cone = { radius = 0.5, height = 1 }
+    [[body.top.shape.compound.parts]]
+    torus = { radius = 0.4, tube_radius = 0.1 }
+    location = [0, 0.4, 0]
+    orientation = [0, 0, 20]
+    "##;
+
+/// Cameras that stand, look straight down and up, move in all ways, and lights of all kinds.
+const VIEWS: &str = "
+    simulation = { duration = 2, gravity = [0, -9.81, 0] }
+    output.size = [300, 400]
+    [body.ball]
+    shape.sphere.radius = 0.3
+    velocity = [3, 9, 0]
+    [body.post]
+    shape.box.size = [1, 1, 1]
+    location = [2, 1, -1]
+    fixed = true
+    [camera]
+    follow = { body = 'ball', distance = 6, lag = 0.3 }
+    [view.down]
+    location = [2, 12, 0]
+    look_at = [2, 0, 0]
+    [view.up]
+    location = [2, -9, 0]
+    look_at = [2, 1, 0]
+    [view.flat]
+    projection = 'orthographic'
+    location = [9, 4, 8]
+    look_at = [2, 1, 0]
+    [view.wide]
+    angle = 150
+    location = [3, 3, 7]
+    look_at = [2, 1, 0]
+    [view.round]
+    location = [3, 3, 14]
+    look_at = [2, 1, 0]
+    orbit.period = 1
+    [view.zoom]
+    angle = '60 - 20*t'
+    location = ['3 + t', 3, 14]
+    look_at = [2, 1, 0]
+    [light.lamp]
+    point.location = ['5*cos(3*t)', 6, '5*sin(3*t)']
+    color = 'orange'
+    intensity = 1.4
+    [light.soft]
+    area = { location = [-9, 8, 9], size = 2 }
+    [light.day]
+    sun.direction = [1, -2, -0.5]
+    [light.noon]
+    sun.direction = [0, -1, 0]
+    intensity = 0
+    ";
+
+#[test]
+fn cameras_see_and_lights_shine_as_in_the_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("views.toml");
+    fs::write(&path, VIEWS).unwrap();
+    check(std::slice::from_ref(&path), folder.path());
+
+    // Some frames are as they are among all, with what has been before.
+    let file = folder.path().join("some.glb");
+    export(&path, &file, &["--frames", "30-40"]);
+    let scene = Scene::from_path(&path).unwrap();
+    let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).skip(30).take(11).collect();
+    let seen = look(&[file]).remove(0);
+    assert!(assert_same_picture("some", &seen, &scene, &frames) > 11 * 5);
+    assert_eq!(seen.times.len(), 11);
+}
+
+const COMING: &str = "
+    simulation = { duration = 1, frame_rate = 10 }
+    [defaults.body]
+    shape.sphere.radius = 0.5
+    velocity = [1, 0, 0]
+    [body.always]
+    [body.born]
+    location = [0, 2, 0]
+    start = 0.25
+    [body.dies]
+    location = [0, 4, 0]
+    end = 0.5
+    [body.never]
+    start = 9
+    [body.still]
+    shape.compound.parts = [{ sphere.radius = 0.2 }, { sphere.radius = 0.3, location = [1, 0, 0] }]
+    fixed = true
+    velocity = [0, 0, 0]
+    start = 0.1
+    end = 0.4
+    ";
+
+/// What is away has the size 0, from the very time on at which it goes, and until the very time at which it comes.
+#[test]
+fn bodies_that_come_and_go_are_hidden_while_they_are_away() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, file] = ["coming.toml", "coming.glb"].map(|name| folder.path().join(name));
+    fs::write(&path, COMING).unwrap();
+    export(&path, &file, &[]);
+    let seen = look(&[file]).remove(0);
+    let scene = Scene::from_path(&path).unwrap();
+    let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
+    // Behind them, there is the ground.
+    for (id, body) in seen.bodies.iter().take(scene.bodies.len()).enumerate() {
+        assert_eq!(body.sizes.len(), 2 * frames.len() - 1);
+        for (i, frame) in frames.iter().enumerate() {
+            let at = frame.body(id);
+            // Until a frame, a body is as in the one before.
+            let size = if at.is_some() { 1.0 } else { 0.0 };
+            let until_next =
+                body.sizes.get(2 * i + 1).is_none_or(|next| (next - size).abs() < 1e-6 || id == 0);
+            let is_at = (body.sizes[2 * i] - size).abs() < 1e-6 || id == 0;
+            assert!(is_at && until_next, "{} in frame {i}: {:?}", body.name, body.sizes);
+            if let Some(at) = at {
+                let [x, y, z, ..] = body.poses[i];
+                assert!(DVec3::new(x, y, z).abs_diff_eq(at.location, 1e-6), "{} in frame {i}", body.name);
+            }
+        }
+    }
+    assert_eq!(seen.bodies[3].sizes[0], 0.0);
+}
+
+const EMPTY: &str = "environment.ground = false";
+
+const FAR: &str = "
+    [body.ball]
+    shape.sphere.radius = 1e3
+    location = [1e12, 0, 0]
+    velocity = [0, 1e9, 0]
+    ";
+
+#[test]
+fn odd_scenes_are_valid_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let [odd, empty, far] = [("odd", ODD), ("empty", EMPTY), ("far", FAR)].map(|(name, text)| {
+        let path = folder.path().join(name).with_extension("toml");
+        fs::write(&path, text).unwrap();
+        path
+    });
+    check(&[odd], folder.path());
+    let files = [&empty, &far].map(|scene| scene.with_extension("glb"));
+    export(&empty, &files[0], &[]);
+    export(&far, &files[1], &[]);
+    let seen = look(&files);
+    assert_eq!((seen[0].triangles, seen[0].bodies.len()), (0, 0));
+}
+
+#[test]
+fn some_frames_are_those_at_their_times() {
+    let folder = tempfile::tempdir().unwrap();
+    let [model, again, rows] = ["run.glb", "again.glb", "run.csv"].map(|name| folder.path().join(name));
+    let scene = support::scene("projectile");
+    let frames = ["--frames", "10,20-22"];
+    let said = export(&scene, &model, &frames);
+    assert!(said.contains(": 1 body, 4 frames, "), "{said}");
+    export(&scene, &again, &frames);
+    assert_eq!(fs::read(&model).unwrap(), fs::read(&again).unwrap());
+    export(&scene, &rows, &frames);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "nothing is left over");
+    let seen = look(&[model]);
+    assert_eq!(seen[0].times, [0.2f32, 0.4, 0.42, 0.44].map(f64::from));
+    assert_same_motion("projectile", &seen[0], &table(&rows));
+}
+
+#[test]
+fn what_is_neither_table_nor_model_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["run.gltf", "run", "run.toml"] {
+        let path = folder.path().join(name);
+        let scene = support::scene("parabola");
+        let output = jabuka().arg("export").arg(scene).arg("-o").arg(&path).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+        assert!(stderr(&output).contains("is a table, `.csv`, or a model, `.glb`"), "{}", stderr(&output));
+        assert!(!path.exists());
+    }
+}
+
+#[test]
+fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, file] = ["far.toml", "far.glb"].map(|name| folder.path().join(name));
+    fs::write(&scene, "[body.probe]\nshape.sphere.radius = 1\nlocation = [1e39, 0, 0]\n").unwrap();
+    let output = jabuka().arg("export").arg(&scene).arg("-o").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = stderr(&output);
+    assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
+}
+
+/// Springs and joints of all kinds, of which one rope is slack.
+const LINKS: &str = "
+    simulation = { duration = 1, gravity = [0, -9.81, 0], integrator = 'rk4', frame_rate = 10 }
+    [body.bob]
+    shape.sphere.radius = 0.1
+    location = [1, 0, 0]
+    [body.bar]
+    shape.box.size = [0.1, 1, 0.1]
+    location = [2, 0.5, 0]
+    angular_velocity = [0, 0, 9]
+    [body.load]
+    shape.sphere.radius = 0.2
+    location = [3, -0.5, 0]
+    [body.cart]
+    shape.box.size = [0.3, 0.2, 0.2]
+    location = [4, 0, 0]
+    velocity = [1, 0, 0]
+    [body.calf]
+    shape.sphere.radius = 0.1
+    location = [5, -1, 0]
+    velocity = [0.5, 0, 0]
+    end = 0.55
+    [joint.string.rod]
+    between = [[0, 0, 0], 'bob']
+    [joint.pivot.hinge]
+    between = [[2, 0, 0], 'bar']
+    axis = [0, 0, 1]
+    [joint.rail.slider]
+    between = [[4, 0, 0], 'cart']
+    axis = [1, 0, 0]
+    [joint.tether.rope]
+    between = [[5, 0, 0], 'calf']
+    length = 2
+    [body.shade]
+    shape.sphere.radius = 0.1
+    location = [1, 1, 0]
+    [joint.hidden.rod]
+    between = [[0, 1, 0], 'shade']
+    look = 'none'
+    [force.coil.spring]
+    between = [[3, 1, 0], 'load']
+    stiffness = 30
+    [force.cord.spring]
+    between = ['cart', 'load']
+    stiffness = 3
+    line = 'straight'
+    ";
+
+#[test]
+fn springs_and_joints_are_where_the_picture_has_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("links.toml");
+    fs::write(&path, LINKS).unwrap();
+    let file = path.with_extension("glb");
+    export(&path, &file, &[]);
+    let [seen] = &look(&[file])[..] else { panic!("one is looked at") };
+    let scene = Scene::from_path(&path).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let nodes: Vec<&SeenBody> = seen.bodies.iter().filter(|node| node.name.starts_with("link ")).collect();
+    let near = |pose: &[f64; 7], place: DVec3| DVec3::new(pose[0], pose[1], pose[2]).abs_diff_eq(place, 1e-6);
+    let axis = |pose: &[f64; 7]| DQuat::from_xyzw(pose[3], pose[4], pose[5], pose[6]) * DVec3::Y;
+    let mut compared = 0;
+    for (i, frame) in Frames::new(&scene).map(Result::unwrap).enumerate() {
+        let mut rest = &nodes[..];
+        for (planned, link) in plan.planned_links().zip(plan.each_link(&frame)) {
+            let count = if planned.kind == LinkKind::Rope { 24 } else { 1 };
+            let (its, others) = rest.split_at(count);
+            rest = others;
+            assert_eq!(its[0].name, format!("link {}", planned.name));
+            // Sizes are also said between two times.
+            let size = its[0].sizes[2 * i];
+            match link.map(|link| link.form) {
+                None => assert_eq!(size, 0.0, "{} in {i}", planned.name),
+                Some(LinkForm::Pin { at, radius }) => {
+                    assert!(near(&its[0].poses[i], at) && (size - radius).abs() < 1e-6);
+                }
+                Some(
+                    LinkForm::Coil { ends: [a, b], radius, .. } | LinkForm::Rod { ends: [a, b], radius },
+                ) => {
+                    let pose = &its[0].poses[i];
+                    assert!(near(pose, a.midpoint(b)) && (size - radius).abs() < 1e-6, "{}", planned.name);
+                    assert!(axis(pose).cross((b - a).normalize()).length() < 1e-5, "{} in {i}", planned.name);
+                }
+                Some(LinkForm::Rope { points, .. }) if points.len() == 25 => {
+                    let places = points.windows(2).map(|pair| pair[0].midpoint(pair[1]));
+                    for (node, place) in its.iter().zip(places) {
+                        assert!(near(&node.poses[i], place), "{} in {i}", planned.name);
+                    }
+                }
+                Some(LinkForm::Rope { .. }) => {}
+            }
+            compared += 1;
+        }
+        assert!(rest.is_empty());
+    }
+    // Two parts of string, pivot, rail and coil; the cord; the knob and the rope of the tether.
+    assert_eq!(compared, 11 * (2 + 1 + 1 + 2 + 2 + 1), "{}", nodes.len());
+}

@@ -1,0 +1,16 @@
+//! Scenes from the text to the frames, scripts, tables and reports that are made of them.
+#![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
+
+mod coming_and_going;
+mod contacts;
+mod given_motion;
+mod joints;
+mod many;
+mod not_drawn;
+mod particles;
+mod particles_and_meshes;
+mod particles_stopped;
+mod report;
+mod snapshots;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,156 @@
+//! What a scene asks for and no picture shows gets a warning, once for a run.
+
+use jabuka::diagnostic::Code;
+use jabuka::{Run, Scene};
+
+/// What is said of a scene with some keys, each message with its help.
+fn said(keys: &str) -> Vec<String> {
+    let text = format!(
+        "simulation = {{ duration = 1, gravity = [0, -10, 0] }}
+        [camera]\nlocation = [0, 0, 10]\nlook_at = [0, 0, 0]
+        {keys}"
+    );
+    said_of(&text)
+}
+
+/// What is said of a scene, each message with its help.
+fn said_of(text: &str) -> Vec<String> {
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    // Whatever is left out, every frame has its script.
+    for frame in run.frames() {
+        run.script(&frame.unwrap()).unwrap();
+    }
+    let warnings = run.warnings().into_iter().filter(|warning| warning.code == Code::NotDrawn);
+    warnings.map(|warning| format!("{}: {}", warning.message, warning.help.unwrap_or_default())).collect()
+}
+
+/// A ball that is thrown.
+const BALL: &str = "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [1, 2, 0]\n";
+
+#[test]
+fn arrows_that_no_picture_shows() {
+    let keys = format!("{BALL}arrows = {{ velocity.scale = 1e-5, force = true }}");
+    assert_eq!(
+        said(&keys),
+        ["the arrow for the velocity of `ball` is not seen: at most 0.0142 pixels long: \
+         write `arrows.velocity.scale = 0.1`, or leave `arrows.velocity.scale` out"]
+    );
+    // With what the warning says, it is seen.
+    assert_eq!(said(&format!("{BALL}arrows.velocity.scale = 0.1")), [""; 0]);
+    assert_eq!(said(&format!("{BALL}arrows.velocity = true")), [""; 0]);
+    // A vector that is zero all the time has no arrow, and needs none.
+    assert_eq!(
+        said("[body.b]\nshape.sphere.radius = 0.5\nfixed = true\narrows.velocity.scale = 1e-5"),
+        [""; 0]
+    );
+}
+
+#[test]
+fn arrows_whose_tips_are_at_no_finite_place() {
+    let text = "simulation.duration = 0\n[force.f.lorentz]\nelectric = [1e100, 0, 0]\n[body.ball]
+        shape.sphere.radius = 0.5\nmass = 1e-100\ncharge = 1e100\narrows.acceleration.scale = 1e20";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let [warning] = &run.warnings()[..] else { panic!("{:?}", run.warnings()) };
+    assert_eq!(
+        warning.message,
+        "the arrow for the acceleration of `ball` is not drawn from t = 0 s on: its tip is at no finite place"
+    );
+    assert_eq!(warning.help.as_deref(), Some("leave `arrows.acceleration.scale` out"));
+    let script = run.script(&run.frames().next().unwrap().unwrap()).unwrap();
+    assert!(!script.contains("inf") && !script.contains("\nArrow("));
+}
+
+#[test]
+fn one_warning_stands_for_all_copies() {
+    let keys = format!("{BALL}repeat = 9\narrows.velocity.scale = 1e-5");
+    let said = said(&keys);
+    assert_eq!(said.len(), 1);
+    assert!(said[0].contains("of `ball[0]` is not seen, nor those of 8 others: at most"), "{said:?}");
+}
+
+#[test]
+fn trails_and_axes_that_no_picture_shows() {
+    let thin = said(&format!("{BALL}trail.width = 1e-6\naxes.length = 1e-4"));
+    assert!(thin[0].starts_with("the axes of `ball` are not seen: at most 0.0"), "{thin:?}");
+    assert!(thin[0].ends_with("write `axes.length = 1`, or leave `axes.length` out"), "{thin:?}");
+    assert!(thin[1].starts_with("the trail of `ball` is not seen: at most 0.000"), "{thin:?}");
+    assert!(thin[1].ends_with("write `trail.width = 0.01`, or leave `trail.width` out"), "{thin:?}");
+    // In one second it goes 1 m to the right, 2 − 5 m up.
+    let wide = said(&format!("{BALL}trail.width = 9"));
+    assert_eq!(
+        wide,
+        [
+            "the trail of `ball` is not drawn: the body goes 3.18 m, and its trail is 9 m wide: leave `trail.width` out"
+        ]
+    );
+}
+
+#[test]
+fn coils_without_room_or_width() {
+    let ball = BALL.replace("velocity = [1, 2, 0]\n", "");
+    let spring = |place: &str, coil: &str| {
+        said(&format!(
+            "{ball}[body.other]\nshape.sphere.radius = 0.5\nlocation = {place}\n[force.s.spring]\n\
+             between = ['ball', 'other']\nstiffness = 1\n{coil}",
+        ))
+    };
+    assert_eq!(spring("[3, 0, 0]", ""), [""; 0]);
+    assert_eq!(
+        spring("[3, 0, 0]", "coil.radius = 9"),
+        ["the coil of the spring `s` is not drawn: its ends leave no room for one with a radius of 9 m: \
+         write `coil.radius = 0.1`, or leave `coil.radius` out"]
+    );
+    let touching = spring("[0.5, 0, 0]", "");
+    assert!(touching[0].ends_with("move the ends apart, or write `line = \"none\"`"), "{touching:?}");
+    // POV-Ray takes no such number: without the warning, there would be no picture either.
+    let thin = spring("[3, 0, 0]", "coil.radius = 1e-13");
+    assert!(thin[0].starts_with("the coil of the spring `s` is not seen: at most"), "{thin:?}");
+}
+
+#[test]
+fn a_scale_bar_that_is_longer_than_the_picture() {
+    assert_eq!(said(&format!("{BALL}[scale_bar]\nlength = 2")), [""; 0]);
+    let long = said(&format!("{BALL}[scale_bar]\nlength = 9"));
+    assert_eq!(
+        long,
+        ["the scale bar leaves the picture: in its middle, 9 m are more than its width: \
+          write `scale_bar.length = 1`, or leave `scale_bar.length` out"]
+    );
+}
+
+#[test]
+fn ghosts_of_what_stays_where_it_is() {
+    let ball = "[body.ball]\nshape.sphere.radius = 0.5\nghosts.every = 0.2\n";
+    assert_eq!(said(ball), [""; 0], "it falls");
+    let resting = format!("{ball}motion.formula.location = [0, 0, '0.005*sin(t)']");
+    assert_eq!(
+        said(&resting),
+        ["the ghosts of `ball` are not drawn: the body stays where it is: leave `ghosts` out"]
+    );
+    assert_eq!(said(&resting.replace("0.005", "0.5")), [""; 0]);
+    // What turns in its place is seen to.
+    let turning = format!("{ball}motion.formula = {{ location = [0, 0, 0], orientation = [0, '90*t', 0] }}");
+    assert_eq!(said(&turning), [""; 0]);
+    // What is fixed has none, and needs none.
+    assert_eq!(said(&format!("{ball}fixed = true")), [""; 0]);
+}
+
+#[test]
+fn arrows_for_what_never_touches_a_body() {
+    let keys = |arrows: &str| {
+        format!(
+            "simulation = {{ duration = 1, gravity = [0, -10, 0], contacts = 'event-driven', integrator = 'rk4' }}
+            environment.ground.height = -20\n[camera]\nlocation = [0, 0, 10]\nlook_at = [0, 0, 0]
+            [body.ball]\nshape.sphere.radius = 0.5\nmass = 1\narrows = {{ {arrows} }}"
+        )
+    };
+    let untouched = "the arrow for the normal force of `ball` is not drawn: nothing touches the body: \
+                     leave `arrows.normal` out";
+    assert_eq!(said_of(&keys("weight = true, normal = true")), [untouched]);
+    let small = "the arrow for the weight of `ball` is not seen: at most 0.00352 pixels long: \
+                 write `arrows.weight.scale = 0.08`, or leave `arrows.weight.scale` out";
+    assert_eq!(said_of(&keys("weight.scale = 2e-6")), [small]);
+    assert_eq!(said_of(&keys("weight.scale = 0.02")), [""; 0]);
+}
