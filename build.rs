@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 /// What the scripts of a scene depend on, beside the scene.
 const SOURCES: [&str; 3] = ["Cargo.lock", "src", "templates"];
@@ -12,7 +12,7 @@ const SOURCES: [&str; 3] = ["Cargo.lock", "src", "templates"];
 fn main() -> io::Result<()> {
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other(format!("{name} is not set")));
     let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
-    let mut digest = Sha256::new();
+    let mut digest = Hash::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
         add(&root.join(source), &mut digest)?;
@@ -23,7 +23,7 @@ fn main() -> io::Result<()> {
 }
 
 /// Adds a file, or all files of a folder in the order of their names, where it is there.
-fn add(path: &Path, digest: &mut Sha256) -> io::Result<()> {
+fn add(path: &Path, digest: &mut Hash) -> io::Result<()> {
     if path.is_dir() {
         let mut paths = fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
         paths.sort();

@@ -18,6 +18,19 @@
 //! [`export`] tables and models, for programs that are not POV-Ray; [`preview`] shows a scene in the browser while it is written.
 //! [`sandbox`] confines the programs that jabuka starts.
 //!
+//! # Features
+//!
+//! All are on by default. In a project of your own, `default-features = false` leaves a library that reads scenes, simulates them, and makes
+//! scripts, tables and models, with about 40 crates, also for a browser (`wasm32-unknown-unknown`).
+//!
+//! | feature | what it brings |
+//! | --- | --- |
+//! | `cli` | the program `jabuka` |
+//! | `render` | the modules `output`, `render`, `cache`, `overwrite` and `sandbox`: files, POV-Ray, ffmpeg |
+//! | `preview` | the module `preview` |
+//! | `threads` | several processor cores |
+//! | `time-stepping` | contacts of many bodies, `contacts = "time-stepping"` |
+//!
 //! # A snapshot test of a scene
 //!
 //! A script is text that is the same on every run and machine, so a test can hold it against a stored one. With
@@ -42,28 +55,35 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[cfg(feature = "render")]
 pub mod cache;
 pub mod catalog;
 pub mod diagnostic;
+mod digest;
 pub mod dynamics;
 pub mod emit;
 pub mod explain;
 pub mod export;
 mod not_drawn;
+#[cfg(feature = "render")]
 pub mod output;
+#[cfg(feature = "render")]
 pub mod overwrite;
 pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;
 pub mod random;
+#[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 mod run;
+#[cfg(feature = "render")]
 pub mod sandbox;
 pub mod scene;
 pub mod simulate;
 pub mod starter;
 pub mod surface;
+mod threads;
 
 pub use run::{Run, RunError};
 pub use scene::Scene;

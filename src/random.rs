@@ -2,7 +2,8 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sha2::{Digest, Sha256};
+
+use crate::digest::Sha256;
 
 /// A stream of random numbers.
 ///
@@ -17,7 +18,7 @@ impl Stream {
         let mut hash = Sha256::new();
         hash.update(seed.to_le_bytes());
         hash.update(path);
-        Stream(ChaCha8Rng::from_seed(hash.finalize().into()))
+        Stream(ChaCha8Rng::from_seed(hash.finalize()))
     }
 
     /// One of 2⁶⁴ streams of the same place, each from its beginning, whatever has been drawn from this one.

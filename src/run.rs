@@ -1,15 +1,14 @@
 //! A scene on its way to scripts.
 
-use crate::cache::Cache;
+#[cfg(feature = "render")]
+use crate::cache;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::Effort;
 use crate::emit::{EmitError, Emitter};
 use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
 use crate::scene::{ContactLaw, Scene, Shutter, View};
 use crate::simulate::{
-    Corrected, Crossing, Exposure, Frame, Frames, Moments, Overlap, Recorded, Selection, SimulateError,
-    Survey,
+    Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, Survey,
 };
 
 /// A scene whose run has been simulated, so that its frames can be made into scripts.
@@ -32,12 +31,17 @@ pub enum RunError {
 }
 
 impl<'a> Run<'a> {
-    /// Simulates the scene. What the recording takes beyond a megabyte goes to a file without a name.
+    /// Simulates the scene. What the recording takes beyond a megabyte goes to a file without a name; without the feature `render`,
+    /// it stays in memory.
     ///
     /// # Errors
     /// If the run becomes non-finite, there is no room for its recording, or a template fails.
     pub fn new(scene: &'a Scene) -> Result<Run<'a>, RunError> {
-        Run::of(Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})?)
+        #[cfg(feature = "render")]
+        let recorded = cache::simulate(scene)?;
+        #[cfg(not(feature = "render"))]
+        let recorded = Recorded::new(scene)?;
+        Run::of(recorded)
     }
 
     /// The run of a scene that has been simulated already.
@@ -121,14 +125,6 @@ impl<'a> Run<'a> {
         self.recorded.frames()
     }
 
-    /// The selected frames, and with each the run from there on as far as shutters are open.
-    pub(crate) fn selected(
-        &self,
-        selection: &Selection,
-    ) -> impl Iterator<Item = Result<Exposure, SimulateError>> + Send + use<'a> {
-        self.recorded.exposures(selection)
-    }
-
     /// The moment of any time (s), and the run from there on as far as the shutter is open. A time before the beginning is the
     /// beginning, one after the end is the end.
     ///
@@ -164,6 +160,7 @@ impl<'a> Run<'a> {
 }
 
 /// The kinds of all warnings of a run.
+#[cfg(feature = "render")]
 pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::CorrectedStart,
     Code::Crossing,

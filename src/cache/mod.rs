@@ -294,6 +294,14 @@ impl Cache {
     }
 }
 
+/// Simulates a scene, and keeps nothing: what the recording takes beyond a megabyte goes to a file without a name.
+///
+/// # Errors
+/// If the run becomes non-finite, or there is no room for its recording.
+pub fn simulate(scene: &Scene) -> Result<Recorded<'_>, SimulateError> {
+    Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})
+}
+
 /// A file of the cache.
 struct Kept {
     path: PathBuf,

@@ -89,7 +89,9 @@ mod presence;
 mod sets;
 mod shape;
 mod snapshot;
+mod softness;
 mod state;
+#[cfg(feature = "time-stepping")]
 mod stepping;
 mod system;
 mod track;
@@ -112,12 +114,13 @@ pub use presence::Presence;
 pub use shape::{Compound, Flaw, Immersed, Mesh, Part, Placed, Shape, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
+pub use softness::suitable_step;
 pub use state::{Accounts, State, WorkAccount};
+#[cfg(feature = "time-stepping")]
 pub use stepping::{Link, LinkKind, TimeStepping};
 pub use system::System;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
-use world::steps_of;
 
 /// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
 pub trait Dynamics: Send {

@@ -154,17 +154,6 @@ impl Calendar {
         self.pass(|event| event.time <= t)
     }
 
-    /// The number of past births and deaths.
-    pub(super) fn over(&self) -> usize {
-        self.over
-    }
-
-    /// Goes to where so many births and deaths are over.
-    pub(super) fn set_over(&mut self, over: usize) {
-        self.sort();
-        self.over = over.min(self.events.len());
-    }
-
     fn pass(&mut self, is_over: impl Fn(&Event) -> bool) -> Vec<(usize, bool)> {
         self.sort();
         let begin = self.over;
@@ -180,6 +169,21 @@ impl Calendar {
             let order = |event: &Event| (event.change, event.body);
             self.events.sort_by(|a, b| a.time.total_cmp(&b.time).then(order(a).cmp(&order(b))));
         }
+    }
+}
+
+/// Checkpoints of time stepping.
+#[cfg(feature = "time-stepping")]
+impl Calendar {
+    /// The number of past births and deaths.
+    pub(super) fn over(&self) -> usize {
+        self.over
+    }
+
+    /// Goes to where so many births and deaths are over.
+    pub(super) fn set_over(&mut self, over: usize) {
+        self.sort();
+        self.over = over.min(self.events.len());
     }
 }
 

@@ -8,6 +8,7 @@ mod picture;
 mod piece;
 mod rest;
 
+#[cfg(feature = "time-stepping")]
 pub(super) use advance::steps_of;
 
 use std::sync::Arc;

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
 use super::sdl::Style;
 use super::text::Identifiers;
+use crate::digest::Sha256;
 use crate::picture;
 use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
 

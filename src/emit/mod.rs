@@ -37,10 +37,12 @@ use crate::scene::{Camera, Layout, Scene, Shutter};
 use crate::simulate::{Frame, Survey};
 
 pub use error::EmitError;
+#[cfg(feature = "render")]
 pub(crate) use names::width;
 pub use names::{ASSETS, COMMON, INI, MASTER, frame_name, shutter_name};
 pub use showing::{TrailFile, is_trail_file};
 pub use templates::{TEMPLATES, write_templates};
+#[cfg(feature = "render")]
 pub(crate) use text::comment;
 
 /// Turns the frames of one scene into scripts.

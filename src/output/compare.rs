@@ -80,7 +80,7 @@ pub fn compare(
         done();
         Ok(found)
     };
-    let found: Result<Vec<_>, _> = run.selected(selection).par_bridge().map(check).collect();
+    let found: Result<Vec<_>, _> = run.recorded().exposures(selection).par_bridge().map(check).collect();
     let mut found: Vec<Difference> = found?.into_iter().flatten().collect();
     if *selection == Selection::first(frames) {
         let scripts = folder::scripts(path)?.into_iter();

@@ -140,7 +140,7 @@ impl Scripts {
             done();
             Ok(())
         };
-        run.selected(selection).par_bridge().try_for_each(put)?;
+        run.recorded().exposures(selection).par_bridge().try_for_each(put)?;
         let (frames, bytes) = (frames.into_inner(), bytes.into_inner());
         Ok(Scripts { ledger, scene_frames, per_frame, frames, bytes })
     }

@@ -1,11 +1,10 @@
 //! Several runs that advance side by side, so that they can be compared and none has to be kept.
 
-use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
-
 use super::Stopped;
 use crate::dynamics::Snapshot;
 use crate::scene::Scene;
 use crate::simulate::{SimulateError, Snapshots};
+use crate::threads;
 
 /// Told how much has been computed, in evaluations of the forces; false where somebody wants to stop.
 pub type Watch<'a> = dyn FnMut(f64) -> bool + 'a;
@@ -82,7 +81,7 @@ pub(super) fn together(
     let mut done = 0;
     while done < frames && tracks.iter().any(|track| track.ended.is_none() && !track.is_long) {
         let now = room.min(frames - done);
-        tracks.par_iter_mut().for_each(|track| track.advance(now));
+        threads::each(tracks, |track| track.advance(now));
         for _ in 0..now {
             let seen: Vec<Option<Snapshot>> =
                 tracks.iter_mut().map(|track| track.waiting.pop_front()).collect();

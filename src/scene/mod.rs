@@ -62,7 +62,8 @@ use crate::diagnostic::Report;
 use crate::dynamics::Surface;
 
 /// Whether a scene may have so many frames.
-pub(crate) fn is_possible_number_of_frames(frames: usize) -> bool {
+#[must_use]
+pub fn is_possible_number_of_frames(frames: usize) -> bool {
     #[allow(clippy::cast_precision_loss, reason = "the limit is far below 2^53")]
     let possible = (1.0..=check::MAX_FRAMES).contains(&(frames as f64));
     possible

@@ -1,26 +1,25 @@
 //! Scene → world.
 
+#[cfg(feature = "time-stepping")]
+mod stepping;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
 use crate::dynamics::{
-    Accuracy, BodyId, Contacts, Dynamics, Effort, Link, LinkKind, RigidBody, Shape, TimeStepping,
-    UniformGravity, World,
+    Accuracy, BodyId, Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World,
 };
-use crate::scene::{Body, ContactLaw, Joint, JointKind, Scene};
+#[cfg(feature = "time-stepping")]
+use crate::scene::ContactLaw;
+use crate::scene::{Body, Scene};
 
 /// Builds the dynamics that suits the scene; it also counts the interactions of pairs. An engine with its own steppers is made
 /// here, beside the world.
 pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
+    #[cfg(feature = "time-stepping")]
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
-        let mut world = free_world(scene);
-        add_ground(&mut world, scene);
-        world.watch(effort);
-        let links: Vec<Link> = scene.joints.iter().filter_map(link).collect();
-        let mut stepping = TimeStepping::new(world, &contacts(scene), &links);
-        stepping.show_contacts(shows_contacts(scene));
-        return Box::new(stepping);
+        return Box::new(stepping::stepping(scene, effort));
     }
     let mut world = world(scene);
     world.watch(effort);
@@ -31,26 +30,6 @@ pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
         }
         _ => Box::new(world),
     }
-}
-
-/// A joint as time stepping has it; the check has refused all others.
-fn link(joint: &Joint) -> Option<Link> {
-    let kind = match &joint.kind {
-        JointKind::Ball(ball) => LinkKind::Ball(*ball),
-        JointKind::Hinge(hinge) => LinkKind::Hinge(hinge.clone()),
-        JointKind::Slider(slider) => LinkKind::Slider(slider.clone()),
-        JointKind::Fixed(fixed) => LinkKind::Fixed(*fixed),
-        JointKind::Rod(rod) => LinkKind::Rod(*rod),
-        JointKind::Rope(rope) => LinkKind::Rope(*rope),
-        JointKind::Pulley(_) | JointKind::Gear(_) => return None,
-    };
-    Some(Link { kind, collides: joint.collides })
-}
-
-/// Whether anything is drawn of the contacts of a moment. Piles have tens of thousands.
-fn shows_contacts(scene: &Scene) -> bool {
-    let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
-    scene.bodies.iter().any(shows)
 }
 
 /// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body

@@ -65,18 +65,24 @@ impl<'a> Simulation<'a> {
             return None;
         }
         let dynamics = self.dynamics.checkpoint()?;
-        postcard::to_stdvec(&(self.next, &self.counts.0, dynamics)).ok()
+        let numbers = [self.next as u64, self.counts.0.len() as u64];
+        let mut bytes: Vec<u8> = numbers.into_iter().flat_map(u64::to_le_bytes).collect();
+        bytes.extend(self.counts.0.iter().flat_map(|count| count.to_le_bytes()));
+        bytes.extend(dynamics);
+        Some(bytes)
     }
 
     /// Goes on from a checkpoint of the same run; false where it is not one.
     pub(super) fn resume(&mut self, checkpoint: &[u8]) -> bool {
-        let Ok((next, counts, dynamics)) = postcard::from_bytes::<(usize, Vec<f64>, Vec<u8>)>(checkpoint)
-        else {
+        let (count, (numbers, _)) = (self.counts.0.len(), checkpoint.as_chunks::<8>());
+        let [next, counted, counts @ ..] = numbers else { return false };
+        let [next, counted] = [next, counted].map(|number| u64::from_le_bytes(*number));
+        if next > self.intervals as u64 || counted != count as u64 || counts.len() < count {
             return false;
-        };
-        let is_ours = next <= self.intervals && counts.len() == self.counts.0.len();
-        (self.next, self.counts) = (next, ImpactCounts(counts));
-        is_ours && self.dynamics.resume(&dynamics)
+        }
+        self.next = usize::try_from(next).unwrap_or(usize::MAX);
+        self.counts = ImpactCounts(counts[..count].iter().map(|count| f64::from_le_bytes(*count)).collect());
+        self.dynamics.resume(&checkpoint[8 * (2 + count)..])
     }
 
     fn advance_to_next(&mut self, see: &mut dyn FnMut(Entry)) -> Result<(), Breakdown> {

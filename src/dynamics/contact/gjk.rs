@@ -1,9 +1,7 @@
-//! All that is used of the crate parry: its tree of boxes, and its GJK. That says to about eight digits where two convex parts are
-//! nearest, which is a first guess only.
+//! All that is used of the crate parry: its GJK. It says to about eight digits where two convex parts are nearest, which is a first
+//! guess only.
 
 use glam::DVec3;
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::contact::contact_support_map_support_map;
 use parry3d_f64::shape::SupportMap;
 
@@ -42,34 +40,4 @@ pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest>
         normal: found.normal1,
         on: [world(found.point1), world(found.point2)],
     })
-}
-
-/// A tree of the boxes of many parts.
-#[derive(Clone)]
-pub(in crate::dynamics) struct Tree(Bvh);
-
-impl std::fmt::Debug for Tree {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Tree")
-    }
-}
-
-impl Tree {
-    /// The tree of boxes. Each is given by its lowest and its highest corner.
-    pub(in crate::dynamics) fn new(boxes: impl Iterator<Item = [DVec3; 2]>) -> Tree {
-        let boxes: Vec<Aabb> = boxes.map(|[low, high]| Aabb::new(low, high)).collect();
-        Tree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
-    }
-
-    /// The numbers of the boxes that are at most `within` from a box, in rising order. `count` is the number of all boxes.
-    pub(in crate::dynamics) fn near(&self, [low, high]: [DVec3; 2], within: f64, count: usize) -> Vec<usize> {
-        if !(low.is_finite() && high.is_finite() && within.is_finite()) {
-            return (0..count).collect();
-        }
-        let within = DVec3::splat(within.max(0.0));
-        let place = Aabb::new(low - within, high + within);
-        let mut found: Vec<usize> = self.0.intersect_aabb(&place).map(|i| i as usize).collect();
-        found.sort_unstable();
-        found
-    }
 }

@@ -11,6 +11,7 @@ mod closed;
 mod collider;
 mod crowd;
 mod feature;
+#[cfg_attr(not(feature = "time-stepping"), path = "no_gjk.rs")]
 mod gjk;
 mod group;
 mod impulse;
@@ -24,6 +25,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod touch;
+mod tree;
 mod triangles;
 
 use std::collections::BTreeSet;
@@ -33,10 +35,10 @@ use glam::DVec3;
 pub(super) use ball::Ball;
 pub(super) use closed::Closed;
 pub(super) use collider::Collider;
-pub(super) use gjk::Tree;
 pub(super) use group::Parting;
 pub(super) use solid::{Pose, Solid};
 pub use surface::{Meeting, Surface};
+pub(super) use tree::Tree;
 
 /// Which bodies touch, and how.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,8 +7,8 @@ use glam::{DQuat, DVec3};
 use super::feature::{
     Feature, features_of_box, features_of_capsule, features_of_frustum, features_of_ground,
 };
-use super::gjk::Tree;
 use super::patch::Patch;
+use super::tree::Tree;
 use super::triangles::triangles;
 use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
 

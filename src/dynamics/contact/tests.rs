@@ -111,6 +111,7 @@ fn gaps_have_closed_forms() {
 }
 
 /// parry's own shapes, with no code of ours between.
+#[cfg(feature = "time-stepping")]
 #[allow(clippy::unwrap_used, reason = "parry knows these pairs")]
 fn parry(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> f64 {
     use parry3d_f64::shape::{Ball, Capsule, Cone, Cuboid, Cylinder, SharedShape};
@@ -142,6 +143,7 @@ fn parry(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> f64 {
     found.unwrap().dist - ra - rb
 }
 
+#[cfg(feature = "time-stepping")]
 #[test]
 fn gaps_are_those_of_parry() {
     let mut random = Random::new(1);

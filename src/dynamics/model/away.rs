@@ -35,19 +35,6 @@ impl Model {
         self.away.get(body).is_none_or(Option::is_none)
     }
 
-    /// Whether forces move a body whenever it is there.
-    pub(in super::super) fn is_moved_by_forces(&self, body: usize) -> bool {
-        match self.away.get(body) {
-            Some(Some(away)) => !away.is_given(),
-            _ => self.inverse_mass[body] != 0.0,
-        }
-    }
-
-    /// Whether a body is there, and its motion is given.
-    pub(in super::super) fn is_guided(&self, body: usize) -> bool {
-        self.movable[body] && self.inverse_mass[body] == 0.0
-    }
-
     /// Those of some bodies that are there.
     #[must_use]
     pub fn present<'a>(&self, bodies: &'a [BodyId]) -> Cow<'a, [BodyId]> {
@@ -66,26 +53,6 @@ impl Model {
         let inverse = &self.inverse_mass;
         self.unmoved.clear();
         self.unmoved.extend((0..inverse.len()).filter(|&i| inverse[i] == 0.0));
-    }
-
-    /// The bodies that are not there, each with the velocity (m/s) and the angular momentum (kg m²/s) that it will come with.
-    pub(in super::super) fn away(&self) -> Vec<(usize, DVec3, DVec3)> {
-        let away = self.away.iter().enumerate();
-        away.filter_map(|(i, away)| away.as_ref().map(|away| (i, away.velocity, away.angular_momentum)))
-            .collect()
-    }
-
-    /// Lets these bodies be away, and no others.
-    pub(in super::super) fn set_away(&mut self, away: &[(usize, DVec3, DVec3)], state: &mut State) {
-        let mut is_there = vec![true; self.inverse_mass.len()];
-        away.iter().for_each(|(i, ..)| is_there[*i] = false);
-        let changes: Vec<(usize, bool)> = is_there.into_iter().enumerate().collect();
-        self.let_come_and_go(&changes, state);
-        for &(i, velocity, angular_momentum) in away {
-            if let Some(Some(away)) = self.away.get_mut(i) {
-                (away.velocity, away.angular_momentum) = (velocity, angular_momentum);
-            }
-        }
     }
 
     /// A body goes, if it is there.
@@ -133,5 +100,42 @@ impl Model {
         self.movable[i] = movable;
         state.velocity[i] = velocity;
         state.angular_momentum[i] = angular_momentum;
+    }
+}
+
+/// What time stepping asks for.
+#[cfg(feature = "time-stepping")]
+impl Model {
+    /// Whether forces move a body whenever it is there.
+    pub(in super::super) fn is_moved_by_forces(&self, body: usize) -> bool {
+        match self.away.get(body) {
+            Some(Some(away)) => !away.is_given(),
+            _ => self.inverse_mass[body] != 0.0,
+        }
+    }
+
+    /// Whether a body is there, and its motion is given.
+    pub(in super::super) fn is_guided(&self, body: usize) -> bool {
+        self.movable[body] && self.inverse_mass[body] == 0.0
+    }
+
+    /// The bodies that are not there, each with the velocity (m/s) and the angular momentum (kg m²/s) that it will come with.
+    pub(in super::super) fn away(&self) -> Vec<(usize, DVec3, DVec3)> {
+        let away = self.away.iter().enumerate();
+        away.filter_map(|(i, away)| away.as_ref().map(|away| (i, away.velocity, away.angular_momentum)))
+            .collect()
+    }
+
+    /// Lets these bodies be away, and no others.
+    pub(in super::super) fn set_away(&mut self, away: &[(usize, DVec3, DVec3)], state: &mut State) {
+        let mut is_there = vec![true; self.inverse_mass.len()];
+        away.iter().for_each(|(i, ..)| is_there[*i] = false);
+        let changes: Vec<(usize, bool)> = is_there.into_iter().enumerate().collect();
+        self.let_come_and_go(&changes, state);
+        for &(i, velocity, angular_momentum) in away {
+            if let Some(Some(away)) = self.away.get_mut(i) {
+                (away.velocity, away.angular_momentum) = (velocity, angular_momentum);
+            }
+        }
     }
 }

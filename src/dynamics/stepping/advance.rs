@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::super::integrator::turn_freely;
-use super::super::{Balance, BodyId, Breakdown, Snapshot, State, steps_of};
+use super::super::world::steps_of;
+use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::{TimeStepping, bodies, set_step, spin};
 
 /// Angular velocities are the same where they differ by no more than this part.

@@ -29,6 +29,7 @@ use self::joint::Joints;
 use self::mixing::Mixing;
 use super::contact::{Contacts, Impact};
 use super::presence::Calendar;
+use super::softness::STIFFNESS;
 use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, World};
 
 pub use joint::{Link, LinkKind};
@@ -37,9 +38,6 @@ pub use joint::{Link, LinkKind};
 /// latter alone: with two of them, a block creeps down an incline that should hold it.
 const SWEEPS: usize = 2;
 const FINAL_SWEEPS: usize = 4;
-/// The stiffness of contacts, as the frequency at which they would swing, by that of the steps. The engine's authors find a quarter the stiffest
-/// that is stable.
-const STIFFNESS: f64 = 0.25;
 /// The damping of contacts, by that which just lets nothing swing.
 const DAMPING: f64 = 10.0;
 
@@ -115,22 +113,6 @@ impl TimeStepping {
     /// Whether snapshots list the contacts of their moment. There may be many.
     pub fn show_contacts(&mut self, shown: bool) {
         self.shows_contacts = shown;
-    }
-
-    /// The longest step (s) with which bodies of some thickness (m) stand well under a gravity (m/s²). It divides 1/240 s.
-    ///
-    /// A contact that swings with ω is as soft as a spring of stiffness m ω². Under ten times its own weight, a body may sink in by 3 % of its
-    /// thickness.
-    #[must_use]
-    pub fn suitable_step(thickness: f64, gravity: f64) -> f64 {
-        const USUAL: f64 = 1.0 / 240.0;
-        // Half of a contact's sinking is that of the damper beside the spring.
-        let softest = (0.03 * thickness / (2.0 * 10.0 * gravity)).sqrt() * std::f64::consts::TAU * STIFFNESS;
-        let mut step = USUAL;
-        while step > softest && step > USUAL / 32.0 {
-            step *= 0.5;
-        }
-        step
     }
 
     /// Sets the longest step, s. It must be positive.

@@ -10,10 +10,10 @@ use std::sync::Arc;
 use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
-use sha2::{Digest, Sha256};
 
 use super::super::{sdl::Style, text};
 use super::color;
+use crate::digest::Sha256;
 use crate::picture::{Plan, Stretch, Trail};
 use crate::scene::Layout;
 use crate::simulate::Frame;

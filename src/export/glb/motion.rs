@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::container::LARGEST;
 use super::shown::Shown;
 use crate::export::ExportError;
-use crate::render::{Film, Pace};
+use crate::picture::Pace;
 use crate::scene::Body;
 use crate::simulate::{Recorded, Selection};
 
@@ -51,7 +51,7 @@ impl Motion {
         let scene = run.scene();
         let count = selection.count_within(scene.simulation.frames());
         let mut rate = scene.simulation.frame_rate;
-        if !Film::RATES.contains(&rate) {
+        if !Pace::RATES.contains(&rate) {
             rate = Pace::USUAL_RATE;
         }
         let slower = scene.simulation.frame_rate / rate;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use super::{Film, Format};
+use super::{Format, Pace};
 use crate::diagnostic::{Code, Diagnostic, Report};
 
 /// Why a film or a contact sheet could not be made.
@@ -151,7 +151,7 @@ impl fmt::Display for FilmError {
             FilmError::Folder(path) => write!(f, "`{}` is a folder", path.display()),
             FilmError::NoImages => f.write_str("there are no images to show"),
             FilmError::Rate(rate) => {
-                let (low, high) = (Film::RATES.start(), Film::RATES.end());
+                let (low, high) = (Pace::RATES.start(), Pace::RATES.end());
                 write!(f, "a film shows from {low} to {high} frames a second, not {rate}")
             }
             FilmError::NoQuality(path) => {

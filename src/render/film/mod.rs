@@ -24,19 +24,17 @@
 mod error;
 mod ffmpeg;
 mod format;
-mod pace;
 mod target;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+pub use crate::picture::Pace;
 pub use error::FilmError;
 pub use ffmpeg::Ffmpeg;
 pub use format::Format;
-pub use pace::Pace;
 pub(super) use target::Target;
 
 use super::Quality;
@@ -52,9 +50,6 @@ pub struct Film {
 }
 
 impl Film {
-    /// The rates that a film can have, in frames per second.
-    pub const RATES: RangeInclusive<f64> = 0.01..=1000.0;
-
     /// A film of this name, whose ending says the format.
     ///
     /// # Errors
@@ -120,7 +115,7 @@ impl Film {
     /// # Errors
     /// If it cannot.
     pub fn check_rate(frame_rate: f64) -> Result<(), FilmError> {
-        if Film::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
+        if Pace::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
     }
 
     /// Whether a film of this format can have images of this size.

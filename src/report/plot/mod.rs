@@ -4,6 +4,7 @@
 
 mod axis;
 mod chart;
+#[cfg(feature = "render")]
 mod png;
 mod svg;
 
@@ -12,6 +13,7 @@ use super::{Assessment, Parting, text};
 use axis::Axis;
 
 pub use chart::{Chart, Curve};
+#[cfg(feature = "render")]
 pub use png::png;
 pub use svg::svg;
 

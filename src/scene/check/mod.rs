@@ -36,8 +36,6 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use sha2::{Digest, Sha256};
-
 pub(super) use self::counts::MAX_FRAMES;
 
 use super::expand::{self, Expansion, Groups};
@@ -47,6 +45,7 @@ use super::source::{self, Table};
 use super::view::{NamedTable, View};
 use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
+use crate::digest::Sha256;
 use crate::dynamics::{Presence, Track};
 
 /// The inputs of the check.
@@ -152,7 +151,7 @@ impl Context<'_> {
 
     /// Adds the contents of a file.
     fn add_file(&mut self, bytes: &[u8]) {
-        self.files.push(Sha256::digest(bytes).into());
+        self.files.push(Sha256::digest(bytes));
     }
 
     /// Whether there are errors among the diagnostics since there were `before`.

@@ -5,7 +5,7 @@ use super::counts::Counts;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{METHODS, Motor, TimeStepping};
+use crate::dynamics::{METHODS, Motor, suitable_step};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, Simulation};
 
 /// From this restitution on, a rebound is meant to keep its height.
@@ -29,13 +29,19 @@ pub(super) fn choose_step(
     let touches = |body: &&Body| body.collider.is_some() && !body.start.fixed && body.motion.is_none();
     let thickness = bodies.iter().filter(touches).filter_map(|body| body.shape.half_thickness());
     let Some(thinnest) = thickness.min_by(f64::total_cmp) else { return (simulation, counts) };
-    let step = TimeStepping::suitable_step(2.0 * thinnest, gravity).min(counts.step);
+    let step = suitable_step(2.0 * thinnest, gravity).min(counts.step);
     (Simulation { step, ..simulation }, Counts { step, ..counts })
 }
 
 /// Says which integrators and surfaces time stepping does not have.
 pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], context: &mut Context<'_>) {
     let table = root.table("simulation");
+    if !cfg!(feature = "time-stepping") {
+        let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
+        let help = "build jabuka with its feature `time-stepping`, or take the other scheme: `contacts = \"event-driven\"`";
+        let span = table.span("contacts");
+        context.diagnostics.extend(span.map(|span| error.at(span, "").help(help)));
+    }
     let own = METHODS[0].name;
     if simulation.method.name != own {
         let message = format!("time stepping does not take the integrator `{}`", simulation.method.name);
@@ -137,5 +143,20 @@ pub(super) fn check_joints(
             }
         }
         context.once(before, name, span);
+    }
+}
+
+#[cfg(all(test, not(feature = "time-stepping")))]
+mod tests {
+    use crate::Scene;
+
+    #[test]
+    fn a_build_without_time_stepping_says_so_at_the_place() {
+        let text = "simulation.contacts = 'time-stepping'\n[body.a]\nshape.sphere.radius = 1\nlocation = [0, 2, 0]\n";
+        let report = Scene::parse(text).unwrap_err();
+        let error = &report.diagnostics[0];
+        assert_eq!(error.message, "this build of jabuka has no time stepping");
+        let span = error.span().unwrap();
+        assert!(text[span.start..span.end].contains("time-stepping"), "{span:?}");
     }
 }

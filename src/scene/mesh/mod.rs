@@ -11,8 +11,8 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use glam::DVec3;
-use sha2::{Digest, Sha256};
 
+use crate::digest::Sha256;
 use crate::dynamics::Mesh;
 use crate::scene::source::file;
 
@@ -71,7 +71,7 @@ pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
     let mut buffer = [0; 1 << 16];
     loop {
         match file.read(&mut buffer)? {
-            0 => return Ok(hash.finalize().into()),
+            0 => return Ok(hash.finalize()),
             length => hash.update(&buffer[..length]),
         }
     }

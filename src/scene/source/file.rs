@@ -15,7 +15,7 @@ pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
     // Another file may have taken its place. Opening a pipe must not block then.
-    #[cfg(unix)]
+    #[cfg(all(unix, feature = "render"))]
     {
         use std::os::unix::fs::OpenOptionsExt;
         options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits().cast_signed());

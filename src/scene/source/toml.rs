@@ -101,7 +101,10 @@ impl Reader<'_> {
             let name = Name { span: Span::new(self.source, key.span()), text: text.as_ref().into() };
             Entry { name, node: self.node(value) }
         };
-        Table { entries: table.iter().map(entry).collect() }
+        // The parser sorts a table by its keys.
+        let mut in_order: Vec<_> = table.iter().collect();
+        in_order.sort_by_key(|(key, _)| key.span().start);
+        Table { entries: in_order.into_iter().map(entry).collect() }
     }
 
     fn node(&mut self, value: &Spanned<DeValue<'_>>) -> Node {

@@ -139,6 +139,7 @@ fn the_given_ground_counts_and_the_default_one_does_not() {
 }
 
 /// A box that is let down into a contact hardly moves: its drift is large, but little of what contacts have taken.
+#[cfg(feature = "time-stepping")]
 #[test]
 fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
     let survey = surveyed(

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::fs;
 
-use jabuka::render::Film;
+use jabuka::render::{Film, Pace};
 
 use super::images::{plain, sequence};
 use super::probe::{confined, make, pixels, stream};
@@ -31,7 +31,7 @@ fn every_rate_keeps_every_frame() {
 fn the_ends_of_what_rates_there_are_work() {
     let folder = tempfile::tempdir().unwrap();
     let images = sequence(folder.path(), 5, (32, 32));
-    for rate in [*Film::RATES.start(), *Film::RATES.end()] {
+    for rate in [*Pace::RATES.start(), *Pace::RATES.end()] {
         for extension in ["mp4", "webm", "gif"] {
             let film = folder.path().join(format!("film.{extension}"));
             make(&film, &images, rate);

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 pub(super) use self::by_tree::ByTree;
 use self::kernel::{Potential, Pull};
+use crate::threads;
 
 /// The most bodies of a leaf.
 const LEAF: usize = 8;
@@ -117,7 +118,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
         let mut first_part = || grow(left_nodes, left, (number + 1, first), reach);
         let mut second_part = || grow(right_nodes, right, second, reach);
         if count > ALONE {
-            rayon::join(first_part, second_part);
+            threads::join(first_part, second_part);
         } else {
             first_part();
             second_part();

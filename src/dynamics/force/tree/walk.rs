@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::kernel::{Kernel, LANES, Lanes, Source};
 use super::{Body, GROUP, Tree};
+use crate::threads;
 
 /// The number of nodes, and of runs of bodies, that a group collects before it evaluates them.
 const BATCH: usize = 64;
@@ -55,7 +56,7 @@ impl Tree {
         }
         let first = &self.nodes[number + 1];
         let (left, right) = sums.split_at_mut(first.end - first.first);
-        rayon::join(|| self.each_group(number + 1, left, see), || self.each_group(first.next, right, see));
+        threads::join(|| self.each_group(number + 1, left, see), || self.each_group(first.next, right, see));
     }
 }
 

@@ -12,6 +12,8 @@ pub struct Pace {
 }
 
 impl Pace {
+    /// The rates that a film can have, in frames per second.
+    pub const RATES: RangeInclusive<f64> = 0.01..=1000.0;
     /// The frame rate of a film if that of the scene is unwatchable, in frames per second.
     pub const USUAL_RATE: f64 = 25.0;
     /// The frame rates of scenes that can be watched in real time, in frames per second.

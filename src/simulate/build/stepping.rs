@@ -1,0 +1,36 @@
+//! Scene → the engine of many contacts.
+
+use super::{add_ground, contacts, free_world};
+use crate::dynamics::{Effort, Link, LinkKind, TimeStepping};
+use crate::scene::{Body, Joint, JointKind, Scene};
+
+/// The engine with all bodies and joints of the scene.
+pub(super) fn stepping(scene: &Scene, effort: &Effort) -> TimeStepping {
+    let mut world = free_world(scene);
+    add_ground(&mut world, scene);
+    world.watch(effort);
+    let links: Vec<Link> = scene.joints.iter().filter_map(link).collect();
+    let mut stepping = TimeStepping::new(world, &contacts(scene), &links);
+    stepping.show_contacts(shows_contacts(scene));
+    stepping
+}
+
+/// A joint as time stepping has it; the check has refused all others.
+fn link(joint: &Joint) -> Option<Link> {
+    let kind = match &joint.kind {
+        JointKind::Ball(ball) => LinkKind::Ball(*ball),
+        JointKind::Hinge(hinge) => LinkKind::Hinge(hinge.clone()),
+        JointKind::Slider(slider) => LinkKind::Slider(slider.clone()),
+        JointKind::Fixed(fixed) => LinkKind::Fixed(*fixed),
+        JointKind::Rod(rod) => LinkKind::Rod(*rod),
+        JointKind::Rope(rope) => LinkKind::Rope(*rope),
+        JointKind::Pulley(_) | JointKind::Gear(_) => return None,
+    };
+    Some(Link { kind, collides: joint.collides })
+}
+
+/// Whether anything is drawn of the contacts of a moment. Piles have tens of thousands.
+fn shows_contacts(scene: &Scene) -> bool {
+    let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
+    scene.bodies.iter().any(shows)
+}
