@@ -31,6 +31,14 @@
 //! | `threads` | several processor cores |
 //! | `time-stepping` | contacts of many bodies, `contacts = "time-stepping"` |
 //!
+//! # Forces and methods of your own
+//!
+//! A type that implements [`dynamics::Force`] is a force, and one that implements [`dynamics::Integrator`] a method. [`simulate::world`] makes the world
+//! of a scene. Add your force to it with [`World::add_force`](dynamics::World::add_force), and set your method with
+//! [`World::set_integrator`](dynamics::World::set_integrator). [`simulate::Recorded::of`] runs that world, and [`Run::of`] makes scripts of the run.
+//! `examples/own_force.rs` does all this in about a hundred lines. If you advance bodies in your own way altogether, implement [`dynamics::Dynamics`],
+//! or make single frames from snapshots with [`simulate::Frame::of`].
+//!
 //! # A snapshot test of a scene
 //!
 //! A script is text that is the same on every run and machine, so a test can hold it against a stored one. With

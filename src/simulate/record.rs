@@ -36,7 +36,8 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the numbers of the scene.
+    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the numbers of the scene. A moment that the scene does
+    /// not ask for is not recorded: [`at`](Self::at) computes it by the scene's own forces and method.
     ///
     /// # Errors
     /// If the run becomes non-finite.
