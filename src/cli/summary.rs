@@ -103,13 +103,19 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
 fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints } = totals;
     let taken =
-        format!("impacts   {impacts}, which took {} J; friction took {} J\n", short(lost), short(rubbed));
+        format!("impacts   {impacts}, which {}; friction {}\n", energy_taken(lost), energy_taken(rubbed));
     if law == ContactLaw::EventDriven {
         return taken;
     }
     let [depth, gap] = [penetration, joints].map(two_digits);
     let gap = if joints > 0.0 { format!("; joints {gap} m off at most") } else { String::new() };
     format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
+}
+
+/// An energy (J) that contacts have taken. It is negative if they have added energy.
+fn energy_taken(energy: f64) -> String {
+    let verb = if energy < 0.0 { "added" } else { "took" };
+    format!("{verb} {} J", short(energy.abs()))
 }
 
 /// A number to four digits, without trailing zeros.
@@ -163,6 +169,9 @@ mod tests {
         };
         let taken = "impacts   31415, which took 0.1235 J; friction took 0 J\n";
         assert_eq!(contacts(totals, ContactLaw::EventDriven), taken);
+        let added = ContactTotals { lost: -159.94, ..totals };
+        let line = "impacts   31415, which added 159.9 J; friction took 0 J\n";
+        assert_eq!(contacts(added, ContactLaw::EventDriven), line);
         let depth = "contacts  bodies 0.0012 m within each other at most\n";
         assert_eq!(contacts(totals, ContactLaw::TimeStepping), format!("{taken}{depth}"));
         let joined = ContactTotals { joints: 2.5e-5, ..totals };

@@ -50,20 +50,20 @@ impl Scope {
             let span = Span { until: 0.0, bounds: NOTHING, moving: NOTHING, seen: NOTHING, arrows };
             return Scope { camera: camera.clone(), span, whole: NOTHING, part: Part::Whole };
         };
-        let scope = |span: &Span, part: Part, camera: Camera| Scope {
-            camera,
-            span: span.clone(),
-            whole: all.bounds,
-            part,
+        let whole = all.bounds;
+        let scope =
+            |span: &Span, part: Part, camera: Camera| Scope { camera, span: span.clone(), whole, part };
+        let Some(largest) = largest(scene).filter(|_| is_automatic(scene, camera)) else {
+            return scope(all, Part::Whole, camera.clone());
         };
-        let whole = || scope(all, Part::Whole, camera.clone());
-        let Some(largest) = largest(scene).filter(|_| is_automatic(scene, camera)) else { return whole() };
         let width = 2.0 * half_width(largest).unwrap_or(0.0);
         let seen = |span: &Span| {
             let bounds = rounded_outward(span.seen);
             let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
             width / eye.placed().width_of_view(span.bounds)
         };
+        // Few bodies of many may fly far away. The camera does not follow them.
+        let all = survey.without_strays.as_ref().unwrap_or(all);
         let in_whole = seen(all);
         let alone = alone_over_ground(scene).filter(|body| in_whole < least_alone(scene, *body, all));
         let along = alone.and_then(|body| Some((body, along_with(body, width / ALONG, camera, scene)?)));
@@ -71,14 +71,14 @@ impl Scope {
             return scope(all, Part::AroundBody(body), camera);
         }
         if in_whole >= LEAST {
-            return whole();
+            return scope(all, Part::Whole, camera.clone());
         }
         let come = all_have_come(scene);
         let reaching =
             |least: f64| starts.iter().rev().find(|span| span.until >= come && seen(span) >= least);
         match reaching(GOOD).or_else(|| reaching(LEAST)) {
             Some(start) => scope(start, Part::Start(start.until), camera.clone()),
-            None => whole(),
+            None => scope(all, Part::Whole, camera.clone()),
         }
     }
 }

@@ -35,6 +35,7 @@ mod selection;
 mod simulation;
 mod snapshots;
 mod span;
+mod strays;
 mod survey;
 mod swarms;
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::Reach;
+use super::strays::Paths;
 use super::vectors::{anchors, axis, root, shown};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
@@ -51,6 +52,10 @@ pub(super) struct Spans {
     kept: Vec<Span>,
     /// The span until now, whose box of what moves may be empty.
     now: Option<(Span, Option<Bounds>)>,
+    paths: Paths,
+    has_arrows: bool,
+    /// The box around the particles of all frames.
+    particles: Option<Bounds>,
 }
 
 impl Spans {
@@ -70,9 +75,13 @@ impl Spans {
             if !body.start.fixed {
                 *moving = Some(moving.map_or(here, |all| all.union(here)));
             }
-            span.see_showing(here, body, frame);
+            let seen = span.see_showing(here, body, frame);
+            self.paths.see(frame.id, body.start.fixed, here, seen);
+            self.has_arrows |= body.showing.arrows.iter().any(Option::is_some);
         }
         let Some((span, _)) = &mut self.now else { return };
+        let mut joints = joints.peekable();
+        self.has_arrows |= joints.peek().is_some();
         span.see_joints(joints);
         self.keep(time);
     }
@@ -99,12 +108,26 @@ impl Spans {
         span.bounds = span.bounds.union(here);
         span.seen = span.seen.union(here);
         *moving = Some(moving.map_or(here, |all| all.union(here)));
+        self.particles = Some(self.particles.map_or(here, |all| all.union(here)));
         self.keep(time);
     }
 
     /// The box around all bodies so far; none if there is no body but planes.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.now.as_ref().map(|(span, _)| span.bounds)
+    }
+
+    /// The whole run without the few bodies that fly far away; none if there are no such bodies, or if arrows are shown, which may
+    /// reach far themselves.
+    pub(super) fn without_strays(&self, scene: &Scene) -> Option<Span> {
+        if self.has_arrows {
+            return None;
+        }
+        let rest = self.paths.without_strays()?;
+        let add = |bounds: Bounds| self.particles.map_or(bounds, |all| all.union(bounds));
+        let seen = anchors(scene).map(Bounds::point).fold(rest.seen, Bounds::union);
+        let (bounds, moving, seen) = (add(rest.bounds), add(rest.moving), add(seen));
+        Some(Span { bounds, moving, seen, ..self.now()? })
     }
 
     /// All spans, each longer than the one before. The last is the whole run.
@@ -134,9 +157,9 @@ impl Span {
         }
     }
 
-    /// Adds a body, what is drawn on it, and its arrows.
-    fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) {
-        let mut seen = self.seen.union(here);
+    /// Adds a body, what is drawn on it, and its arrows. Gives the box around these.
+    fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) -> Bounds {
+        let mut seen = here;
         for ((quantity, arrow), reach) in
             Quantity::OF_BODIES.into_iter().zip(body.showing.arrows).zip(&mut self.arrows)
         {
@@ -156,7 +179,8 @@ impl Span {
                 seen = seen.union_if_finite(frame.location + DVec3::from_array(axis) * length * 1.1);
             }
         }
-        self.seen = seen;
+        self.seen = self.seen.union(seen);
+        seen
     }
 }
 

@@ -26,6 +26,9 @@ pub struct Survey {
     /// The space that the run takes, from the start until several moments; the last is the end. A body counts until it goes
     /// through a plane. Empty if the scene has no body but planes.
     pub spans: Vec<Span>,
+    /// The space that the whole run takes if a few of many bodies fly far away: of these, only where they start counts. None if there are
+    /// no such bodies.
+    pub without_strays: Option<Span>,
     /// The first passage of a body through each plane or ground that is given; none where contacts stop bodies.
     pub crossings: Vec<Crossing>,
     /// The first two bodies that go into each other; none where contacts stop bodies.
@@ -214,6 +217,7 @@ impl<'a> Surveyor<'a> {
         let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
         let turnover = largest_kinetic.max(taken);
         Survey {
+            without_strays: spans.without_strays(scene),
             spans: spans.finish(),
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
             overlap: overlaps.finish(),

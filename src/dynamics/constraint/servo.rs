@@ -57,8 +57,7 @@ impl Force for Servo {
         0.0
     }
 
-    fn apply_without_potential(&self, moment: &Moment<'_>, loads: &mut Loads) -> Option<WorkAccount> {
-        self.apply(moment, loads);
+    fn work_account(&self) -> Option<WorkAccount> {
         Some(WorkAccount::Motors)
     }
 }

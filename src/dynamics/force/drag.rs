@@ -40,8 +40,7 @@ impl Force for Drag {
         false
     }
 
-    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
-        self.apply(moment, loads);
+    fn work_account(&self) -> Option<WorkAccount> {
         Some(WorkAccount::Work)
     }
 

@@ -126,12 +126,8 @@ impl Force for FormulaForce {
         sum
     }
 
-    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
-        if self.law.has_potential() {
-            return None;
-        }
-        self.apply(moment, loads);
-        Some(WorkAccount::Work)
+    fn work_account(&self) -> Option<WorkAccount> {
+        (!self.law.has_potential()).then_some(WorkAccount::Work)
     }
 
     fn is_local(&self) -> bool {

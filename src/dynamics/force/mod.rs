@@ -59,10 +59,15 @@ pub trait Force: Send + Sync {
     /// The share of a body that does not move is left out where it is a constant.
     fn potential(&self, moment: &Moment) -> f64;
 
-    /// Adds that part of the forces and torques which has no potential, with its power, as [`apply`](Self::apply) adds all. Gives the account of
-    /// that power; none where all has a potential, or where the part does not stand alone. The default does nothing.
-    fn apply_without_potential(&self, _moment: &Moment, _loads: &mut Loads) -> Option<WorkAccount> {
+    /// The account for the work of the part that has no potential. `None` if there is no such part.
+    fn work_account(&self) -> Option<WorkAccount> {
         None
+    }
+
+    /// Adds the part of the forces and torques that has no potential, with its power, as [`apply`](Self::apply) adds all. It is called
+    /// only if there is a [`work_account`](Self::work_account). The default adds all.
+    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) {
+        self.apply(moment, loads);
     }
 
     /// Adds the forces on the bodies of a range alone, as [`apply`](Self::apply) does for all; only a force that is

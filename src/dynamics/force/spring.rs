@@ -111,12 +111,12 @@ impl Force for Spring {
         }
     }
 
-    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) -> Option<WorkAccount> {
-        if self.damping == 0.0 {
-            return None;
-        }
+    fn work_account(&self) -> Option<WorkAccount> {
+        (self.damping != 0.0).then_some(WorkAccount::Work)
+    }
+
+    fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) {
         Spring { stiffness: 0.0, ..*self }.apply(moment, loads);
-        Some(WorkAccount::Work)
     }
 
     fn depends_on_motion(&self) -> bool {

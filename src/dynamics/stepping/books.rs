@@ -1,23 +1,22 @@
 //! Accounts of contacts and joints: energies for the balance, and impacts.
 
+use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{
-    ColliderHandle, ColliderSet, CollisionEvent, ContactManifold, ContactPair, EventHandler, PairContacts,
-    PhysicsWorld, Pose, RigidBodyHandle, RigidBodySet, SoftBodySet, SoftBodyTearEvent, SolverContact,
+    ColliderHandle, ColliderSet, CollisionEvent, ContactPair, EventHandler, PhysicsWorld, RigidBodySet,
+    SoftBodySet, SoftBodyTearEvent,
 };
 
 use super::super::contact::Impact;
 use super::super::{Accounts, Loads, Model, State};
 use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
+use super::touch::{self, Push, Touch};
 
 /// Bodies that approach by less than this many of their thicknesses in a second have no impact.
 const SLOW: f64 = 0.03;
-
-/// The engine solves for no more points of a touch than these.
-const MOST_POINTS: usize = 4;
 
 /// The motion of a body: its velocity, m/s, and its angular velocity, rad/s.
 pub(super) type Motion = (DVec3, DVec3);
@@ -65,105 +64,44 @@ impl EventHandler for Events {
     fn handle_soft_body_tear_event(&self, _: &SoftBodySet, _: &SoftBodyTearEvent) {}
 }
 
-/// The contact of two bodies, on a common normal.
-#[derive(Clone, Copy)]
-pub(super) struct Touch<'a> {
-    /// The numbers of the bodies.
-    pub(super) bodies: [usize; 2],
-    manifold: &'a ContactManifold,
+/// The pairs that push in a step, among those that have come near each other and have not pushed before.
+struct Pushing {
+    /// Whether a collider is near another, by its number. Few are, so few pairs have to be looked up.
+    is_near: Vec<bool>,
+    pairs: HashSet<[ColliderHandle; 2]>,
 }
 
-/// A point of a touch: the impulse along the normal, and the ways to it from the centres of the bodies.
-pub(super) struct Point {
-    pub(super) impulse: f64,
-    pub(super) arms: [DVec3; 2],
-}
-
-/// The effect of a contact on the second body within a step; the first gets the opposite.
-#[derive(Default)]
-pub(super) struct Push {
-    /// The impulse along the normal, N s.
-    pub(super) impulse: f64,
-    /// Its moments about the centres of the bodies, N m s.
-    moments: [DVec3; 2],
-    /// The impulse of friction, N s.
-    pub(super) friction: DVec3,
-    /// The moment of friction about the normal, N m s.
-    twist: f64,
-    /// The ways from the centres of the bodies to where friction acts, m.
-    arms: [DVec3; 2],
-}
-
-impl<'a> Touch<'a> {
-    /// All of a pair.
-    pub(super) fn of_pair(pair: &'a ContactPair) -> impl Iterator<Item = Touch<'a>> {
-        let manifolds = match &pair.contacts {
-            PairContacts::Rigid(contacts) => contacts.solver_manifolds(),
-            PairContacts::Soft { .. } => &[],
-        };
-        manifolds.iter().filter(|manifold| !manifold.data.solver_contacts.is_empty()).filter_map(|manifold| {
-            let number = |handle: Option<RigidBodyHandle>| Some(handle?.into_raw_parts().0 as usize);
-            let bodies = [number(manifold.data.rigid_body1)?, number(manifold.data.rigid_body2)?];
-            Some(Touch { bodies, manifold })
-        })
-    }
-
-    /// The unit normal from the first body to the second.
-    pub(super) fn normal(&self) -> DVec3 {
-        self.manifold.data.normal
-    }
-
-    /// Its points.
-    pub(super) fn points(&self) -> impl Iterator<Item = Point> + use<'a> {
-        let manifold = self.manifold;
-        manifold.data.solver_contacts.iter().take(MOST_POINTS).filter_map(move |contact| {
-            let [index] = contact.contact_indices();
-            let data = &manifold.points.get(index as usize)?.data;
-            Some(Point { impulse: data.impulse, arms: [data.solver_dp1, data.solver_dp2] })
-        })
-    }
-
-    /// The penetration of the bodies, m; negative if they are apart. The closure gives the pose of a body, or `None` if the body
-    /// is fixed.
-    pub(super) fn depth(&self, pose: impl Fn(usize) -> Option<Pose>) -> f64 {
-        let poses = self.bodies.map(pose);
-        let place = |side: usize, anchor: DVec3| poses[side].map_or(anchor, |pose| pose * anchor);
-        let depth = |contact: &SolverContact| {
-            (place(0, contact.anchor1) - place(1, contact.anchor2)).dot(self.normal())
-        };
-        let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
-        contacts.map(depth).fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// The impulse in the last step. `None` if there was none.
-    pub(super) fn push(&self) -> Option<Push> {
-        let manifold = self.manifold;
-        let contacts = manifold.data.solver_contacts.iter().take(MOST_POINTS);
-        let mut points = contacts.filter_map(|contact| {
-            let [index] = contact.contact_indices();
-            manifold.points.get(index as usize).map(|point| &point.data)
-        });
-        let first = points.next()?;
-        // Values of the whole manifold are stored with each of its points.
-        let mut push = Push { friction: -first.warmstart_tangent_world, ..Push::default() };
-        let mut count = 0.0;
-        for point in std::iter::once(first).chain(points) {
-            let arms = [point.solver_dp1, point.solver_dp2];
-            count += 1.0;
-            push.impulse += point.impulse;
-            for (side, arm) in arms.into_iter().enumerate() {
-                push.arms[side] += arm;
-                push.moments[side] += point.impulse * arm.cross(self.normal());
+impl Pushing {
+    /// None yet of some pairs.
+    fn among(near: &[[ColliderHandle; 2]]) -> Pushing {
+        let mut pushing = Pushing { is_near: Vec::new(), pairs: HashSet::new() };
+        for collider in near.as_flattened() {
+            let number = number(*collider);
+            if pushing.is_near.len() <= number {
+                pushing.is_near.resize(number + 1, false);
             }
+            pushing.is_near[number] = true;
         }
-        if push.impulse == 0.0 {
-            return None;
-        }
-        push.arms = push.arms.map(|arm| arm / count);
-        // A single point has no arm to twist with.
-        push.twist = if count > 1.0 { first.warmstart_twist_impulse } else { 0.0 };
-        Some(push)
+        pushing
     }
+
+    /// Sees a pair that pushes.
+    fn see(&mut self, pair: &ContactPair) {
+        let pair = [pair.collider1, pair.collider2];
+        if pair.iter().all(|collider| self.is_near.get(number(*collider)) == Some(&true)) {
+            self.pairs.insert(pair);
+        }
+    }
+
+    /// Whether a pair pushes.
+    fn has(&self, [one, two]: [ColliderHandle; 2]) -> bool {
+        self.pairs.contains(&[one, two]) || self.pairs.contains(&[two, one])
+    }
+}
+
+/// The number of a collider.
+fn number(collider: ColliderHandle) -> usize {
+    collider.into_raw_parts().0 as usize
 }
 
 impl Books {
@@ -207,13 +145,17 @@ impl Books {
         (state, loads, driven): (&mut State, &Loads, &Driven),
         time: f64,
     ) {
-        self.touched.fill(false);
+        self.note_near();
+        let mut pushing = Pushing::among(&self.near);
+        let mut touched = std::mem::take(&mut self.touched);
+        touched.fill(false);
         let mut accounts = Accounts::default();
         // The energy that contacts give to bodies held by joints, J.
         let mut pressed = 0.0;
-        for touch in engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair) {
-            touch.bodies.into_iter().for_each(|body| self.touched[body] = true);
-            let Some([one, two]) = self.rates(&touch) else { continue };
+        let meet = |touch: &Touch<'_>| touch.bodies.into_iter().for_each(|body| touched[body] = true);
+        touch::visit(engine.narrow_phase.contact_pairs(), meet, |pair, touch, push| {
+            pushing.see(pair);
+            let Some([one, two]) = self.rates(touch, push) else { return };
             accounts.impacts += two[0] - one[0];
             accounts.friction += two[1] - one[1];
             for (body, work) in touch.bodies.into_iter().zip([one[0] + one[1], -(two[0] + two[1])]) {
@@ -224,7 +166,8 @@ impl Books {
                     pressed -= work;
                 }
             }
-        }
+        });
+        self.touched = touched;
         let dt = engine.integration_parameters.dt;
         accounts.add(1.0, driven.work(dt, &self.mean));
         let mut pulled = 0.0;
@@ -248,13 +191,11 @@ impl Books {
             accounts.limits += others;
         }
         state.accounts.add(1.0, accounts);
-        self.find_impacts(engine, time);
+        self.find_impacts(engine, &pushing, time);
     }
 
-    /// The energy that a touch takes from its first body and gives to its second, each by the normal impulses and by friction, J; none
-    /// where it does not push.
-    fn rates(&self, touch: &Touch<'_>) -> Option<[[f64; 2]; 2]> {
-        let push = touch.push()?;
+    /// The energy that a touch takes from its first body and gives to its second, each by the normal impulses and by friction, J.
+    fn rates(&self, touch: &Touch<'_>, push: &Push) -> Option<[[f64; 2]; 2]> {
         let normal = touch.normal();
         let rate = |side: usize| {
             let (velocity, turning) = *self.mean.get(touch.bodies[side])?;
@@ -265,8 +206,8 @@ impl Books {
         Some([rate(0)?, rate(1)?])
     }
 
-    /// Finds the impacts of pairs that have come near each other.
-    fn find_impacts(&mut self, engine: &PhysicsWorld, time: f64) {
+    /// Notes which pairs have come near each other in the last step, and which have parted.
+    fn note_near(&mut self) {
         let events = std::mem::take(&mut *self.events.0.lock().unwrap_or_else(PoisonError::into_inner));
         for event in events {
             match event {
@@ -276,9 +217,16 @@ impl Books {
                 }
             }
         }
+    }
+
+    /// Finds the impacts of pairs that have come near each other, and that have pushed now.
+    fn find_impacts(&mut self, engine: &PhysicsWorld, pushing: &Pushing, time: f64) {
         let mut near = std::mem::take(&mut self.near);
-        near.retain(|&[one, two]| {
-            let Some(pair) = engine.narrow_phase.contact_pair(one, two) else { return true };
+        near.retain(|pair| {
+            if !pushing.has(*pair) {
+                return true;
+            }
+            let Some(pair) = engine.narrow_phase.contact_pair(pair[0], pair[1]) else { return true };
             !self.note_impact(pair, time)
         });
         self.near = near;
@@ -304,8 +252,9 @@ impl Books {
                     found = Some((touch.bodies, normal, a));
                 }
             }
-            impulse += touch.push().map_or(DVec3::ZERO, |push| push.friction);
-            energy += self.rates(&touch).map_or(0.0, |[one, two]| one[0] + one[1] - two[0] - two[1]);
+            let Some(push) = touch.push() else { continue };
+            impulse += push.friction;
+            energy += self.rates(&touch, &push).map_or(0.0, |[one, two]| one[0] + one[1] - two[0] - two[1]);
         }
         let Some((bodies, normal, arm)) = found else { return false };
         if fastest > self.slow {

@@ -12,36 +12,37 @@ use super::books::Motion;
 /// What forces without a potential do in a step.
 #[derive(Clone, Default)]
 pub(super) struct Driven {
-    /// Each of them alone, with the account of its work.
+    /// The loads of all of them that share an account.
     alone: Vec<(WorkAccount, Loads)>,
-    /// The sum of their forces on each body, N; empty where there is none.
-    force: Vec<DVec3>,
 }
 
 impl Driven {
-    /// The beginning of a step: finds what each of these forces does to the bodies, and takes its power out of `loads`.
+    /// The beginning of a step: finds what these forces do to the bodies, and takes their power out of `loads`.
     pub(super) fn begin(&mut self, model: &Model, time: f64, state: &State, loads: &mut Loads) {
-        self.force.clear();
-        let moment = Moment { time, state, model };
-        let mut count = 0;
-        for force in model.forces() {
-            if self.alone.len() == count {
-                self.alone.push((WorkAccount::Work, Loads::default()));
-            }
-            let (account, alone) = &mut self.alone[count];
+        for (_, alone) in &mut self.alone {
             alone.power = Accounts::default();
-            for all in [&mut alone.force, &mut alone.torque] {
-                all.clear();
-                all.resize(state.len(), DVec3::ZERO);
-            }
-            let Some(found) = force.apply_without_potential(&moment, alone) else { continue };
-            *account = found;
-            loads.power.add(-1.0, alone.power);
-            self.force.resize(state.len(), DVec3::ZERO);
-            self.force.iter_mut().zip(&alone.force).for_each(|(sum, force)| *sum += *force);
-            count += 1;
+            alone.force.fill(DVec3::ZERO);
+            alone.torque.fill(DVec3::ZERO);
         }
-        self.alone.truncate(count);
+        let moment = Moment { time, state, model };
+        for force in model.forces() {
+            let Some(account) = force.work_account() else { continue };
+            force.apply_without_potential(&moment, self.loads_of(account, state.len()));
+        }
+        for (_, alone) in &self.alone {
+            loads.power.add(-1.0, alone.power);
+        }
+    }
+
+    /// The loads of an account, on some number of bodies.
+    fn loads_of(&mut self, account: WorkAccount, bodies: usize) -> &mut Loads {
+        let known = self.alone.iter().position(|(of, _)| *of == account);
+        let place = known.unwrap_or_else(|| {
+            let none = vec![DVec3::ZERO; bodies];
+            self.alone.push((account, Loads { force: none.clone(), torque: none, ..Loads::default() }));
+            self.alone.len() - 1
+        });
+        &mut self.alone[place].1
     }
 
     /// The work of these forces in a step of `dt` (s), in which the bodies moved like this on average.
@@ -59,6 +60,6 @@ impl Driven {
 
     /// The force of all of them on a body, N.
     pub(super) fn on(&self, body: usize) -> DVec3 {
-        self.force.get(body).copied().unwrap_or(DVec3::ZERO)
+        self.alone.iter().map(|(_, alone)| alone.force[body]).sum()
     }
 }

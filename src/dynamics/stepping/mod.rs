@@ -20,6 +20,7 @@ mod snapshot;
 mod spin;
 #[cfg(test)]
 mod tests;
+mod touch;
 
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 

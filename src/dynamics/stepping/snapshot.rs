@@ -3,7 +3,7 @@
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
 use super::TimeStepping;
-use super::books::{Point, Touch};
+use super::touch::{Point, Touch};
 
 impl TimeStepping {
     /// The bodies as they are, or as they are in another state; contacts and joints as in the step that was made last.

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::diagnostic::{Code, Diagnostic, Severity, Sources};
+use crate::diagnostic::{Code, Diagnostic, Severity, Sources, Span};
 
 /// Errors that may only follow from something unreadable.
 const OF_LACK: [Code; 6] = [
@@ -21,6 +21,20 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         // Bodies may be present but wrong, and then do not count.
         found.retain(|diagnostic| diagnostic.code != Code::NoBodies);
     }
+    // Another value took the place of a location that is wrong, and may be below the ground.
+    let wrong: Vec<Span> = found
+        .iter()
+        .filter(|diagnostic| is_error(diagnostic) && diagnostic.code != Code::BelowGround)
+        .filter_map(Diagnostic::span)
+        .collect();
+    let is_wrong = |place: Span| {
+        let is_within =
+            |span: &Span| span.source == place.source && place.start <= span.start && span.end <= place.end;
+        wrong.iter().any(is_within)
+    };
+    found.retain(|diagnostic| {
+        diagnostic.code != Code::BelowGround || !diagnostic.span().is_some_and(is_wrong)
+    });
     if unreadable
         .iter()
         .any(|diagnostic| matches!(diagnostic.code, Code::CannotInclude | Code::CyclicInclude))

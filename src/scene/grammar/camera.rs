@@ -15,7 +15,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
     keys: &[
         Key::new("location", TIMED_VECTOR, "Where the camera is; numbers, or formulas of `t`")
             .unit("m")
-            .default("so that the whole motion is in the picture; where that would leave bodies too small, along with the only body if there is ground, or so that the start of the motion is in the picture")
+            .default("so that the whole motion is in the picture, without the few of many bodies that fly far away; if bodies were too small then, along with the only body if there is ground, or so that the start of the motion is in the picture")
             .also(&["position", "pos", "eye", "from"]),
         Key::new("look_at", TIMED_VECTOR, "The point in the middle of the picture; numbers, or formulas of `t`")
             .unit("m")

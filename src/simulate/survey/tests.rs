@@ -159,3 +159,29 @@ fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
     assert!(survey.drift_of_turnover.abs() < 0.01, "{}", survey.drift_of_turnover);
     assert!(taken.lost > 0.0);
 }
+
+#[test]
+fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
+    let scene = |showing: &str| {
+        format!(
+            "
+            simulation.duration = 2
+            [body.row]
+            shape.sphere.radius = 0.5
+            location = ['i', 0, 0]
+            repeat = 9
+            [body.stray]
+            shape.sphere.radius = 0.5
+            location = [9, 0, 0]
+            velocity = [0, 100, 0]
+            {showing}
+            "
+        )
+    };
+    let survey = surveyed(&scene(""));
+    let rest = survey.without_strays.unwrap();
+    assert_eq!((rest.seen.min, rest.seen.max), (DVec3::splat(-0.5), DVec3::new(9.5, 0.5, 0.5)));
+    assert!((survey.spans.last().unwrap().seen.max.y - 200.5).abs() < 1e-9);
+    // An arrow may reach out of the box of the others.
+    assert_eq!(surveyed(&scene("show.velocity = 0.1")).without_strays, None);
+}

@@ -1,0 +1,152 @@
+//! The few bodies that fly far away from all others.
+
+use super::Bounds;
+
+/// Fewer bodies than this have no strays.
+const MANY: usize = 8;
+/// The largest part of the bodies that may be strays.
+const FEW: f64 = 0.1;
+/// Strays leave the others at most this part of the size of the whole run.
+const SMALLER: f64 = 0.5;
+
+/// The space that each body takes during a run.
+#[derive(Default)]
+pub(super) struct Paths(Vec<Option<Path>>);
+
+/// The space that a body takes during a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path {
+    is_fixed: bool,
+    /// The box around the body in its first frame.
+    start: Bounds,
+    /// The box around the body in all frames.
+    all: Bounds,
+    /// The same with what is drawn on the body.
+    seen: Bounds,
+}
+
+/// The space that a run takes without strays, which count where they start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WithoutStrays {
+    /// The box around all bodies.
+    pub(super) bounds: Bounds,
+    /// The box around the bodies that are not fixed.
+    pub(super) moving: Bounds,
+    /// The box around all bodies and what is drawn on them.
+    pub(super) seen: Bounds,
+}
+
+impl Paths {
+    /// Adds a frame of a body: the box around it, and around what is drawn on it.
+    pub(super) fn see(&mut self, body: usize, is_fixed: bool, here: Bounds, seen: Bounds) {
+        if self.0.len() <= body {
+            self.0.resize(body + 1, None);
+        }
+        let path = self.0[body].get_or_insert(Path { is_fixed, start: here, all: here, seen });
+        path.all = path.all.union(here);
+        path.seen = path.seen.union(seen);
+    }
+
+    /// The space without strays. `None` if there are none.
+    pub(super) fn without_strays(&self) -> Option<WithoutStrays> {
+        let mut paths: Vec<Path> = self.0.iter().flatten().copied().collect();
+        let moving = paths.iter().filter(|path| !path.is_fixed).count();
+        if moving < MANY {
+            return None;
+        }
+        let centre = middle_of_starts(&paths);
+        // Strays reach farthest from where most bodies start.
+        let reach = |path: &Path| {
+            let farthest = (path.all.max - centre).abs().max((path.all.min - centre).abs());
+            if path.is_fixed { 0.0 } else { farthest.length() }
+        };
+        paths.sort_by(|one, two| reach(two).total_cmp(&reach(one)));
+        let whole = paths.iter().map(|path| path.all).reduce(Bounds::union)?;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number")]
+        let most = ((moving as f64 * FEW) as usize).max(1);
+        (1..=most).map(|strays| WithoutStrays::new(&paths, strays)).find_map(|rest| {
+            let rest = rest?;
+            (rest.bounds.diagonal() <= SMALLER * whole.diagonal()).then_some(rest)
+        })
+    }
+}
+
+impl WithoutStrays {
+    /// The space of bodies of which the first few are strays.
+    fn new(paths: &[Path], strays: usize) -> Option<WithoutStrays> {
+        let start = |path: &Path| Path { all: path.start, seen: path.start, ..*path };
+        let (away, others) = paths.split_at(strays);
+        let counted = || away.iter().map(start).chain(others.iter().copied());
+        let moving = counted().filter(|path| !path.is_fixed);
+        Some(WithoutStrays {
+            bounds: counted().map(|path| path.all).reduce(Bounds::union)?,
+            moving: moving.map(|path| path.all).reduce(Bounds::union)?,
+            seen: counted().map(|path| path.seen).reduce(Bounds::union)?,
+        })
+    }
+}
+
+/// The median of the coordinates at which bodies start.
+fn middle_of_starts(paths: &[Path]) -> glam::DVec3 {
+    let median = |axis: usize| {
+        let mut starts: Vec<f64> = paths.iter().map(|path| path.start.middle()[axis]).collect();
+        let middle = starts.len() / 2;
+        *starts.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    glam::DVec3::from_array(std::array::from_fn(median))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn cube(at: DVec3) -> Bounds {
+        Bounds { min: at - 0.5, max: at + 0.5 }
+    }
+
+    /// A row of bodies of which the last flies away by 50 m.
+    fn row(bodies: usize) -> Paths {
+        let mut paths = Paths::default();
+        for i in 0..bodies {
+            let at = cube(DVec3::X * i as f64);
+            paths.see(i, false, at, at);
+        }
+        let far = cube(DVec3::new(bodies as f64, 50.0, 0.0));
+        paths.see(bodies - 1, false, far, far);
+        paths
+    }
+
+    #[test]
+    fn one_of_ten_that_flies_away_counts_where_it_starts() {
+        let rest = row(10).without_strays().unwrap();
+        assert_eq!(rest.bounds, Bounds { min: DVec3::splat(-0.5), max: DVec3::new(9.5, 0.5, 0.5) });
+        assert_eq!((rest.moving, rest.seen), (rest.bounds, rest.bounds));
+    }
+
+    #[test]
+    fn a_few_bodies_have_no_strays() {
+        assert_eq!(row(7).without_strays(), None);
+    }
+
+    #[test]
+    fn two_of_ten_are_too_many() {
+        let mut paths = row(10);
+        let far = cube(DVec3::new(0.0, 60.0, 0.0));
+        paths.see(0, false, far, far);
+        assert_eq!(paths.without_strays(), None);
+    }
+
+    #[test]
+    fn a_body_that_stays_near_is_no_stray() {
+        let mut paths = Paths::default();
+        for i in 0..20 {
+            let at = cube(DVec3::X * f64::from(i));
+            paths.see(i as usize, false, at, at);
+        }
+        let near = cube(DVec3::new(0.0, 12.0, 0.0));
+        paths.see(5, false, near, near);
+        assert_eq!(paths.without_strays(), None);
+    }
+}
