@@ -183,5 +183,5 @@ fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
     assert_eq!((rest.seen.min, rest.seen.max), (DVec3::splat(-0.5), DVec3::new(9.5, 0.5, 0.5)));
     assert!((survey.spans.last().unwrap().seen.max.y - 200.5).abs() < 1e-9);
     // An arrow may reach out of the box of the others.
-    assert_eq!(surveyed(&scene("show.velocity = 0.1")).without_strays, None);
+    assert_eq!(surveyed(&scene("arrows.velocity = true")).without_strays, None);
 }
