@@ -35,6 +35,23 @@ fn the_page_of_templates_is_real() {
     Page::check("docs/reuse.md", &[]).check_pictures();
 }
 
+#[test]
+fn every_folder_says_what_may_be_touched() {
+    let text = fs::read_to_string(support::root().join("ARCHITECTURE.md")).unwrap();
+    let section = text.split("\n## ").find(|section| section.starts_with("What you may touch")).unwrap();
+    let folders = |parent: &str| -> Vec<String> {
+        let entries = fs::read_dir(support::root().join(parent)).unwrap().map(|entry| entry.unwrap().path());
+        let folders = entries.filter(|path| path.is_dir());
+        folders.map(|path| format!("{parent}{}", path.file_name().unwrap().to_string_lossy())).collect()
+    };
+    let own = |name: &String| !name.starts_with('.') && !["src", "target", "out"].contains(&name.as_str());
+    let all: Vec<String> = folders("src/").into_iter().chain(folders("").into_iter().filter(own)).collect();
+    let missing: Vec<_> = all.iter().filter(|name| !section.contains(&format!("| `{name}/` |"))).collect();
+    assert!(missing.is_empty(), "no row for {missing:?}");
+    let rows = section.lines().filter(|line| line.starts_with("| `")).count();
+    assert_eq!(rows, all.len(), "a row for a folder that is not there");
+}
+
 /// The names that GitHub gives to the headings of a page, for links.
 fn headings(page: &str) -> BTreeSet<String> {
     let is_kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
