@@ -82,17 +82,17 @@ fn list_shows_what_there_is_to_choose_from() {
     assert!(output.status.success());
     insta::assert_snapshot!(stdout(&output), @r"
     sphere       A ball (`radius`)
-    box          A box, also with round edges (`size`, `rounding`)
+    box          A box, optionally with rounded edges (`size`, `rounding`)
     cylinder     A cylinder (`radius`, `height`)
-    capsule      A cylinder with a half ball on either end (`radius`, `height`)
-    cone         A cone that points up, or a part of one; its centre of mass is a quarter of the height above its base (`radius`, `height`, `top_radius`)
+    capsule      A cylinder with a hemisphere on either end (`radius`, `height`)
+    cone         An upright cone or frustum; the centre of mass of a cone is a quarter of the height above its base (`radius`, `height`, `top_radius`)
     torus        A ring around the y axis (`radius`, `tube_radius`)
-    mesh         A solid whose surface is the triangles of a file; its axes are the file's (`file`, `scale`, `smooth`)
-    plane        An endless plane, which is always fixed (`normal`)
+    mesh         A solid with a triangle mesh from a file, in the file's axes (`file`, `scale`, `smooth`)
+    plane        An infinite plane, always fixed (`normal`)
     axes         A triad of arrows along x, y, z, as heavy as a ball of half their length (`length`)
-    heightfield  A landscape whose heights are the gray levels of an image, always fixed; at its `location` is the middle of the rectangle at the height of black (`file`, `size`, `smooth`)
-    compound     Several solids of one density as one body; its `location` is the centre of mass of all (`parts`)
-    sdl          An object in POV-Ray's own words, and what stands in for it in mechanics (`object`, `stand_in`)
+    heightfield  A landscape with heights from the gray levels of an image, always fixed; its `location` is the middle of its rectangle at the height of black (`file`, `size`, `smooth`)
+    compound     Several solids of one density as one body; its `location` is their common centre of mass (`parts`)
+    sdl          An object in SDL, with a solid for mechanics (`object`, `stand_in`)
     ");
     let said = stdout(&jabuka().args(["list", "colors"]).output().unwrap());
     assert!(said.starts_with("aliceblue             #f0f8ff\n"), "{said}");

@@ -13,25 +13,35 @@ pub(super) static CAMERA: TableSpec = TableSpec {
     noun: "the camera",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", TIMED_VECTOR, "Where the camera is; numbers, or formulas of `t`")
+        Key::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
             .unit("m")
-            .default("so that the whole motion is in the picture, without the few of many bodies that fly far away; if bodies were too small then, along with the only body if there is ground, or so that the start of the motion is in the picture")
+            .default(
+                "fits the whole motion into the picture, except for a few of many bodies that fly far \
+                 away; if bodies would be too small, follows the only body above ground, or shows only the \
+                 start of the motion",
+            )
             .also(&["position", "pos", "eye", "from"]),
-        Key::new("look_at", TIMED_VECTOR, "The point in the middle of the picture; numbers, or formulas of `t`")
-            .unit("m")
-            .default("the middle of the motion")
-            .also(&["target", "lookat", "to"]),
+        Key::new(
+            "look_at",
+            TIMED_VECTOR,
+            "The point in the middle of the picture; numbers, or formulas of `t`",
+        )
+        .unit("m")
+        .default("the centre of the motion")
+        .also(&["target", "lookat", "to"]),
         Key::new(
             "keyframes",
             Table(&CAMERA_KEYFRAMES),
-            "Places that it goes through at given times, in place of `location` and `look_at`",
+            "Positions at given times; replaces `location` and `look_at`",
         )
         .default("none")
         .also(&["motion", "path"]),
-        Key::new("follow", Table(&FOLLOW), "A body that it goes along with")
-            .default("none")
-            .also(&["track", "tracking", "following"]),
-        Key::new("orbit", Table(&ORBIT), "That it goes around what it looks at, about the vertical")
+        Key::new("follow", Table(&FOLLOW), "A body to follow").default("none").also(&[
+            "track",
+            "tracking",
+            "following",
+        ]),
+        Key::new("orbit", Table(&ORBIT), "Circles around `look_at`, about the vertical")
             .default("none")
             .also(&["rotate", "turntable"]),
         Key::new(
@@ -39,19 +49,23 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             Timed(Bound::From(0.001, 179.999)),
             "The horizontal field of view, in perspective; a number, or a formula of `t`",
         )
-            .unit("degrees")
-            .default_number(40.0)
-            .also(&["fov", "field_of_view"]),
-        Key::new("projection", Choice(projections), "How it sees: as eyes do, or by parallel rays")
-            .default("perspective")
-            .also(&["type", "kind"]),
-        Key::new("width", POSITIVE, "The width that an orthographic camera sees")
+        .unit("degrees")
+        .default_number(40.0)
+        .also(&["fov", "field_of_view"]),
+        Key::new(
+            "projection",
+            Choice(projections),
+            "The projection: perspective, or orthographic (parallel rays)",
+        )
+        .default("perspective")
+        .also(&["type", "kind"]),
+        Key::new("width", POSITIVE, "The width in view of an orthographic camera")
             .unit("m")
-            .default("so that the whole motion is in the picture"),
+            .default("fits the whole motion into the picture"),
         Key::new(
             "aperture",
             POSITIVE,
-            "The diameter of the lens: the larger, the more is blurred that is not in focus",
+            "The diameter of the lens; a larger one blurs things out of focus more",
         )
         .unit("m")
         .default("everything is sharp")
@@ -63,14 +77,14 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         Key::new(
             "blur_samples",
             Integer(4, 10_000),
-            "With `aperture`, the number of rays for a pixel: more is smoother",
+            "With `aperture`, the number of rays per pixel: more is smoother",
         )
         .default_number(60.0),
         Key::new(
             "shutter",
             NON_NEGATIVE,
-            "How long the shutter is open from the time of a frame on, at most until the next frame: what moves \
-             meanwhile is blurred; half the time between frames is usual in films",
+            "Exposure time, starting at the time of a frame and ending by the next frame; blurs moving \
+             things. Films usually expose for half the time between frames",
         )
         .unit("s")
         .default("0: everything is sharp")
@@ -78,7 +92,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         Key::new(
             "samples",
             Integer(2, 256),
-            "With `shutter`, the number of moments that an image is the mean of: more is smoother and takes longer",
+            "With `shutter`, the number of moments averaged in an image: more is smoother and slower",
         )
         .default_number(16.0)
         .also(&["shutter_samples", "motion_blur_samples"]),
@@ -92,7 +106,7 @@ static CAMERA_KEYFRAMES: TableSpec = TableSpec {
         Key::new(
             "at",
             List { of: &Table(&CAMERA_KEYFRAME), min: 1, max: 100_000 },
-            "The places, in the order of their times",
+            "The keyframes, in order of time",
         )
         .required()
         .also(&["keys", "poses", "frames"]),
@@ -104,30 +118,30 @@ static CAMERA_KEYFRAME: TableSpec = TableSpec {
     noun: "a camera's keyframe",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Number(Bound::Any), "When it is there").unit("s").required().also(&["t"]),
-        Key::new("location", VECTOR, "Where the camera is").unit("m").required().also(&["position", "pos"]),
+        Key::new("time", Number(Bound::Any), "The time of the keyframe").unit("s").required().also(&["t"]),
+        Key::new("location", VECTOR, "The camera's position").unit("m").required().also(&["position", "pos"]),
         Key::new("look_at", VECTOR, "The point in the middle of the picture")
             .unit("m")
-            .default("that of the keyframe before, or of the camera")
+            .default("that of the previous keyframe, or of the camera")
             .also(&["target"]),
     ],
 };
 
 static FOLLOW: TableSpec = TableSpec {
-    noun: "what a camera follows",
+    noun: "a camera's `follow`",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Reference(Collection::Body), "The body, which stays in the middle of the picture")
+        Key::new("body", Reference(Collection::Body), "The body to keep in the middle of the picture")
             .required()
             .also(&["name", "target"]),
-        Key::new("distance", Number(Bound::Positive), "How far the camera stays from it")
+        Key::new("distance", Number(Bound::Positive), "The camera's distance from it")
             .unit("m")
-            .default("as far as `location` is from it at the start, or 11 times its width")
+            .default("the initial distance of `location` from it, or 11 times its width")
             .also(&["offset"]),
         Key::new(
             "lag",
             Number(Bound::NonNegative),
-            "The time by which the camera is behind, so that it follows softly what turns or stops",
+            "The camera's delay in seconds; smooths sudden motion of the body",
         )
         .unit("s")
         .default_number(0.0)
@@ -141,7 +155,7 @@ static ORBIT: TableSpec = TableSpec {
     keys: &[Key::new(
         "period",
         Number(Bound::Any),
-        "The time of a turn; a negative one is that of a turn the other way",
+        "The time of one revolution; negative for the other direction",
     )
     .unit("s")
     .required()

@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
-/// The default of a missing key: a value, or its origin.
+/// The default of a missing key: a value, or a description.
 #[derive(Clone, Copy, Debug)]
 pub enum DefaultValue {
     /// No default: the key is required, or a table that may be empty.
     Nothing,
     /// A number.
     Number(f64),
-    /// A number that people write as a fraction.
+    /// A number, shown as a fraction.
     Fraction(f64, f64),
     /// A list of numbers.
     Numbers(&'static [f64]),
@@ -17,7 +17,7 @@ pub enum DefaultValue {
     Flag(bool),
     /// One of the words that the key takes.
     Word(&'static str),
-    /// A description of what it follows from.
+    /// A description of how it is determined.
     Words(&'static str),
 }
 
@@ -39,7 +39,7 @@ impl DefaultValue {
         self.list()?.try_into().ok()
     }
 
-    /// Whole numbers, however many.
+    /// A list of whole numbers of any length.
     pub(in crate::scene) fn integers(self) -> Option<Vec<i64>> {
         self.list()?.iter().map(|number| whole(*number)).collect()
     }
@@ -65,7 +65,7 @@ impl DefaultValue {
         }
     }
 
-    /// As the page of keys shows it; empty where nothing holds.
+    /// As shown in the reference; empty if there is no default.
     pub fn in_words(self) -> String {
         match self {
             DefaultValue::Nothing => String::new(),
@@ -79,19 +79,19 @@ impl DefaultValue {
         }
     }
 
-    /// As a value of JSON, where it is a value.
+    /// As a JSON value, if it is a value.
     pub fn to_json(self) -> Option<Value> {
         match self {
             DefaultValue::Nothing | DefaultValue::Words(_) => None,
             DefaultValue::Word(word) => Some(word.into()),
             DefaultValue::Fraction(dividend, divisor) => Some(json!(dividend / divisor)),
-            // Written so, a whole number has no point.
+            // Written this way, a whole number has no decimal point.
             written => serde_json::from_str(&written.in_words()).ok(),
         }
     }
 }
 
-/// A number with as few digits as tell it from all others.
+/// The shortest decimal that reads back as the same number.
 fn written(number: f64) -> String {
     match number.abs() {
         size if size == 0.0 || (1e-4..1e9).contains(&size) => number.to_string(),

@@ -10,40 +10,43 @@ pub(super) static EMITTER: TableSpec = TableSpec {
     rule: Rule::ExactlyOne(&["rate", "burst"]),
     keys: &[
         Key::new("shape", Table(&SHAPE), "The form of each particle").required(),
-        Key::new("rate", POSITIVE, "How many are born per second, one after another at even intervals")
-            .unit("1/s")
-            .also(&["frequency", "emission_rate", "per_second", "birth_rate"]),
-        Key::new("burst", Integer(1, 1_000_000), "How many are born at once")
+        Key::new("rate", POSITIVE, "Particles per second, at even intervals").unit("1/s").also(&[
+            "frequency",
+            "emission_rate",
+            "per_second",
+            "birth_rate",
+        ]),
+        Key::new("burst", Integer(1, 1_000_000), "Particles emitted at once")
             .also(&["count", "number", "amount"]),
         Key::new("every", POSITIVE, "The time from one burst to the next")
             .unit("s")
-            .default("there is one burst, at `start`")
+            .default("one burst, at `start`")
             .also(&["interval", "period"]),
-        Key::new("start", ANY, "When the first is born; before 0, some are there when the run begins")
+        Key::new(
+            "start",
+            ANY,
+            "When the first is emitted; if before 0, some already exist when the run begins",
+        )
+        .unit("s")
+        .default_number(0.0)
+        .also(&["begin", "t0"]),
+        Key::new("end", ANY, "When the last is emitted")
             .unit("s")
-            .default_number(0.0)
-            .also(&["begin", "t0"]),
-        Key::new("end", ANY, "When the last is born")
-            .unit("s")
-            .default("they are born until the run ends")
+            .default("the end of the run")
             .also(&["stop", "until", "t1"]),
-        Key::new("lifetime", Drawn(Bound::Positive), "How long each is there")
+        Key::new("lifetime", Drawn(Bound::Positive), "How long each exists")
             .unit("s")
             .default("it stays")
             .also(&["life", "duration", "age", "lives"]),
-        Key::new("from", Table(&FROM), "Where they are born: each place of it is as likely")
+        Key::new("from", Table(&FROM), "Where they are emitted; uniformly distributed")
             .also(&["origin", "at", "location", "position", "source"]),
-        Key::new(
-            "direction",
-            AXIS,
-            "The direction in which they leave; in the axes of the body that sends them out, if one does",
-        )
-        .default("up; from a surface, straight away from it")
-        .also(&["towards", "axis"]),
+        Key::new("direction", AXIS, "Their initial direction; in the axes of the emitting body, if any")
+            .default("up; for a surface, its normal")
+            .also(&["towards", "axis"]),
         Key::new(
             "spread",
             Number(Bound::From(0.0, 180.0)),
-            "How far they leave from that direction at most, each way as likely: 180 is to all sides",
+            "The largest angle from that direction, uniform over the solid angle; 180 for all directions",
         )
         .unit("degrees")
         .default_number(0.0)
@@ -51,12 +54,12 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         Key::new(
             "speed",
             Drawn(Bound::Any),
-            "How fast they leave; the velocity of the body that sends them out is added",
+            "Their initial speed; the velocity of the emitting body is added",
         )
         .unit("m/s")
         .default_number(0.0)
         .also(&["velocity", "v", "initial_speed"]),
-        Key::new("seed", Integer(0, 4_294_967_295), "What their random numbers follow from")
+        Key::new("seed", Integer(0, 4_294_967_295), "The seed of their random numbers")
             .default("the `seed` of the scene")
             .also(&["random_seed"]),
         Key::new("mass", POSITIVE, "The mass of each").unit("kg").default_number(1.0).also(&["m", "weight"]),
@@ -70,21 +73,21 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         Key::new(
             "size",
             List { of: &NON_NEGATIVE, min: 1, max: 64 },
-            "The factors by which they are drawn larger, from birth to death: `[1, 0]` lets them vanish",
+            "Their drawn size as a factor, from birth to death: with `[1, 0]` they shrink to nothing",
         )
         .default_numbers(&[1.0])
         .also(&["sizes", "scale"]),
         Key::new(
             "glow",
             NON_NEGATIVE,
-            "How brightly they shine by themselves: 1 shows their color as it is, more is nearer to white",
+            "Their own glow: 1 shows their color unchanged, more is nearer to white",
         )
         .default_number(0.0)
         .also(&["emission", "brightness", "luminous"]),
         Key::new(
             "streak",
             NON_NEGATIVE,
-            "Draws each as a streak: as long as its way in this time, as a camera sees sparks",
+            "Draws each as a streak along its path during this time, as a camera shows sparks",
         )
         .unit("s")
         .default_number(0.0)
@@ -92,12 +95,13 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         Key::new(
             "collides",
             Boolean,
-            "Whether bodies and the ground stop them: they bounce, slide and rest. Needs `simulation.contacts`",
+            "Whether they collide with bodies and the ground: they bounce, slide and rest. Needs \
+             `simulation.contacts`",
         )
         .default_flag(false)
         .also(&["collision", "collisions", "collide", "contact", "contacts"]),
-        RESTITUTION.default("that of the body; with neither's, 0"),
-        FRICTION.default("that of the body; with neither's, 0.5"),
+        RESTITUTION.default("that of the body; 0 if neither has one"),
+        FRICTION.default("that of the body; 0.5 if neither has one"),
     ],
 };
 
@@ -119,7 +123,7 @@ static FROM: TableSpec = TableSpec {
     keys: &[
         Key::new("point", VECTOR, "A point").unit("m").also(&["location", "position"]),
         Key::new("disc", Table(&DISC), "A flat disc").also(&["disk", "circle"]),
-        Key::new("box", Table(&BOX), "All of a box").also(&["cube", "volume"]),
+        Key::new("box", Table(&BOX), "The volume of a box").also(&["cube", "volume"]),
         Key::new(
             "surface",
             Reference(Collection::Body),
@@ -129,9 +133,9 @@ static FROM: TableSpec = TableSpec {
         Key::new(
             "body",
             Reference(Collection::Body),
-            "The body that sends them out: the place is in its axes, from its centre",
+            "The emitting body; the position is in its axes, from its centre",
         )
-        .default("the place is in the world")
+        .default("none: the position is in the world")
         .also(&["on", "attached_to", "follow"]),
     ],
 };
@@ -145,12 +149,12 @@ static DISC: TableSpec = TableSpec {
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["center", "centre", "point", "position"]),
         Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r"]),
-        Key::new("normal", AXIS, "What stands on it").default("the direction of the emitter"),
+        Key::new("normal", AXIS, "What stands on it").default("The normal of the disc"),
     ],
 };
 
 static BOX: TableSpec = TableSpec {
-    noun: "a box of births",
+    noun: "a box of emission",
     rule: Rule::Any,
     keys: &[
         Key::new("location", VECTOR, "Its middle")

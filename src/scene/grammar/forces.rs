@@ -8,87 +8,100 @@ use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
-/// The key that names the bodies of a force.
+/// The key that names the bodies under a force.
 const fn on(meaning: &'static str, default: &'static str) -> Key {
     Key::new("on", List { of: &Reference(Collection::Target), min: 1, max: usize::MAX }, meaning)
         .default(default)
         .also(&["bodies", "body"])
 }
 
-/// The key that names two groups of bodies of which each acts on the other.
+/// The key that names two groups of bodies. Each group acts on the other.
 const fn between(meaning: &'static str) -> Key {
     Key::new("between", List { of: &GROUP, min: 2, max: usize::MAX }, meaning)
         .default("among all of `on`")
         .also(&["groups", "pairs"])
 }
 
-/// A body, the copies of one, or a list of such.
+/// A body, all copies of a body, or a list of these.
 static GROUP: Kind = Either(&[
     Reference(Collection::Body),
     List { of: &Reference(Collection::Body), min: 1, max: usize::MAX },
 ]);
 
-/// The key that keeps a force between pairs finite.
+/// The key that keeps forces between pairs finite.
 const fn softening() -> Key {
-    Key::new(
-        "softening",
-        NON_NEGATIVE,
-        "Keeps close encounters mild: √(r² + softening²) counts for r (Plummer)",
-    )
-    .unit("m")
-    .default_number(0.0)
-    .also(&["epsilon", "eps"])
+    Key::new("softening", NON_NEGATIVE, "Softens close encounters: √(r² + softening²) replaces r (Plummer)")
+        .unit("m")
+        .default_number(0.0)
+        .also(&["epsilon", "eps"])
 }
 
-pub(super) static FORCE: TableSpec =
-    TableSpec {
-        noun: "a force",
-        rule: Rule::ExactlyOne(&["constant", "drag", "spring", "gravitation", "coulomb", "lorentz", "lennard_jones", "buoyancy", "dipoles", "j2", "formula"]),
-        keys: &[
-            Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
-                .also(&["uniform"]),
-            Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, at rest or as a wind")
-                .also(&["air", "friction", "resistance"]),
-            Key::new(
-                "spring",
-                Table(&SPRING),
-                "A spring with a damper between bodies or points, or a chain of such springs",
-            ),
-            Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
-                .also(&["newton", "gravity"]),
-            Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
-                .also(&["electrostatic"]),
-            Key::new(
-                "lorentz",
-                Table(&LORENTZ),
-                "Uniform electric and magnetic fields, which act on charged bodies",
-            )
+pub(super) static FORCE: TableSpec = TableSpec {
+    noun: "a force",
+    rule: Rule::ExactlyOne(&[
+        "constant",
+        "drag",
+        "spring",
+        "gravitation",
+        "coulomb",
+        "lorentz",
+        "lennard_jones",
+        "buoyancy",
+        "dipoles",
+        "j2",
+        "formula",
+    ]),
+    keys: &[
+        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
+            .also(&["uniform"]),
+        Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, optionally with wind").also(&[
+            "air",
+            "friction",
+            "resistance",
+        ]),
+        Key::new(
+            "spring",
+            Table(&SPRING),
+            "A spring with a damper between bodies or points, or a chain of such springs",
+        ),
+        Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
+            .also(&["newton", "gravity"]),
+        Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
+            .also(&["electrostatic"]),
+        Key::new("lorentz", Table(&LORENTZ), "Uniform electric and magnetic fields acting on charged bodies")
             .also(&["field", "electromagnetic", "magnetic", "electric"]),
-            Key::new(
-                "lennard_jones",
-                Table(&LENNARD_JONES),
-                "The force between neutral atoms, which attract each other, and repel each other where they are close",
-            )
-            .also(&["lennard-jones", "lj", "LJ", "van_der_waals"]),
-            Key::new("buoyancy", Table(&BUOYANCY), "A liquid at rest, which carries what is below its surface")
-                .also(&["archimedes", "float", "water", "liquid"]),
-            Key::new(
-                "dipoles",
-                Table(&DIPOLES),
-                "Magnets on bodies, in the fields of each other and in a uniform one",
-            )
-            .also(&["magnetic_dipoles", "magnetic-dipoles", "magnets", "dipole"]),
-            Key::new("j2", Table(&J2_KEYS), "What the flattening of a planet adds to its gravity")
-                .also(&["J2", "oblateness", "flattening"]),
-            Key::new(
-                "formula",
-                Table(&FORMULA),
-                "A force by formulas of where each body is, how it moves, and what it is",
-            )
-            .also(&["custom", "expression"]),
-            LINKS,
-        ],
-    };
+        Key::new(
+            "lennard_jones",
+            Table(&LENNARD_JONES),
+            "The Lennard-Jones force between neutral atoms: repulsion when close, attraction farther away",
+        )
+        .also(&["lennard-jones", "lj", "LJ", "van_der_waals"]),
+        Key::new("buoyancy", Table(&BUOYANCY), "The buoyancy of a liquid at rest").also(&[
+            "archimedes",
+            "float",
+            "water",
+            "liquid",
+        ]),
+        Key::new(
+            "dipoles",
+            Table(&DIPOLES),
+            "Magnetic dipoles on bodies, in each other's fields and a uniform one",
+        )
+        .also(&["magnetic_dipoles", "magnetic-dipoles", "magnets", "dipole"]),
+        Key::new("j2", Table(&J2_KEYS), "The correction of a planet's gravity for its flattening").also(&[
+            "J2",
+            "oblateness",
+            "flattening",
+        ]),
+        Key::new(
+            "formula",
+            Table(&FORMULA),
+            "A force given by formulas of a body's position, velocity and properties",
+        )
+        .also(&["custom", "expression"]),
+        LINKS,
+    ],
+};
 
 static CONSTANT: TableSpec = TableSpec {
     noun: "a constant force",
@@ -100,7 +113,7 @@ static CONSTANT: TableSpec = TableSpec {
         Key::new("torque", VECTOR, "The torque on each body, in world axes")
             .unit("N·m")
             .default_numbers(&[0.0, 0.0, 0.0]),
-        on("The bodies that it acts on", "all that can move"),
+        on("The bodies under the force", "all that can move"),
     ],
 };
 
@@ -111,24 +124,20 @@ static DRAG: TableSpec = TableSpec {
         Key::new(
             "linear",
             NON_NEGATIVE,
-            "Force per speed through the air, against it: of what is slow or small",
+            "Force per speed relative to the air, against it: for slow or small bodies",
         )
         .unit("N·s/m")
         .default_number(0.0)
         .also(&["coefficient", "c", "damping", "viscous"]),
-        Key::new(
-            "quadratic",
-            NON_NEGATIVE,
-            "Force per square of that speed: ½ density × drag coefficient × area",
-        )
-        .unit("N·s²/m²")
-        .default_number(0.0)
-        .also(&["square", "turbulent"]),
+        Key::new("quadratic", NON_NEGATIVE, "Force per speed squared: ½ density × drag coefficient × area")
+            .unit("N·s²/m²")
+            .default_number(0.0)
+            .also(&["square", "turbulent"]),
         Key::new("wind", VECTOR, "The velocity of the air")
             .unit("m/s")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["velocity", "air", "flow"]),
-        on("The bodies that it acts on", "all that can move"),
+        on("The bodies under the drag", "all that can move"),
     ],
 };
 
@@ -138,24 +147,28 @@ static SPRING: TableSpec = TableSpec {
     keys: &[
         Key::new(
             "between",
-            List { of: &Either(&[Reference(Collection::Body), VECTOR, Table(&END)]), min: 2, max: usize::MAX },
-            "Its ends: each the name of a body (its centre), a point of a body, or a point of the world; of more than \
-             two, a chain from each to the next",
+            List {
+                of: &Either(&[Reference(Collection::Body), VECTOR, Table(&END)]),
+                min: 2,
+                max: usize::MAX,
+            },
+            "Its ends: each the name of a body (its centre), a point of a body, or a point of the world; \
+             more than two make a chain",
         )
         .unit("m")
         .required()
         .also(&["bodies", "ends", "connects"]),
-        Key::new("stiffness", NON_NEGATIVE, "Force per change of length, of each spring of a chain")
+        Key::new("stiffness", NON_NEGATIVE, "Force per change of length; of each spring of a chain")
             .unit("N/m")
             .required()
             .also(&["k", "constant", "strength"]),
-        Key::new("damping", NON_NEGATIVE, "Force per speed of that change, against it")
+        Key::new("damping", NON_NEGATIVE, "Force per rate of change of length, against it")
             .unit("N·s/m")
             .default_number(0.0)
             .also(&["c", "friction", "damper"]),
-        Key::new("rest_length", NON_NEGATIVE, "The length at which it does not pull or push")
+        Key::new("rest_length", NON_NEGATIVE, "The length without force")
             .unit("m")
-            .default("its length at the start, for each of a chain its own")
+            .default("each spring's length at the start")
             .also(&["length", "rest"]),
         super::showing::LINE,
         super::showing::COIL,
@@ -167,8 +180,8 @@ pub(in crate::scene) static END: TableSpec = TableSpec {
     noun: "a point of a body",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Reference(Collection::Body), "The body that it is fastened to").required(),
-        Key::new("at", VECTOR, "The point of the body, in the body's own axes, from its centre of mass")
+        Key::new("body", Reference(Collection::Body), "The body of this end").required(),
+        Key::new("at", VECTOR, "The point in the body's own axes, relative to its centre of mass")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["point", "location", "position", "offset", "anchor"]),
@@ -187,15 +200,16 @@ static GRAVITATION: TableSpec = TableSpec {
         Key::new(
             "opening_angle",
             Number(Bound::From(0.0, 1.0)),
-            "For thousands of bodies: distant bodies act together, by a Barnes–Hut tree with quadrupoles, where their size is less than \
-             this times their distance. At 0.5, forces are off by 4e-4, at 0.3 by 8e-5; energy and momentum drift by less than that. \
-             Particles feel each body alone",
+            "For thousands of bodies: a Barnes–Hut tree with quadrupoles groups distant bodies if their \
+             size is less than this times their distance. At 0.5, forces are off by 4e-4, at 0.3 by 8e-5; \
+             energy and momentum drift less. Particles always feel each body separately",
         )
-        .default("0: the sum over all pairs")
+        .default("0: the direct sum over all pairs")
         .also(&["theta", "angle", "opening", "tree", "barnes_hut"]),
-        on("The bodies that attract each other; the fixed ones among them attract, too", "all but planes"),
+        on("The bodies that attract each other; fixed ones attract, too", "all but planes"),
         between(
-            "Two groups, each a body, the copies of one, or a list: those of one attract those of the other, and not each other",
+            "Two groups, each a body, all copies of a body, or a list. Bodies attract those of the other \
+             group only",
         ),
     ],
 };
@@ -209,9 +223,10 @@ static COULOMB: TableSpec = TableSpec {
             .default_number(Coulomb::CONSTANT)
             .also(&["k", "strength"]),
         softening(),
-        on("The bodies that act on each other; the fixed ones among them act, too", "all with a charge"),
+        on("The bodies that act on each other; fixed ones act, too", "all with a charge"),
         between(
-            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+            "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
+             group only",
         ),
     ],
 };
@@ -220,18 +235,18 @@ static LENNARD_JONES: TableSpec = TableSpec {
     noun: "a Lennard-Jones force",
     rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
-        Key::new("epsilon", POSITIVE, "How deep the potential 4 epsilon ((sigma/r)¹² − (sigma/r)⁶) is")
+        Key::new("epsilon", POSITIVE, "The depth of the potential 4 epsilon ((sigma/r)¹² − (sigma/r)⁶)")
             .unit("J")
             .required()
             .also(&["eps", "depth", "e", "well_depth"]),
-        Key::new("sigma", POSITIVE, "The distance at which the potential is 0; it is lowest at 1.12 of it")
+        Key::new("sigma", POSITIVE, "The distance at which the potential is 0; its minimum is at 1.12 sigma")
             .unit("m")
             .required()
             .also(&["diameter", "s", "distance", "size"]),
         Key::new(
             "cutoff",
             POSITIVE,
-            "Beyond it there is no force; the potential is shifted so that it begins at 0 there",
+            "The distance beyond which there is no force; the potential is shifted to be 0 there",
         )
         .unit("m")
         .default("2.5 sigma")
@@ -239,13 +254,15 @@ static LENNARD_JONES: TableSpec = TableSpec {
         Key::new(
             "smooth",
             Boolean,
-            "Shift the force as well, so that it begins at 0 at the cutoff: energy is kept better, and atoms attract each other less",
+            "Shift the force as well, to be 0 at the cutoff: conserves energy better, but weakens the \
+             attraction",
         )
         .default_flag(false)
         .also(&["shifted_force", "force_shift"]),
-        on("The bodies that act on each other; the fixed ones among them act, too", "all but planes"),
+        on("The bodies that act on each other; fixed ones act, too", "all but planes"),
         between(
-            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+            "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
+             group only",
         ),
     ],
 };
@@ -254,19 +271,19 @@ static BUOYANCY: TableSpec = TableSpec {
     noun: "buoyancy",
     rule: Rule::Any,
     keys: &[
-        Key::new("density", POSITIVE, "The density of the liquid; that of water is 1000")
+        Key::new("density", POSITIVE, "The density of the liquid; water has 1000")
             .unit("kg/m³")
             .required()
             .also(&["rho", "fluid_density"]),
         Key::new(
             "level",
             ANY,
-            "The height of its surface, measured against `simulation.gravity` from the origin",
+            "The height of its surface, measured from the origin against `simulation.gravity`",
         )
         .unit("m")
         .default_number(0.0)
         .also(&["height", "surface", "y"]),
-        on("The bodies that it carries", "all that can move"),
+        on("The bodies in the liquid", "all that can move"),
     ],
 };
 
@@ -278,20 +295,14 @@ static DIPOLES: TableSpec = TableSpec {
             .unit("N/A²")
             .default_number(Dipoles::CONSTANT)
             .also(&["k", "strength"]),
-        Key::new(
-            "field",
-            VECTOR,
-            "A magnetic field that is the same everywhere, and turns them into its direction",
-        )
-        .unit("T")
-        .default_numbers(&[0.0, 0.0, 0.0])
-        .also(&["b", "B", "magnetic"]),
-        on(
-            "The bodies that act on each other; the fixed ones among them act, too",
-            "all with a `magnetic_moment`",
-        ),
+        Key::new("field", VECTOR, "A uniform magnetic field, which aligns them")
+            .unit("T")
+            .default_numbers(&[0.0, 0.0, 0.0])
+            .also(&["b", "B", "magnetic"]),
+        on("The bodies that act on each other; fixed ones act, too", "all with a `magnetic_moment`"),
         between(
-            "Two groups, each a body, the copies of one, or a list: those of one act on those of the other, and not on each other",
+            "Two groups, each a body, all copies of a body, or a list. Bodies act on those of the other \
+             group only",
         ),
     ],
 };
@@ -303,7 +314,7 @@ static J2_KEYS: TableSpec = TableSpec {
         Key::new(
             "of",
             Reference(Collection::Body),
-            "The planet; its attraction as if it were round is `gravitation`",
+            "The planet; its spherical attraction needs a `gravitation`",
         )
         .required()
         .also(&["planet", "body", "center"]),
@@ -314,12 +325,14 @@ static J2_KEYS: TableSpec = TableSpec {
             .unit("m")
             .required()
             .also(&["r", "R", "equatorial_radius"]),
-        Key::new("axis", AXIS, "Its axis, in its own axes").default_numbers(&[0.0, 1.0, 0.0]).also(&["pole"]),
+        Key::new("axis", AXIS, "The rotation axis, in the planet's own axes")
+            .default_numbers(&[0.0, 1.0, 0.0])
+            .also(&["pole"]),
         Key::new("constant", POSITIVE, "Newton's constant G")
             .unit("m³/(kg·s²)")
             .default_number(Gravitation::CONSTANT)
             .also(&["g", "G"]),
-        on("The bodies that it acts on, and which act on the planet", "all others but planes"),
+        on("The bodies that act on the planet and it on them", "all others but planes"),
     ],
 };
 
@@ -330,8 +343,8 @@ static FORMULA: TableSpec = TableSpec {
         Key::new(
             "force",
             ListOfBody(3, QUANTITIES),
-            "The force at the centre of each body, in world axes: `x`, `y`, `z` are its place, `r` its distance from the origin, \
-             `vx`, `vy`, `vz` its velocity, `speed` its magnitude, `t` the time",
+            "The force at the centre of each body, in world axes: `x`, `y`, `z` are its position, `r` its \
+             distance from the origin, `vx`, `vy`, `vz` its velocity, `speed` its magnitude, `t` the time",
         )
         .unit("N")
         .required()
@@ -339,13 +352,13 @@ static FORMULA: TableSpec = TableSpec {
         Key::new(
             "potential",
             OfBody(OF_PLACE),
-            "The potential energy of each body, of which the force at rest must be −∂U/∂x, −∂U/∂y, −∂U/∂z: it then counts as \
-             energy, and only the work of what velocities add is booked",
+            "The potential energy of each body. The force at rest must equal −∂U/∂x, −∂U/∂y, −∂U/∂z; it \
+             then counts as energy, and only the work of the velocity-dependent rest is booked",
         )
         .unit("J")
         .default("none: all of its work is booked")
         .also(&["u", "U", "energy", "potential_energy"]),
-        on("The bodies that it acts on", "all that can move"),
+        on("The bodies under the force", "all that can move"),
     ],
 };
 
@@ -361,6 +374,6 @@ static LORENTZ: TableSpec = TableSpec {
             .unit("T")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["b", "B"]),
-        on("The bodies that it acts on", "all with a charge that can move"),
+        on("The bodies that it acts on", "all movable bodies with a charge"),
     ],
 };

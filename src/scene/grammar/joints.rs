@@ -12,23 +12,27 @@ pub(super) static JOINT: TableSpec = TableSpec {
     noun: "a joint",
     rule: Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"]),
     keys: &[
-        Key::new("ball", Table(&BALL), "A point of one stays at a point of the other; every turn is free")
-            .also(&["spherical", "socket", "point", "pin"]),
-        Key::new("hinge", Table(&HINGE), "The two turn against each other about one axis, as a door does")
+        Key::new(
+            "ball",
+            Table(&BALL),
+            "A ball-and-socket joint: a common point of both bodies, with free rotation",
+        )
+        .also(&["spherical", "socket", "point", "pin"]),
+        Key::new("hinge", Table(&HINGE), "Both bodies share one axis of rotation, like a door and its frame")
             .also(&["revolute", "axle", "pivot"]),
         Key::new(
             "slider",
             Table(&SLIDER),
-            "The second moves along an axis of the first, and does not turn against it",
+            "The second body slides along an axis of the first, without rotation between them",
         )
         .also(&["prismatic", "rail"]),
         Key::new("fixed", Table(&FIXED), "The two move as one body").also(&["weld", "rigid", "glue"]),
-        Key::new("rod", Table(&ROD), "The distance of two points stays as it is; the rod has no mass")
+        Key::new("rod", Table(&ROD), "A massless rod keeps the distance of two points constant")
             .also(&["distance", "link", "bar", "stick"]),
-        Key::new("rope", Table(&ROPE), "The distance of two points does not grow beyond the rope's length")
+        Key::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
             .also(&["string", "cable", "thread", "cord"]),
         Key::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
-        Key::new("gear", Table(&GEAR), "Two hinges or sliders move together, at a ratio").also(&["gears"]),
+        Key::new("gear", Table(&GEAR), "Couples two hinges or sliders at a ratio").also(&["gears"]),
         LINKS,
     ],
 };
@@ -43,30 +47,24 @@ const fn between(meaning: &'static str) -> Key {
 }
 
 const PAIR: &str =
-    "The two that it joins: each the name of a body, a point of a body, or a point of the world";
+    "The two joined things: each the name of a body, a point of a body, or a point of the world";
 
 const POINTS: &str =
     "Its two ends: each the name of a body (its centre), a point of a body, or a point of the world";
 
-const AT: Key = Key::new(
-    "at",
-    VECTOR,
-    "Where they are joined at the start, in the world; not needed where an end says it",
-)
-.unit("m")
-.also(&["point", "location", "position", "anchor"]);
+const AT: Key =
+    Key::new("at", VECTOR, "The joint's position in the world at the start; not needed if an end gives it")
+        .unit("m")
+        .also(&["point", "location", "position", "anchor"]);
 
 const fn axis(meaning: &'static str) -> Key {
     Key::new("axis", Direction(3), meaning).required().also(&["direction", "normal"])
 }
 
-const LOOK: Key = Key::new(
-    "look",
-    Either(&LOOK_KINDS),
-    "How it is drawn: `\"none\"`, or the size and color of its rod or pin",
-)
-.default("of steel, in a size that fits its bodies")
-.also(&["draw", "drawn", "visible", "line"]);
+const LOOK: Key =
+    Key::new("look", Either(&LOOK_KINDS), "Its look: `\"none\"`, or the size and color of its rod or pin")
+        .default("steel, sized to fit its bodies")
+        .also(&["draw", "drawn", "visible", "line"]);
 static LOOK_KINDS: [Kind; 2] = [Choice(|| vec!["none"]), Table(&LOOK_TABLE)];
 
 static LOOK_TABLE: TableSpec = TableSpec {
@@ -75,7 +73,7 @@ static LOOK_TABLE: TableSpec = TableSpec {
     keys: &[
         Key::new("radius", POSITIVE, "The radius of the rod or of the pin")
             .unit("m")
-            .default("a part of that of the smaller body")
+            .default("a fraction of the smaller body's size")
             .also(&["thickness", "width", "size"]),
         Key::new("color", Color, "Its color").default("that of steel").also(&["colour"]),
     ],
@@ -99,11 +97,13 @@ static HINGE: TableSpec = TableSpec {
     keys: &[
         between(PAIR),
         AT.default("the end that is a point of the world"),
-        axis("The axis about which they turn, in the world at the start"),
-        limits("The smallest and the largest angle by which the second is turned against the first; 0 is at the start")
-            .unit("degrees")
-            .also(&["limit", "range", "min_max"]),
-        motor(&TURNING, "What turns it"),
+        axis("The axis of rotation, in the world at the start"),
+        limits(
+            "The smallest and the largest rotation angle of the second relative to the first; 0 at the start",
+        )
+        .unit("degrees")
+        .also(&["limit", "range", "min_max"]),
+        motor(&TURNING, "The motor"),
         JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
@@ -116,11 +116,11 @@ static SLIDER: TableSpec = TableSpec {
     keys: &[
         between(PAIR),
         AT.default("the centre of the second"),
-        axis("The axis along which the second moves, in the world at the start; it turns with the first"),
-        limits("How far the second can move along the axis, back and forth; 0 is at the start")
+        axis("The axis along which the second moves, in the world at the start; fixed to the first"),
+        limits("The smallest and the largest displacement of the second along the axis; 0 at the start")
             .unit("m")
             .also(&["limit", "range", "min_max"]),
-        motor(&MOVING, "What moves it"),
+        motor(&MOVING, "The motor"),
         JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
@@ -138,9 +138,9 @@ static ROD: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         between(POINTS),
-        Key::new("length", POSITIVE, "The distance of its ends")
+        Key::new("length", POSITIVE, "The constant distance of its ends")
             .unit("m")
-            .default("as at the start")
+            .default("their distance at the start")
             .also(&["distance", "l"]),
         JOINT_COLLIDES,
         LOOK,
@@ -162,17 +162,17 @@ static TURNING: TableSpec = TableSpec {
     noun: "the motor of a hinge",
     rule: Rule::ExactlyOne(&["speed", "angle"]),
     keys: &[
-        Key::new("speed", NUMBER_ANY, "The speed that it keeps, as far as its torque allows")
+        Key::new("speed", NUMBER_ANY, "The speed to keep, as far as the torque allows")
             .unit("rad/s")
             .also(&["rate", "angular_velocity", "velocity", "omega"]),
-        Key::new("torque", POSITIVE, "With `speed`: the largest torque that it has")
+        Key::new("torque", POSITIVE, "With `speed`: the largest torque")
             .unit("N·m")
-            .default("none; `speed` needs it")
+            .default("none; required with `speed`")
             .also(&["max_torque", "strength"]),
         Key::new(
             "angle",
             Timed(Bound::Any),
-            "The angle that it keeps, a formula of the time; 0 is at the start. Without `stiffness`, exactly",
+            "The angle to keep, a formula of the time; 0 at the start. Exact without `stiffness`",
         )
         .unit("degrees")
         .also(&["target", "position"]),
@@ -185,17 +185,18 @@ static MOVING: TableSpec = TableSpec {
     noun: "the motor of a slider",
     rule: Rule::ExactlyOne(&["speed", "position"]),
     keys: &[
-        Key::new("speed", NUMBER_ANY, "The speed that it keeps, as far as its force allows")
+        Key::new("speed", NUMBER_ANY, "The speed to keep, as far as the force allows")
             .unit("m/s")
             .also(&["rate", "velocity"]),
-        Key::new("force", POSITIVE, "With `speed`: the largest force that it has")
+        Key::new("force", POSITIVE, "With `speed`: the largest force")
             .unit("N")
-            .default("none; `speed` needs it")
+            .default("none; required with `speed`")
             .also(&["max_force", "strength"]),
         Key::new(
             "position",
             Timed(Bound::Any),
-            "The place along the axis that it keeps, a formula of the time; 0 is at the start. Without `stiffness`, exactly",
+            "The position along the axis to keep, a formula of the time; 0 at the start. Exact without \
+             `stiffness`",
         )
         .unit("m")
         .also(&["target", "location", "angle"]),
@@ -207,12 +208,12 @@ static MOVING: TableSpec = TableSpec {
 const NUMBER_ANY: Kind = Number(Bound::Any);
 
 const STIFFNESS: Key =
-    Key::new("stiffness", POSITIVE, "It is as strong as a spring of this stiffness, and gives way")
-        .default("it does not give way")
+    Key::new("stiffness", POSITIVE, "Makes the motor yield like a spring of this stiffness")
+        .default("none: the motor does not yield")
         .also(&["k"]);
 
 const DAMPING: Key =
-    Key::new("damping", Number(Bound::NonNegative), "With `stiffness`: the damper beside that spring")
+    Key::new("damping", Number(Bound::NonNegative), "With `stiffness`: the damping parallel to that spring")
         .default_number(0.0)
         .also(&["damper", "d"]);
 
@@ -221,7 +222,7 @@ static ROPE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         between(POINTS),
-        Key::new("length", POSITIVE, "Its length: the distance of its ends where it is taut")
+        Key::new("length", POSITIVE, "The largest distance of its ends")
             .unit("m")
             .default("their distance at the start")
             .also(&["distance", "max_length", "l"]),
@@ -239,14 +240,18 @@ static PULLEY: TableSpec = TableSpec {
         Key::new(
             "over",
             List { of: &AN_END, min: 2, max: 2 },
-            "The two points over which it runs: that of the first end, then that of the second",
+            "The two points over which it runs: the first end's, then the second's",
         )
         .unit("m")
         .required()
         .also(&["wheels", "through", "via", "anchors"]),
-        Key::new("ratio", POSITIVE, "How much rope the first end gets for each metre that the second gives")
-            .default_number(1.0),
-        Key::new("length", POSITIVE, "The length of the first part, and `ratio` times that of the second")
+        Key::new(
+            "ratio",
+            POSITIVE,
+            "How far the first end moves out for each metre that the second moves in",
+        )
+        .default_number(1.0),
+        Key::new("length", POSITIVE, "The length of the first part plus `ratio` times that of the second")
             .unit("m")
             .default("as at the start"),
         JOINT_COLLIDES,
@@ -264,14 +269,16 @@ static GEAR: TableSpec = TableSpec {
         Key::new(
             "joints",
             List { of: &A_JOINT, min: 2, max: 2 },
-            "The names of the two hinges or sliders that it couples; `[\"axle[i]\", \"axle[i+1]\"]` couples copies in a row",
+            "The names of the two coupled hinges or sliders; `[\"axle[i]\", \"axle[i+1]\"]` couples copies \
+             in a row",
         )
         .required()
         .also(&["between", "hinges", "axles"]),
         Key::new(
             "ratio",
             NUMBER_ANY,
-            "How much the second moves when the first moves by 1; negative if it moves the other way, as meshing wheels do",
+            "The motion of the second per unit motion of the first; negative for opposite directions, as \
+             with meshing wheels",
         )
         .required()
         .also(&["factor"]),

@@ -53,50 +53,46 @@ pub static SCENE: TableSpec = TableSpec {
     noun: "a scene",
     rule: Rule::Any,
     keys: &[
-        Key::new("title", Text, "What the scene shows; it stands at the head of every script")
+        Key::new("title", Text, "The title of the scene, at the head of every script")
             .default("none")
             .also(&["name"]),
         Key::new(
             "include",
             List { of: &Text, min: 0, max: usize::MAX },
-            "Scene files that belong to this one, as if they stood here; what this file says itself counts",
+            "Scene files to read first; this file's values override theirs",
         )
         .default_numbers(&[])
         .also(&["includes", "import"]),
-        Key::new(
-            "seed",
-            Integer(0, 4_294_967_295),
-            "The seed of the random numbers in formulas: another seed gives other numbers",
-        )
-        .default_number(0.0)
-        .also(&["random_seed"]),
-        Key::new("variables", Variables, "Numbers by name, for formulas").default("none").also(&[
+        Key::new("seed", Integer(0, 4_294_967_295), "The seed of the random numbers in formulas")
+            .default_number(0.0)
+            .also(&["random_seed"]),
+        Key::new("variables", Variables, "Named numbers for formulas").default("none").also(&[
             "variable",
             "vars",
             "constants",
             "parameters",
             "let",
         ]),
-        Key::new("simulation", Table(&SIMULATION), "The duration, time step and method of the simulation"),
+        Key::new("simulation", Table(&SIMULATION), "The duration, timestep and method of the simulation"),
         Key::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
-        Key::new("force", Named(&FORCE), "The forces that are not a single body's own").also(&["forces"]),
-        Key::new("joint", Named(&JOINT), "What holds bodies together").also(&[
+        Key::new("force", Named(&FORCE), "Forces on or between bodies").also(&["forces"]),
+        Key::new("joint", Named(&JOINT), "Joints between bodies").also(&[
             "joints",
             "constraint",
             "constraints",
         ]),
-        Key::new("emitter", Named(&EMITTER), "What sends out particles, such as drops and sparks").also(&[
+        Key::new("emitter", Named(&EMITTER), "Sources of particles, such as drops and sparks").also(&[
             "emitters",
             "particles",
             "particle",
             "particle_system",
         ]),
-        Key::new("material", Named(&MATERIAL), "What bodies look like").also(&["materials", "texture"]),
-        Key::new("camera", Table(&CAMERA), "From where the scene is seen"),
+        Key::new("material", Named(&MATERIAL), "The looks of bodies").also(&["materials", "texture"]),
+        Key::new("camera", Table(&CAMERA), "The main camera"),
         Key::new(
             "view",
             Named(&CAMERA),
-            "Cameras beside the main one, for `--view`; what a view does not say is as in `[camera]`",
+            "Additional cameras, for `--view`; missing keys are as in `[camera]`",
         )
         .also(&["views", "cameras"]),
         Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
@@ -110,15 +106,15 @@ pub static SCENE: TableSpec = TableSpec {
         Key::new(
             "environment",
             Either(&[Choice(presets), Table(&ENVIRONMENT)]),
-            "Ground, sky, fog and the usual lights: a name is short for `environment.preset`",
+            "Ground, sky, fog and default lights: a name is short for `environment.preset`",
         )
         .default("\"daylight\"")
         .also(&["world"]),
         labels::LABEL,
         labels::SCALE_BAR,
         labels::GRID,
-        Key::new("povray", Table(&POVRAY), "What goes to POV-Ray as it is"),
-        Key::new("output", Table(&OUTPUT), "The images that the scripts are meant for").also(&["render"]),
+        Key::new("povray", Table(&POVRAY), "Passed to POV-Ray unchanged"),
+        Key::new("output", Table(&OUTPUT), "The images to render").also(&["render"]),
     ],
 };
 
@@ -126,14 +122,14 @@ static DEFAULTS: TableSpec = TableSpec {
     noun: "the defaults",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Partial(&BODY), "Of every `[body.NAME]`: what it says itself counts, key by key")
+        Key::new("body", Partial(&BODY), "For every `[body.NAME]`; the body's own keys override them")
             .default("none")
             .also(&["bodies"]),
-        Key::new("force", Partial(&FORCE), "Of every `[force.NAME]`").default("none").also(&["forces"]),
-        Key::new("material", Partial(&MATERIAL), "Of every `[material.NAME]`")
+        Key::new("force", Partial(&FORCE), "For every `[force.NAME]`").default("none").also(&["forces"]),
+        Key::new("material", Partial(&MATERIAL), "For every `[material.NAME]`")
             .default("none")
             .also(&["materials"]),
-        Key::new("light", Partial(&LIGHT), "Of every `[light.NAME]`").default("none").also(&["lights"]),
+        Key::new("light", Partial(&LIGHT), "For every `[light.NAME]`").default("none").also(&["lights"]),
     ],
 };
 
@@ -144,7 +140,7 @@ static SIMULATION: TableSpec = TableSpec {
         Key::new(
             "duration",
             NON_NEGATIVE,
-            "The time of the last frame, to the nearest whole frame; the first is at 0",
+            "The time of the last frame, rounded to a whole frame; the first is at 0",
         )
         .unit("s")
         .default_number(10.0)
@@ -167,8 +163,8 @@ static SIMULATION: TableSpec = TableSpec {
         Key::new(
             "step",
             POSITIVE,
-            "The longest timestep; the real one divides the time between frames evenly. Adaptive integrators choose their own, and take \
-             `tolerance` in its place",
+            "The longest timestep; the actual one divides the time between frames evenly. Adaptive \
+             integrators choose their own and use `tolerance` instead",
         )
         .unit("s")
         .default_fraction(1.0, 240.0)
@@ -176,24 +172,24 @@ static SIMULATION: TableSpec = TableSpec {
         Key::new(
             "tolerance",
             POSITIVE,
-            "The error that a step of an adaptive integrator may have: of `dop853`, by the size of places and velocities; of `gauss-radau`, the ε \
-             of IAS15",
+            "The error per step of an adaptive integrator: for `dop853`, relative to the size of positions \
+             and velocities; for `gauss-radau`, the ε of IAS15",
         )
         .default_number(1e-9)
         .also(&["tol", "rtol", "atol", "accuracy", "epsilon"]),
-        Key::new("integrator", Choice(integrators), "The method that advances the world")
+        Key::new("integrator", Choice(integrators), "The integration method")
             .default_word(METHODS[0].name)
             .also(&["method", "solver"]),
-        Key::new("gravity", VECTOR, "The acceleration of every body that can move")
+        Key::new("gravity", VECTOR, "The acceleration of every movable body")
             .unit("m/s²")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["g"]),
         Key::new(
             "contacts",
             Choice(contact_laws),
-            "Bodies stop each other where they touch, and a ground that is not given lies at height 0; \
-             `\"event-driven\"` finds the time of each impact, for few bodies; `\"time-stepping\"` solves all contacts of a step \
-             together, for many",
+            "Makes bodies collide, with each other and with the ground, by default at height 0; \
+             `\"event-driven\"` finds the time of each impact, for few bodies; `\"time-stepping\"` solves \
+             all contacts of a timestep together, for many",
         )
         .default("bodies pass through each other")
         .also(&["contact", "collisions", "collision", "collide", "collides"]),
@@ -204,10 +200,10 @@ static BODY: TableSpec = TableSpec {
     noun: "a body",
     rule: Rule::AtMostOne(&[&["mass", "density"], &["fixed", "motion"]]),
     keys: &[
-        Key::new("shape", Table(&SHAPE), "Its form, centred at its location, with its axis along y")
+        Key::new("shape", Table(&SHAPE), "Its shape, centred at its location, with its axis along y")
             .required(),
         Key::new("mass", POSITIVE, "Its mass").unit("kg").default_number(1.0).also(&["m", "weight"]),
-        Key::new("density", POSITIVE, "Its mass, as mass per volume of its shape")
+        Key::new("density", POSITIVE, "Its density, which sets its mass")
             .unit("kg/m³")
             .default("from `mass`"),
         Key::new("charge", ANY, "Its electric charge, for the forces `coulomb` and `lorentz`")
@@ -221,10 +217,10 @@ static BODY: TableSpec = TableSpec {
         Key::new(
             "inertia",
             Numbers(3, Bound::Positive),
-            "Its principal moments of inertia about its own x, y, z",
+            "Its principal moments of inertia about its own x, y, z axes",
         )
         .unit("kg·m²")
-        .default("that of a solid of its shape"),
+        .default("those of a uniform solid of its shape"),
         Key::new("location", VECTOR, "Its centre of mass at the start")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
@@ -232,13 +228,13 @@ static BODY: TableSpec = TableSpec {
         Key::new(
             "orientation",
             Either(&[VECTOR, Table(&ORIENTATION)]),
-            "How it is turned at the start: a list of three angles is short for `orientation.euler`",
+            "Its initial orientation: a list of three angles is short for `orientation.euler`",
         )
         .unit("degrees")
         .default("not turned")
         .also(&["rotation", "rotate", "angle", "attitude"]),
-        Key::new("motion", Table(&MOTION), "A motion that is given: the body follows it, whatever acts on it")
-            .default("forces move it")
+        Key::new("motion", Table(&MOTION), "A prescribed motion: the body follows it, unaffected by forces")
+            .default("none: forces move it")
             .also(&["path", "trajectory", "animation", "keyframes", "kinematic"]),
         Key::new("velocity", VECTOR, "Its velocity at the start")
             .unit("m/s")
@@ -248,38 +244,47 @@ static BODY: TableSpec = TableSpec {
             .unit("rad/s")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["spin", "omega"]),
-        Key::new("start", ANY, "When it comes: before, it is not there. Its `location` and `velocity` are those of then, or of t = 0 if that is later")
-            .unit("s")
-            .default("it is there from the beginning")
-            .also(&["birth", "born", "begin", "appears", "t0"]),
-        Key::new("end", ANY, "When it goes: after, it is not there. Nothing acts on what is not there, nor comes from it")
+        Key::new(
+            "start",
+            ANY,
+            "When it appears. Its `location` and `velocity` are those at that time, or at t = 0 if that is \
+             later",
+        )
+        .unit("s")
+        .default("the start of the run")
+        .also(&["birth", "born", "begin", "appears", "t0"]),
+        Key::new("end", ANY, "When it disappears. An absent body neither acts nor is acted on")
             .unit("s")
             .default("it stays")
             .also(&["death", "dies", "until", "vanishes", "t1"]),
         Key::new("force", VECTOR, "A constant force at its centre, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("torque", VECTOR, "A constant torque, in world axes").unit("N·m").default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("fixed", Boolean, "Whether it stays where it is, whatever acts on it; a plane always does")
+        Key::new("torque", VECTOR, "A constant torque, in world axes")
+            .unit("N·m")
+            .default_numbers(&[0.0, 0.0, 0.0]),
+        Key::new("fixed", Boolean, "Whether it never moves, whatever acts on it; a plane is always fixed")
             .default_flag(false)
             .also(&["static", "anchored"]),
-        RESTITUTION.default("the other body's; with neither's, 0"),
-        FRICTION.default("the other body's; with neither's, 0.5"),
-        ROLLING_FRICTION.default("the other body's; with neither's, 0"),
+        RESTITUTION.default("the other body's; 0 if neither has one"),
+        FRICTION.default("the other body's; 0.5 if neither has one"),
+        ROLLING_FRICTION.default("the other body's; 0 if neither has one"),
         COLLIDES,
         COLLISION_GROUP,
         Key::new(
             "material",
             Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
-            "What it looks like: a `[material.NAME]`, or else a name of [the library](materials.md); or its keys, here",
+            "Its look: a `[material.NAME]`, or else a name of [the library](materials.md), or a table of a \
+             material's keys",
         )
-        .default("the next color of the palette, in the order of the file")
+        .default("the next palette color, in file order")
         .also(&["texture"]),
-        Key::new("look", Table(&BODY_LOOK), "How it differs in pictures from what it is in mechanics"),
+        Key::new("look", Table(&BODY_LOOK), "How its picture differs from its mechanics"),
         Key::new(
             "repeat",
             Either(&[COUNT, Table(&REPEAT)]),
-            "Many from one: a number of copies, or how they stand; their `location` is counted from where that puts them",
+            "Makes copies: their number, or their arrangement; their `location` is relative to their \
+             position in it",
         )
         .default("one body")
         .also(&["array", "copies", "instances", "clone", "duplicate"]),
@@ -294,28 +299,24 @@ static BODY_LOOK: TableSpec = TableSpec {
     noun: "a body's look",
     rule: Rule::Any,
     keys: &[
-        // Wider than any use, and narrow enough for every drawn length to have a square.
+        // Wide enough for any use. The square of every drawn length is finite.
         Key::new(
             "scale",
             Number(Bound::From(1e-9, 1e9)),
             "Draw it this many times its true size, about its centre of mass",
         )
         .default_number(1.0)
-            .also(&["size", "magnification", "enlarge"]),
+        .also(&["size", "magnification", "enlarge"]),
         Key::new(
             "sdl_before",
             Sdl(Where::Inside),
-            "POV-Ray's own words at the end of its object, before the matrix that places it: they move with the body",
+            "SDL at the end of its object, before its placing matrix: moves with the body",
         )
         .default("none")
         .also(&["sdl", "pre_sdl"]),
-        Key::new(
-            "sdl_after",
-            Sdl(Where::Inside),
-            "POV-Ray's own words after that matrix: they stay where they are in the world",
-        )
-        .default("none")
-        .also(&["post_sdl"]),
+        Key::new("sdl_after", Sdl(Where::Inside), "SDL after that matrix: fixed in the world")
+            .default("none")
+            .also(&["post_sdl"]),
     ],
 };
 
@@ -326,15 +327,15 @@ pub(super) static ORIENTATION: TableSpec = TableSpec {
         Key::new(
             "euler",
             VECTOR,
-            "Turned about the world's x, then y, then z, as POV-Ray's `rotate <x, y, z>` does",
+            "Rotations about the world's x, then y, then z, as by POV-Ray's `rotate <x, y, z>`",
         )
         .unit("degrees")
         .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("axis", AXIS, "The axis that it is turned about; goes with `angle`").default("none"),
-        Key::new("angle", ANY, "By how much it is turned about `axis`, by the right-hand rule")
+        Key::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
+        Key::new("angle", ANY, "The angle of rotation about `axis`, by the right-hand rule")
             .unit("degrees")
             .default("none"),
-        Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w]; its length does not matter")
+        Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w] of any length")
             .default_numbers(&[0.0, 0.0, 0.0, 1.0]),
     ],
 };
@@ -346,22 +347,22 @@ static MATERIAL: TableSpec = TableSpec {
         Key::new(
             "color",
             Color,
-            "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a name of CSS",
+            "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a CSS name",
         )
-        .default("white, or that of what it is `like`")
+        .default("white, or that of the `like` material")
         .also(&["colour", "rgb", "pigment", "diffuse"]),
         Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
-            .default("from `color` and `finish`")
+            .default("given by `color` and `finish`")
             .also(&["base", "kind", "extends"]),
-        Key::new("finish", Choice(finishes), "How its surface throws light back").default_word("glossy"),
-        Key::new("texture", Identifier, "A texture that an include file declares, by its name")
-            .default("from `color` and `finish`"),
+        Key::new("finish", Choice(finishes), "How its surface reflects light").default_word("glossy"),
+        Key::new("texture", Identifier, "The name of a texture from an include file")
+            .default("given by `color` and `finish`"),
         Key::new(
             "sdl",
             Sdl(Where::Inside),
-            "POV-Ray's own words, to stand inside an object: `texture { … }`, `interior { … }`",
+            "SDL for the inside of an object: `texture { … }`, `interior { … }`",
         )
-        .default("from `color` and `finish`"),
+        .default("given by `color` and `finish`"),
     ],
 };
 
@@ -376,11 +377,11 @@ static ENVIRONMENT: TableSpec = TableSpec {
         Key::new(
             "preset",
             Choice(presets),
-            "Sky, ground, usual lights and ambient light that go together; each can be replaced",
+            "A matching set of sky, ground, default lights and ambient light; each can be replaced",
         )
         .default("\"daylight\""),
         Key::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
-            .default("true, and false in space and where a body is a plane")
+            .default("true; false in space, or if a body is a plane")
             .also(&["floor"]),
         Key::new(
             "sky",
@@ -389,7 +390,7 @@ static ENVIRONMENT: TableSpec = TableSpec {
         )
         .default_flag(true)
         .also(&["background"]),
-        Key::new("fog", Boolean, "Haze in which the ground fades towards the horizon")
+        Key::new("fog", Boolean, "Haze into which the ground fades towards the horizon")
             .default_flag(true)
             .also(&["haze"]),
     ],
@@ -403,12 +404,12 @@ static GROUND: TableSpec = TableSpec {
             .unit("m")
             .default("just under the lowest point of the motion; with `simulation.contacts`, 0")
             .also(&["y", "level"]),
-        Key::new("tile", POSITIVE, "The edge of one tile")
-            .unit("m")
-            .default("the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, after the size of the motion"),
-        RESTITUTION.default("that of the body on it; with neither's, 0"),
-        FRICTION.default("that of the body on it; with neither's, 0.5"),
-        ROLLING_FRICTION.default("that of the body on it; with neither's, 0"),
+        Key::new("tile", POSITIVE, "The edge of one tile").unit("m").default(
+            "the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, by the size of the motion",
+        ),
+        RESTITUTION.default("that of the body on it; 0 if neither has one"),
+        FRICTION.default("that of the body on it; 0.5 if neither has one"),
+        ROLLING_FRICTION.default("that of the body on it; 0 if neither has one"),
     ],
 };
 
@@ -419,30 +420,26 @@ static POVRAY: TableSpec = TableSpec {
         Key::new(
             "include",
             List { of: &Include, min: 0, max: usize::MAX },
-            "Include files: POV-Ray's own, or files beside the scene, which go into the scripts",
+            "Include files: POV-Ray's own, or files beside the scene, which are copied into the scripts",
         )
         .default_numbers(&[])
         .also(&["includes"]),
         Key::new(
             "assets",
             List { of: &Asset, min: 0, max: usize::MAX },
-            "Files beside the scene that POV-Ray's own words read, as images, height fields and fonts; copies of \
-             them stand in the folder `assets` beside the scripts, and the words call them as this list does",
+            "Files beside the scene that SDL reads, such as images, height fields and fonts; they are \
+             copied to the folder `assets` beside the scripts. SDL refers to them by the names in this list",
         )
         .default_numbers(&[])
         .also(&["files", "images", "textures", "maps"]),
-        Key::new("sdl", Sdl(Where::Top), "POV-Ray's own words, to stand in every script before the bodies")
-            .default("none"),
-        Key::new(
-            "templates",
-            Text,
-            "A folder with templates of your own, which take the place of those built in; needs `--trust`",
-        )
-        .default("those built in"),
-        Key::new("unit", POSITIVE, "The length of one unit of POV-Ray's")
+        Key::new("sdl", Sdl(Where::Top), "SDL for every script, before the bodies").default("none"),
+        Key::new("templates", Text, "A folder with templates that replace those built in; needs `--trust`")
+            .default("those built in"),
+        Key::new("unit", POSITIVE, "The length of one POV-Ray unit")
             .unit("m")
-            .default("1, and a power of ten for scenes that POV-Ray finds too small or too large"),
-        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts").default_number(9.0),
+            .default("1; a power of ten for scenes too small or too large for POV-Ray"),
+        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts")
+            .default_number(9.0),
     ],
 };
 
@@ -457,23 +454,23 @@ static OUTPUT: TableSpec = TableSpec {
         Key::new(
             "layout",
             Choice(layouts),
-            "Whether every script is complete, or what all share stands in `common.inc`",
+            "Whether every script is complete; else shared parts are in `common.inc`",
         )
         .default_word("self-contained"),
         Key::new(
             "transparent",
             Boolean,
-            "Whether the images have no background: no sky and no ground, but transparency (alpha)",
+            "Whether the background is transparent (alpha), without sky and ground",
         )
         .default_flag(false)
         .also(&["alpha"]),
         Key::new(
             "video_rate",
             Number(Bound::From(0.01, 1000.0)),
-            "Frames per second of the film: below `frame_rate` it is in slow motion, above it in time lapse",
+            "Frames per second of the film: slow motion below `frame_rate`, time lapse above it",
         )
         .unit("frames/s")
-        .default("`simulation.frame_rate`, or 25 where that is not from 1 to 120")
+        .default("`simulation.frame_rate`, or 25 if that is not from 1 to 120")
         .also(&["film_rate", "playback_rate", "fps"]),
     ],
 };

@@ -7,7 +7,7 @@ use crate::scene::source::Value;
 /// The type of a value.
 #[derive(Debug)]
 pub enum Kind {
-    /// A string that is shown to people.
+    /// A string for people to read.
     Text,
     /// `true` or `false`.
     Boolean,
@@ -17,25 +17,25 @@ pub enum Kind {
     Integer(i64, i64),
     /// A number within a bound, or a formula of the time.
     Timed(Bound),
-    /// A number within a bound, or a formula with random numbers that are drawn anew for each particle.
+    /// A number within a bound, or a formula with random numbers, drawn anew for each particle.
     Drawn(Bound),
-    /// A list of so many numbers within a bound, or formulas of the time.
+    /// A list of a fixed number of numbers within a bound, or formulas of the time.
     TimedNumbers(usize, Bound),
     /// A number, or a formula of these quantities of a body.
     OfBody(&'static [&'static str]),
-    /// A list of so many numbers, or formulas of these quantities of a body.
+    /// A list of a fixed number of numbers, or formulas of these quantities of a body.
     ListOfBody(usize, &'static [&'static str]),
-    /// A list of so many numbers, each within a bound.
+    /// A list of a fixed number of numbers, each within a bound.
     Numbers(usize, Bound),
-    /// A list of so many formulas of a parameter, each a string or a number.
+    /// A list of a fixed number of formulas of a parameter, each a string or a number.
     Formulas(usize),
-    /// Three or four numbers that are not all zero: their direction counts, not their length.
+    /// Three or four numbers, not all zero. Only their direction counts.
     Direction(usize),
     /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
     Color,
     /// A color, or a list of colors.
     Colors,
-    /// POV-Ray's own language, as it is, and where it stands in the script.
+    /// SDL, POV-Ray's own language, and its position in the script.
     Sdl(Where),
     /// A name that POV-Ray knows: letters, digits and underscores.
     Identifier,
@@ -49,7 +49,7 @@ pub enum Kind {
     Choice(fn() -> Vec<&'static str>),
     /// The name of something in the scene.
     Reference(Collection),
-    /// A list of values of one kind; at least and at most so many.
+    /// A list of values of one kind, with a smallest and a largest length.
     List {
         /// The type of each value.
         of: &'static Kind,
@@ -60,13 +60,13 @@ pub enum Kind {
     },
     /// A table with the given keys.
     Table(&'static TableSpec),
-    /// Tables of the given sort, each with a name of its own: `[body.ball]`.
+    /// Tables of a given kind, each with a name: `[body.ball]`.
     Named(&'static TableSpec),
-    /// A table with any of the given keys, of which none must be there: it is only a part of a whole one.
+    /// A table with any of the given keys. None is required.
     Partial(&'static TableSpec),
-    /// A table of numbers, each with a name of its own.
+    /// A table of named numbers.
     Variables,
-    /// One of several kinds, told apart by the type that TOML gives the value.
+    /// One of several kinds, distinguished by the value's TOML type.
     Either(&'static [Kind]),
 }
 
@@ -83,7 +83,7 @@ pub enum Bound {
     From(f64, f64),
 }
 
-/// The named things that others refer to.
+/// The named things that keys can refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collection {
     /// `[body.NAME]`
@@ -107,7 +107,7 @@ impl Bound {
         }
     }
 
-    /// The bound in words that follow «a number»: ` greater than 0`.
+    /// The bound as words to follow “a number”: ` greater than 0`.
     pub fn in_words(self) -> String {
         match self {
             Bound::Any => String::new(),
@@ -119,7 +119,7 @@ impl Bound {
 }
 
 impl Collection {
-    /// The key under which the things stand in a scene, which is also the word for one of them.
+    /// The key of the things in a scene. It is also the noun for one of them.
     pub fn key(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "body",
@@ -128,7 +128,7 @@ impl Collection {
         }
     }
 
-    /// The word for all of them.
+    /// The plural noun.
     pub fn plural(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "bodies",
@@ -139,7 +139,7 @@ impl Collection {
 }
 
 impl Kind {
-    /// The table that a value of this kind is, or may be; not tables with names of their own.
+    /// The table that a value of this kind is or may be, except named tables.
     pub fn table(&self) -> Option<&'static TableSpec> {
         match self {
             Kind::Table(table) => Some(table),
@@ -148,7 +148,7 @@ impl Kind {
         }
     }
 
-    /// Whether a value of this kind is, or may be, the name of one of these things.
+    /// Whether a value of this kind can name one of these things.
     pub fn names(&self, collection: Collection) -> bool {
         match self {
             Kind::Reference(Collection::Target) => collection == Collection::Body,
@@ -158,7 +158,7 @@ impl Kind {
         }
     }
 
-    /// Whether a value is of the TOML type that the kind is written in, or a formula where it is a number.
+    /// Whether a value has the TOML type of the kind, or is a formula for a number.
     pub fn takes(&self, value: &Value) -> bool {
         match self {
             Kind::Text
@@ -217,13 +217,11 @@ impl Kind {
             Kind::TimedNumbers(count, _) => format!("a list of {count} numbers or formulas of `t`"),
             Kind::Formulas(count) => format!("a list of {count} formulas"),
             Kind::Direction(count) => format!("a list of {count} numbers that are not all 0"),
-            Kind::Color => {
-                "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a name of CSS)".to_owned()
-            }
-            Kind::Colors => format!("{} or a list of such", Kind::Color.in_words()),
-            Kind::Sdl(_) => "a string of POV-Ray's scene description language".to_owned(),
+            Kind::Color => "a color ([red, green, blue] from 0 to 1, \"#rrggbb\" or a CSS name)".to_owned(),
+            Kind::Colors => format!("{} or a list of colors", Kind::Color.in_words()),
+            Kind::Sdl(_) => "a string of SDL, POV-Ray's scene description language".to_owned(),
             Kind::Identifier => {
-                "a name of POV-Ray's (letters, digits and underscores, no digit first)".to_owned()
+                "a POV-Ray identifier (letters, digits and underscores, no digit first)".to_owned()
             }
             Kind::Include => "the name of an include file".to_owned(),
             Kind::Asset | Kind::File => "the path of a file beside the scene".to_owned(),

@@ -1,4 +1,4 @@
-//! The keys of what is measured and written: labels, the scale bar, the grid.
+//! The keys of measurements in the picture: labels, the scale bar, the grid.
 
 use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
 use super::keys::POSITIVE;
@@ -24,11 +24,11 @@ pub(super) const LABEL: Key =
     Key::new("label", Named(&LABEL_TABLE), "Texts in the picture, with [values of the moment](#labels)")
         .also(&["labels", "text", "caption"]);
 pub(super) const SCALE_BAR: Key =
-    Key::new("scale_bar", Either(&SCALE_BAR_KINDS), "A bar that shows a length, at the middle of the motion")
+    Key::new("scale_bar", Either(&SCALE_BAR_KINDS), "A bar that shows a length at the centre of the motion")
         .default_flag(false)
         .also(&["scalebar", "ruler", "scale"]);
 pub(super) const GRID: Key =
-    Key::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read places from")
+    Key::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read positions from")
         .default_flag(false)
         .also(&["grids", "graph_paper"]);
 
@@ -39,21 +39,21 @@ static LABEL_TABLE: TableSpec = TableSpec {
         Key::new(
             "text",
             Text,
-            "What it says; `${t:.2}` stands for the time with 2 decimals, and likewise for any formula",
+            "The words; `${t:.2}` becomes the time with 2 decimals, and likewise for any formula",
         )
         .required()
         .also(&["content", "value", "caption"]),
-        Key::new("body", Reference(Collection::Body), "The body that it stands beside")
-            .default("none: it stands in a corner")
+        Key::new("body", Reference(Collection::Body), "The body that it labels")
+            .default("none: the label stands in a corner")
             .also(&["on", "of", "attach", "attached_to"]),
-        Key::new("side", Choice(sides), "With `body`, the side on which it stands").default_word("above"),
+        Key::new("side", Choice(sides), "With `body`, its side of the body").default_word("above"),
         Key::new(
             "ghosts",
             Boolean,
-            "With `body`, whether each of its ghosts has one, with the values of its time",
+            "With `body`, whether each ghost has a label, too, with values of the ghost's time",
         )
         .default_flag(false),
-        Key::new("corner", Choice(corners), "Where in the picture it stands; one stands below the other")
+        Key::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
             .default_word("top-left")
             .also(&["place", "position", "location", "at"]),
         Key::new(
@@ -61,10 +61,10 @@ static LABEL_TABLE: TableSpec = TableSpec {
             Number(Bound::From(0.01, 0.5)),
             "The height of its lines, as part of the picture's height",
         )
-        .default("0.055, and 13 pixels at least")
+        .default("0.055, and at least 13 pixels")
         .also(&["font_size", "fontsize", "text_size", "height"]),
         Key::new("color", Color, "Its color")
-            .default("dark, or light before a dark background")
+            .default("dark, or light on a dark background")
             .also(&["colour"]),
     ],
 };
@@ -73,11 +73,11 @@ static SCALE_BAR_TABLE: TableSpec = TableSpec {
     noun: "the scale bar",
     rule: Rule::Any,
     keys: &[
-        Key::new("length", POSITIVE, "The length that it shows")
+        Key::new("length", POSITIVE, "The length to show")
             .unit("m")
             .default("1, 2 or 5 times a power of ten, about a fifth of the picture's width")
             .also(&["size", "width"]),
-        Key::new("corner", Choice(corners), "Where in the picture it stands")
+        Key::new("corner", Choice(corners), "Its corner of the picture")
             .default_word("bottom-left")
             .also(&["place", "position", "location", "at"]),
     ],
@@ -87,11 +87,11 @@ static GRID_TABLE: TableSpec = TableSpec {
     noun: "the grid",
     rule: Rule::Any,
     keys: &[
-        Key::new("spacing", POSITIVE, "The distance from one line to the next")
+        Key::new("spacing", POSITIVE, "The distance between lines")
             .unit("m")
             .default("that of the ground's tiles")
             .also(&["step", "every", "tile", "size"]),
-        Key::new("plane", Choice(planes), "Where it is: on the ground, or upright behind the motion")
+        Key::new("plane", Choice(planes), "Its plane: on the ground, or upright behind the motion")
             .default_word("ground"),
     ],
 };

@@ -14,14 +14,10 @@ pub(super) static LIGHT: TableSpec = TableSpec {
         Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
             .also(&["directional", "parallel"]),
         Key::new("color", Color, "Its color").default_word("white").also(&["colour"]),
-        Key::new(
-            "intensity",
-            NON_NEGATIVE,
-            "How bright it is: 1 shows a white surface that faces it as white",
-        )
-        .default_number(1.0)
-        .also(&["brightness", "power", "strength"]),
-        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only fills dark places")
+        Key::new("intensity", NON_NEGATIVE, "Its brightness: 1 makes a white surface that faces it white")
+            .default_number(1.0)
+            .also(&["brightness", "power", "strength"]),
+        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only brightens")
             .default_flag(true)
             .also(&["shadow"]),
     ],
@@ -30,7 +26,7 @@ pub(super) static LIGHT: TableSpec = TableSpec {
 static POINT_LIGHT: TableSpec = TableSpec {
     noun: "a point light",
     rule: Rule::Any,
-    keys: &[Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+    keys: &[Key::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
         .unit("m")
         .required()
         .also(&["position", "pos"])],
@@ -40,7 +36,7 @@ static AREA_LIGHT: TableSpec = TableSpec {
     noun: "an area light",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", TIMED_VECTOR, "Where it is; numbers, or formulas of `t`")
+        Key::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
             .unit("m")
             .required()
             .also(&["position", "pos"]),

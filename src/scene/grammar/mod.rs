@@ -1,7 +1,7 @@
 //! The grammar of scenes: the description of every key.
 //!
-//! One description of each key serves the validation of a scene, the reading of its values, and the suggestions for unknown keys.
-//! The description is data: [`SCENE`] is the root, and everything that a scene can hold is reached from there.
+//! One description of each key serves validation, reading, and suggestions for unknown keys. The description is data:
+//! [`SCENE`] is the root that leads to everything in a scene.
 
 mod camera;
 mod contact;
@@ -32,46 +32,46 @@ pub use schema::schema;
 /// One key of a table.
 #[derive(Debug)]
 pub struct Key {
-    /// The key as it is written.
+    /// The key's name.
     pub name: &'static str,
     /// The type of its value.
     pub kind: Kind,
-    /// The unit of its value; empty where there is none.
+    /// The unit of its value; empty without one.
     pub unit: &'static str,
     /// The default for a missing key.
     pub default: DefaultValue,
     /// Its meaning, in one sentence without a full stop.
     pub meaning: &'static str,
-    /// Whether the table makes no sense without it.
+    /// Whether the table requires it.
     pub required: bool,
-    /// Names for it in other programs.
+    /// Its names in other programs.
     pub also: &'static [&'static str],
 }
 
 /// A table and its keys.
 #[derive(Debug)]
 pub struct TableSpec {
-    /// How messages speak of such a table: `a body`.
+    /// The noun for such a table in messages: `a body`.
     pub noun: &'static str,
-    /// Its keys, in the order in which the reference lists them.
+    /// Its keys, in the order of the reference.
     pub keys: &'static [Key],
-    /// How its keys go together.
+    /// The combinations of keys that it allows.
     pub rule: Rule,
 }
 
-/// How the keys of a table go together.
+/// The combinations of keys that a table allows.
 #[derive(Debug)]
 pub enum Rule {
     /// Any of them, in any combination.
     Any,
     /// Within each group, at most one.
     AtMostOne(&'static [&'static [&'static str]]),
-    /// Exactly one of the named keys: the table says which of several kinds a thing is.
+    /// Exactly one of the named keys, which tells the kind of thing.
     ExactlyOne(&'static [&'static str]),
 }
 
 impl TableSpec {
-    /// The description of a key, if the table has such a key.
+    /// The description of a key, if the table has it.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
@@ -88,7 +88,7 @@ impl Key {
         self
     }
 
-    /// Describes the default in words, if it is no value.
+    /// Describes the default in words.
     const fn default(self, words: &'static str) -> Key {
         self.or(DefaultValue::Words(words))
     }
@@ -129,7 +129,7 @@ impl Key {
     }
 }
 
-/// The unit of the first key of this name that has one, in any table.
+/// The unit of the first key with this name and a unit, in any table.
 pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
     fn within(table: &'static TableSpec, name: &str) -> Option<&'static str> {
         let inside = |kind: &'static Kind| match kind {
@@ -148,7 +148,7 @@ pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
 mod tests {
     use super::*;
 
-    /// Visits every table that a scene can hold.
+    /// Visits every table of the scene language.
     fn visit(table: &'static TableSpec, see: &mut impl FnMut(&'static TableSpec)) {
         fn inside(kind: &'static Kind, see: &mut impl FnMut(&'static TableSpec)) {
             match kind {
@@ -179,7 +179,7 @@ mod tests {
         });
     }
 
-    /// A reader of a missing key gets its default, so the default must be of the key's type.
+    /// The reader of a missing key gets its default, so the default must be of the key's type.
     #[test]
     fn defaults_are_values_that_could_be_written() {
         fn fits(default: DefaultValue, kind: &Kind) -> bool {

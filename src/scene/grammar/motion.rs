@@ -1,4 +1,4 @@
-//! The keys of motion that is given.
+//! The keys of prescribed motion.
 
 use super::Kind::{Choice, Either, File, List, Number, Table, Text, Timed, TimedNumbers};
 use super::keys::{AXIS, ORIENTATION, VECTOR};
@@ -12,12 +12,12 @@ pub(super) static MOTION: TableSpec = TableSpec {
     rule: Rule::ExactlyOne(&["formula", "keyframes", "trajectory"]),
     keys: &[
         Key::new("formula", Table(&FORMULA), "By formulas of the time `t`").also(&["formulas", "path"]),
-        Key::new("keyframes", Table(&KEYFRAMES), "Through some places at given times")
+        Key::new("keyframes", Table(&KEYFRAMES), "Through positions at given times")
             .also(&["keys", "frames"]),
         Key::new(
             "trajectory",
             Table(&TRAJECTORY),
-            "As a CSV file has it, from another run or another program; the body is there while it has rows",
+            "From a CSV file of another run or program; the body exists while the file has rows for it",
         )
         .also(&["csv", "file", "recording", "data"]),
     ],
@@ -34,7 +34,7 @@ static FORMULA: TableSpec = TableSpec {
         Key::new(
             "orientation",
             Either(&[TIMED_VECTOR, Table(&TURNING)]),
-            "How it is turned, by formulas of `t`: a list of three angles is short for `orientation.euler`",
+            "Its orientation, by formulas of `t`: a list of three angles is short for `orientation.euler`",
         )
         .unit("degrees")
         .default("that of the body")
@@ -46,11 +46,11 @@ static TURNING: TableSpec = TableSpec {
     noun: "a turning",
     rule: Rule::AtMostOne(&[&["euler", "axis"], &["euler", "angle"]]),
     keys: &[
-        Key::new("euler", TIMED_VECTOR, "Turned about the world's x, then y, then z")
+        Key::new("euler", TIMED_VECTOR, "Rotations about the world's x, then y, then z")
             .unit("degrees")
             .default("none"),
-        Key::new("axis", AXIS, "The axis that it is turned about; goes with `angle`").default("none"),
-        Key::new("angle", Timed(Bound::Any), "By how much it is turned about `axis`; a formula of `t`")
+        Key::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
+        Key::new("angle", Timed(Bound::Any), "The angle of rotation about `axis`; a formula of `t`")
             .unit("degrees")
             .default("none"),
     ],
@@ -60,11 +60,11 @@ fn smoothness() -> Vec<&'static str> {
     vec!["smooth", "linear"]
 }
 
-/// How keyframes of bodies and of cameras are joined.
+/// The interpolation of keyframes of bodies and cameras.
 pub(super) const BETWEEN_KEYFRAMES: Key = Key::new(
     "interpolation",
     Choice(smoothness),
-    "How it gets from one to the next: smoothly, beginning and ending at rest, or straight and evenly",
+    "The motion between keyframes: smooth, starting and ending at rest, or straight at constant speed",
 )
 .default_word("smooth")
 .also(&["mode", "easing"]);
@@ -76,7 +76,7 @@ static KEYFRAMES: TableSpec = TableSpec {
         Key::new(
             "at",
             List { of: &Table(&KEYFRAME), min: 1, max: 100_000 },
-            "The places, in the order of their times",
+            "The keyframes, in order of time",
         )
         .required()
         .also(&["keys", "poses", "frames"]),
@@ -88,14 +88,14 @@ static KEYFRAME: TableSpec = TableSpec {
     noun: "a keyframe",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Number(Bound::Any), "When it is there").unit("s").required().also(&["t"]),
+        Key::new("time", Number(Bound::Any), "The time of the keyframe").unit("s").required().also(&["t"]),
         Key::new("location", VECTOR, "Its centre of mass")
             .unit("m")
-            .default("that of the keyframe before, or of the body")
+            .default("that of the previous keyframe, or of the body")
             .also(&["position", "pos"]),
-        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned, as at a body")
+        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "Its orientation, as for a body")
             .unit("degrees")
-            .default("that of the keyframe before, or of the body")
+            .default("that of the previous keyframe, or of the body")
             .also(&["rotation", "rotate"]),
     ],
 };
@@ -111,18 +111,19 @@ static TRAJECTORY: TableSpec = TableSpec {
         Key::new(
             "file",
             File,
-            "The CSV file, beside the scene: a row for each time and body. A body is there from its first row to its last, \
-             but for gaps: there the file has rows of others, and none of it for more than 1.5 times its usual (median) interval",
+            "The CSV file, beside the scene: a row for each time and body. A body exists from its first row \
+             to its last, except in gaps: the file then has rows of other bodies, and none of this one for \
+             more than 1.5 times its usual (median) interval",
         )
-            .required()
-            .also(&["csv", "path"]),
-        Key::new("body", Text, "The name that the body has in the file")
-            .default("its name here")
+        .required()
+        .also(&["csv", "path"]),
+        Key::new("body", Text, "The body's name in the file")
+            .default("its name in the scene")
             .also(&["name"]),
-        Key::new("interpolation", Choice(polynomials), "How it gets from one row to the next")
+        Key::new("interpolation", Choice(polynomials), "The interpolation between rows")
             .default_word("cubic")
             .also(&["mode"]),
-        Key::new("columns", Table(&COLUMNS), "What the columns are called in the file"),
+        Key::new("columns", Table(&COLUMNS), "The names of the columns in the file"),
     ],
 };
 
@@ -132,23 +133,19 @@ static COLUMNS: TableSpec = TableSpec {
     noun: "names of columns",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Text, "The column with the time").default("\"t\", or else \"time\"").also(&["t"]),
-        Key::new(
-            "body",
-            Text,
-            "The column with the name of the body; where there is none, all rows are the body's",
-        )
-        .default("\"body\""),
-        Key::new("location", NAMES, "The columns with its centre of mass").default("[\"x\", \"y\", \"z\"]"),
+        Key::new("time", Text, "The column of the time").default("\"t\", or else \"time\"").also(&["t"]),
+        Key::new("body", Text, "The column of the body's name; without it, all rows belong to the body")
+            .default("\"body\""),
+        Key::new("location", NAMES, "The columns of its centre of mass").default("[\"x\", \"y\", \"z\"]"),
         Key::new(
             "orientation",
             List { of: &Text, min: 4, max: 4 },
-            "The columns with its orientation, a quaternion",
+            "The columns of its orientation, a quaternion",
         )
-        .default("[\"qx\", \"qy\", \"qz\", \"qw\"], if they are there"),
-        Key::new("velocity", NAMES, "The columns with its velocity, for cubic interpolation")
-            .default("[\"vx\", \"vy\", \"vz\"], if they are there"),
-        Key::new("angular_velocity", NAMES, "The columns with its angular velocity, for cubic interpolation")
-            .default("[\"wx\", \"wy\", \"wz\"], if they are there"),
+        .default("[\"qx\", \"qy\", \"qz\", \"qw\"], if present"),
+        Key::new("velocity", NAMES, "The columns of its velocity, for cubic interpolation")
+            .default("[\"vx\", \"vy\", \"vz\"], if present"),
+        Key::new("angular_velocity", NAMES, "The columns of its angular velocity, for cubic interpolation")
+            .default("[\"wx\", \"wy\", \"wz\"], if present"),
     ],
 };

@@ -48,33 +48,33 @@ friction = 0.3
 text = \"${impacts} impacts, ${ball.impacts.ground} with the ground\"
 ```
 
-Without `contacts`, bodies pass through each other, and the first two that do so get a warning. With `\"event-driven\"`, each impact has its own
-time, found within the step. Newton's law gives the rebound, Coulomb's law the friction. A body whose rebound nobody could see comes to rest, and then
-sticks, slides or rolls as the forces on it ask.
+Without `contacts`, bodies pass through each other, and a warning names the first two that do. With `\"event-driven\"`, the program
+finds the time of each impact within the step. Newton's law gives the rebound, Coulomb's law the friction. If a rebound is too small to see,
+the body stays in contact and then sticks, slides or rolls according to the forces on it.
 
-- **What collides**: all bodies but axes. Bodies that a joint holds together pass through each other unless the joint says
-  `collides = true`; so do bodies with the same `collision_group`, and a body with `collides = false` passes through everything. Contacts
-  of a torus cannot be computed; build it as a `compound`.
-- **The ground** lies at height 0 if the scene does not say where. It stops bodies, and has `restitution`, `friction` and
-  `rolling_friction` of its own. With `ground = false`, and in an environment without one, no ground stops them.
-- **Two surfaces**: what one body does not say, the other one says. Where both do, the larger restitution, the geometric mean of the
-  frictions and the larger rolling friction count. Where neither does, these are 0, 0.5 and 0 m.
-- **Impacts at the same time** happen one after another, in the order of their approach speeds, the fastest first. Of equal ones, that of
-  the bodies that stand first in the scene comes first. In a Newton's cradle, so as many balls leave as arrive.
-- **Too many events**: some bodies hit, grip and release each other again and again within one step, as in a chain that falls on the floor.
-  Time-stepping (Moreau's scheme) then advances these bodies to the end of the step or for some steps more. All impacts of a part of a step
-  happen at once there, by Poisson's law, and what would rebound only for a moment does not rebound. The energy stays balanced.
-- **Heaps**: where more than six pairs of bodies touch and some begin to slide or part, time-stepping advances them until they rest, and with
-  them what may hit them within a step.
-- **At rest**: bodies that have rested on each other for eight steps are held, until something touches them or a force on them changes. So
+- **What collides**: all bodies except axes. Bodies connected by a joint pass through each other unless the joint has
+  `collides = true`. Bodies with the same `collision_group` pass through each other, too, and a body with `collides = false` passes
+  through everything. Contacts of a torus cannot be computed; build it as a `compound`.
+- **The ground** lies at height 0 by default. It stops bodies, and has its own `restitution`, `friction` and
+  `rolling_friction`. There is none with `ground = false` or in an environment without ground.
+- **Two surfaces**: the larger restitution, the geometric mean of the frictions and the larger rolling friction count. If only one of
+  the two bodies has a value, that value counts. If neither has one, the values are 0, 0.5 and 0 m.
+- **Simultaneous impacts** happen one after another, the fastest approach first. Ties go to the bodies that come first in the scene.
+  So in a Newton's cradle as many balls leave as arrive.
+- **Too many events**: some bodies hit, grip and release each other again and again within one step, such as a chain that falls on the floor.
+  Time-stepping (Moreau's scheme) then advances these bodies to the end of the step or for some more steps. All impacts within a substep
+  happen at once, by Poisson's law, without momentary rebounds. The energy stays balanced.
+- **Heaps**: if more than six pairs of bodies touch and some begin to slide or separate, time-stepping advances them until they rest, together
+  with any bodies that may hit them within a step.
+- **At rest**: bodies that have rested on each other for eight steps are frozen until something touches them or a force on them changes. So
   a heap at rest costs nothing.
-- **Integrators** of first order (`euler-cromer`, `explicit-euler`) are only as exact at impacts as between them; a warning says by how much
-  the energy is wrong. Take `velocity-verlet` or `rk4`.
-- **Energy**: what impacts and friction take are the accounts `impacts` and `friction` of the balance; neither is part of the drift.
-- **To see it**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it from where they act. `impacts`
-  counts in labels, and `jabuka export SCENE --events FILE.csv` writes a row for each impact.
+- **Integrators** of first order (`euler-cromer`, `explicit-euler`) are no more accurate at impacts than between them; a warning gives
+  the energy error. Use `velocity-verlet` or `rk4`.
+- **Energy**: impacts and friction have the accounts `impacts` and `friction` in the energy balance, and are not part of the drift.
+- **Display**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it at their points of action. Labels
+  can show the count `impacts`, and `jabuka export SCENE --events FILE.csv` writes a row for each impact.
 
-### Many bodies: time stepping
+### Many bodies: time-stepping
 
 ```toml
 [simulation]
@@ -89,8 +89,8 @@ friction = 0.6
 repeat.grid = { count = [4, 10, 1], spacing = [0.42, 0.2, 0] }
 ```
 
-With `contacts = \"time-stepping\"`, all contacts of a step are solved together. A step costs about as much as there are contacts, so piles, towers and
-machines of thousands of bodies can be simulated. All keys mean the same as in the other scheme. Choose by what the scene is about:
+With `contacts = \"time-stepping\"`, all contacts of a timestep are solved together. The cost of a step is roughly proportional to the number of
+contacts, so thousands of bodies are possible: piles, towers and machines. All keys mean the same in both schemes. Choose by scene:
 
 | | `event-driven` | `time-stepping` |
 | --- | --- | --- |
@@ -105,14 +105,14 @@ machines of thousands of bodies can be simulated. All keys mean the same as in t
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Energy**: what contacts, joints and motors take and give is booked, and is no part of the drift. The drift is relative to the largest kinetic
-  energy, so it may be large where bodies only settle: they hardly move.
-- **The step**: accuracy follows from `step`. Contacts are as stiff as the step allows, so half the step makes piles sink a quarter as deep. Where the scene
-  does not say a step, it is 1/240 s, or so short that the thinnest body sinks in by at most 3 % of its thickness under ten times its weight: 1/480 s for
-  10 cm, 1/1920 s for 1 cm.
-- **Shapes**: a frustum is a hull with 32 sides, a torus a ring of capsules, off by at most 1 % of its tube. A mesh that moves is its convex hull, if it is
-  convex, and is made of convex parts otherwise; one that does not move is its triangles.
-- **Fast bodies** do not pass through thin ones, however fast they are. Of two bodies that are both fast, one may pass through the other.
+- **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. The drift is relative to the largest kinetic
+  energy, so it may be large if bodies only settle: they hardly move.
+- **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
+  default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
+  weight: 1/480 s for 10 cm, 1/1920 s for 1 cm.
+- **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube. A moving mesh is its convex hull if it is
+  convex, and is otherwise split into convex parts. A fixed mesh keeps its triangles.
+- **Fast bodies** do not pass through thin ones at any speed. Two bodies that are both fast may pass through each other.
 - **Forces** of all kinds act as in Euler–Cromer: they are evaluated at the beginning of each step.
 ";
 
@@ -129,7 +129,7 @@ gravity = [0, -9.81, 0]
 shape.sphere.radius = 0.01
 from.disc = { location = [0, 0.1, 0], radius = 0.03 }
 rate = 2000
-start = -2                        # it runs already when the film begins
+start = -2                        # already running when the film begins
 lifetime = \"uniform(0.9, 1.1)\"
 spread = 8
 speed = \"normal(5, 0.2)\"
@@ -141,7 +141,7 @@ location = [1, 0.5, 0]
 orientation = [90, 0, 0]
 angular_velocity = [0, 0, 50]
 
-[emitter.sparks]                  # from a wheel that turns
+[emitter.sparks]                  # from a spinning wheel
 shape.sphere.radius = 0.004
 from = { point = [0.2, 0, 0], body = \"wheel\" }
 rate = 400
@@ -158,26 +158,27 @@ linear = 1e-6
 on = [\"sparks\"]
 ```
 
-A particle is a small ball that an emitter sends out and that dies some time later. Three things act on it: gravity, forces without
-`on`, and forces that name its emitter in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies. Particles act neither on
-bodies nor on each other. They pass through bodies unless the emitter says `collides = true`. They have no part in the energy balance, in labels or in tables.
+A particle is a small ball. An emitter sends it out, and it dies at the end of its lifetime. Three things act on it: gravity, forces without
+`on`, and forces that name its emitter in `on`. Springs and forces with `between` do not. It moves by the integrator and the timestep of the bodies.
+Particles act neither on bodies nor on each other. They pass through bodies unless the emitter has `collides = true`. The energy balance, labels and
+tables ignore them.
 
-- **Births**: `rate` sends out one after another at even intervals, each at its exact time, also between two steps. `burst` sends out
-  many at once, and again after `every`. With a `start` before 0, particles are there when the run begins; bodies stand still until then.
-- **Each its own**: `speed` and `lifetime` may be formulas with `uniform` and `normal`, which give each particle other numbers, and of the
-  time of its birth `t`. They follow from the `seed`, the name of the emitter and the number of the particle alone: a selection of frames
+- **Emission**: `rate` emits one after another at even intervals, each at its exact time, also within a step. `burst` emits
+  many at once, and again after `every`. With a `start` before 0, particles already exist when the run begins; bodies stand still until then.
+- **Random values**: `speed` and `lifetime` may be formulas with `uniform`, `normal` and the time of emission `t`. Each particle gets its own
+  random numbers. They depend only on the `seed`, the name of the emitter and the number of the particle, so a selection of frames
   shows the same particles as the whole film.
-- **From a body**: with `from.surface`, or `body` beside a point, a disc or a box, they leave from where the body is, and have the
-  velocity of that point of it on top. `direction` is then in the axes of the body.
-- **Collisions**: with `collides = true` and `simulation.contacts`, the ground and all bodies that collide stop the particles. Each is a ball
-  of its `radius` that does not turn. It bounces by `restitution`, slides and sticks by `friction`, and rests on what moves.
-  Values mix with those of the body as between two bodies. Between two frames, a body moves along a smooth curve. What begins inside
-  a body passes out of it first. A torus does not stop particles. With `event-driven` contacts, an emitter
-  has at most 1,000 particles at once that collide; with `time-stepping`, as many as any other.
-- **Looks**: `color` and `size` go from birth to death in 32 steps. What glows casts no shadow; it does not light other things: that takes
-  a `[light.NAME]`. Places are written to a hundredth of the radius.
-- **Many**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview shows them. `jabuka export
-  SCENE -o FILE.csv --particles` writes a table of them. Models leave them out.
+- **Moving emitters**: with `from.surface`, or with `body` beside a point, a disc or a box, particles start at the body's current position,
+  and the velocity of that point of the body is added to theirs. `direction` is then in the axes of the body.
+- **Collisions**: with `collides = true` and `simulation.contacts`, the ground and all colliding bodies stop the particles. Each is a ball
+  of its `radius` without rotation. It bounces by `restitution`, slides and sticks by `friction`, and can rest on moving bodies.
+  Its values combine with those of the body, as for two bodies. Between two frames, a body moves along a smooth curve. A particle emitted inside
+  a body first passes out of it. A torus does not stop particles. With `event-driven` contacts, an emitter
+  has at most 1,000 colliding particles at once; with `time-stepping`, the usual number.
+- **Looks**: `color` and `size` change in 32 steps from birth to death. A glowing particle casts no shadow and lights nothing: for that, add
+  a `[light.NAME]`. Positions are written to a hundredth of the radius.
+- **Limits**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview shows particles. `jabuka export
+  SCENE -o FILE.csv --particles` writes a table of them. Exported models leave them out.
 ";
 
 /// The section on formulas, before the list of functions.
@@ -196,26 +197,26 @@ location = [\"r*cos(rad(30))\", \"r*sin(rad(30))\", \"uniform(-1, 1)\"]
 velocity = [\"if(r > 2, speed, 0)\", 0, 0]
 ```
 
-A formula is made of numbers, the names of `[variables]`, constants, functions and parentheses, and of these operators, from
-those that bind least to those that bind most:
+A formula consists of numbers, the names of `[variables]`, constants, functions, parentheses and the following operators. The
+operators are listed from the lowest precedence to the highest:
 
 | operators | meaning |
 | --- | --- |
-| `or` | 1 where one of the two is not 0, else 0 |
-| `and` | 1 where neither of the two is 0, else 0 |
-| `not x` | 1 where x is 0, else 0 |
-| `<` `<=` `>` `>=` `==` `!=` | 1 where it holds, else 0 |
+| `or` | 1 if either side is not 0, else 0 |
+| `and` | 1 if neither side is 0, else 0 |
+| `not x` | 1 if x is 0, else 0 |
+| `<` `<=` `>` `>=` `==` `!=` | 1 if true, else 0 |
 | `x + y` `x - y` | sum, difference |
-| `x * y` `x / y` `x % y` | product, quotient, and the rest, with the sign of y: `-1 % 4` is 3 |
-| `-x` `+x` | signs: `-x^2` is -(x^2) |
-| `x ^ y` | power, from the right: `2^3^2` is 2^9 |
+| `x * y` `x / y` `x % y` | product, quotient, and remainder with the sign of y: `-1 % 4` is 3 |
+| `-x` `+x` | sign: `-x^2` is -(x^2) |
+| `x ^ y` | power, right-associative: `2^3^2` is 2^9 |
 
-A key that wants a whole number wants a formula with a whole value. A division by zero, and any other step that gives no finite
-number, is an error at its place; of `if`, `and` and `or` only what is needed is computed. `jabuka compile --set variables.r=3`
+A key for a whole number needs a formula with a whole value. A division by zero, or any other step with a non-finite
+result, is an error at its position; `if`, `and` and `or` evaluate only what they need. `jabuka compile --set variables.r=3`
 gives a variable another value.
 
-Random numbers follow from the `seed` of the scene and the place where they stand, such as `body.ball.location[2]`: they are the
-same on every run and machine, and another body changes none of them.
+Random numbers depend only on the `seed` of the scene and the path of their key, such as `body.ball.location[2]`. They are the
+same on every run and machine, and do not change when you add another body.
 ";
 
 /// The section on scenes of many bodies and several files.
@@ -244,9 +245,9 @@ linear = 0.1
 on = [\"ball\", \"brick[*,3]\", \"domino[0]\"]
 ```
 
-A body with a `repeat` is as many bodies, which are called by its name and their index. Its formulas know the index: `i`, and in a
-grid also `j` and `k`. How the copies stand comes on top of their `location` and orientation. Where a list wants bodies, the
-name alone means all copies, and `*` all of a row; in `between`, a spring goes from each to the next.
+A body with a `repeat` becomes several bodies, each named by the body's name and an index. Formulas of the body know the index: `i`, and in a
+grid also `j` and `k`. The position in the arrangement is added to `location` and orientation. In a list of bodies, the
+name alone means all copies, and `*` all of a row. In `between`, the name alone makes a chain of springs from each copy to the next.
 
 ```toml
 [body.hook]
@@ -268,12 +269,12 @@ between = [\"bob[i]\", \"bob[i+1]\"]
 stiffness = \"10 + i\"
 ```
 
-Name the ends of a force or a joint with `i`, and it is repeated: `i` counts from 0 for as long as all named bodies exist.
+A force or a joint whose ends are named with `i` is repeated: `i` counts from 0 for as long as all named bodies exist.
 `repeat = 5` makes five copies instead. An index is a formula: `bob[2*i+1]` takes every second bob, and `bob[count-1]` the last one, if
 `count` is a variable.
 
-A copy has random numbers of its own, which another copy or another body does not change. Scattered copies are placed one
-after another, each at random until the ball around it overlaps none of those before it; other bodies are not looked at.
+Each copy has its own random numbers, independent of other copies and bodies. Scattered copies are placed one
+after another, each at random until its bounding ball overlaps no earlier copy; other bodies are ignored.
 
 A pyramid, or the pins of a bowling lane, have rows of 1, 2, 3, … copies. Copy `i` is in row `floor((sqrt(8*i + 1) - 1)/2)`:
 
@@ -301,18 +302,18 @@ location = [1, 0, 0]
 shape.box.size = [0.4, 0.4, 0.4]
 ```
 
-`[defaults.body]` gives defaults for missing keys of all bodies, key by key. A body's own key also replaces a default that cannot
-stand beside it, as a box replaces a sphere. Formulas of the defaults are evaluated for each body.
+`[defaults.body]` gives defaults for missing keys of all bodies, key by key. A body's own key also replaces a default that excludes
+it, as a box replaces a sphere. Formulas of the defaults are evaluated for each body.
 
-`include = [\"room.toml\", \"lamps/desk.toml\"]` reads these files first. This file's own values override theirs, also in `[defaults]`, which all files
-share; if two included files disagree, this file has to give the value. Their names
-start from the folder of the file that they stand in, and stay in that of the scene without `--trust`. Other paths, as those of
-`povray.assets`, start from the folder of the scene in every file.
+`include = [\"room.toml\", \"lamps/desk.toml\"]` reads these files first. This file's own values override theirs. Their
+`[defaults]` apply to all files. If two included files disagree, this file has to give the value. Paths of included files are relative to the file
+that includes them, and stay inside the scene's folder without `--trust`. Other paths, such as those of `povray.assets`, are relative to the
+folder of the scene in every file.
 ";
 
-/// The section on given motion.
+/// The section on prescribed motion.
 const MOTION: &str = "
-## Motion that is given
+## Prescribed motion
 
 ```toml
 [body.crank]
@@ -334,12 +335,12 @@ follow = { body = \"lift\", distance = 9 }
 orbit.period = 20
 ```
 
-Formulas of a `motion`, of the camera and of lights know the time `t`, s. Velocities follow from the motion; what such a body does to
-others, by springs say, counts, and so does the work of what guides it. Its kinetic energy and its momentum do not.
+Formulas of a `motion`, of the camera and of lights know the time `t`, s. Velocities are derived from the motion. A body with a motion acts on
+others, for example by springs, and the work of its drive is booked. Its own kinetic energy and momentum are not counted.
 
-A `motion.trajectory` is a CSV file with a row for each time and body: the columns `t` (or `time`), `body`, `x`, `y`, `z`, and, if they are there,
+A `motion.trajectory` is a CSV file with a row for each time and body. Its columns are `t` (or `time`), `body`, `x`, `y`, `z`, and optionally
 `qx`, `qy`, `qz`, `qw` (a quaternion), `vx`, `vy`, `vz` and `wx`, `wy`, `wz` (in world axes). Units stand in brackets: `x [cm]`. `jabuka export`
-writes the same table, so a run can be drawn with other bodies, and the run of any other program with jabuka.
+writes the same table. So you can draw a run with other bodies, or draw the run of another program with jabuka.
 ";
 
 /// The section on labels, before the list of names.
@@ -363,18 +364,19 @@ text = \"h = ${y:.1} m\"
 body = \"ball\"
 ```
 
-Between `${` and `}` stands a [formula](#formulas) over the numbers of the moment and `[variables]`. Behind a colon, `.2` is two
-decimals, `.2e` two decimals and a power of ten; without it, three digits are shown, and all digits of a number of impacts. A label beside a body knows the numbers of
-that body also without its name, and they come before variables of the same name; one with `ghosts` knows these and `t` alone.
+Between `${` and `}` stands a [formula](#formulas) of the current values and `[variables]`. After a colon, `.2` means two
+decimals and `.2e` two decimals with a power of ten. The default is three significant digits, and all digits for a number of impacts. In a label at
+a body, the names of that body's values need no prefix, and take precedence over variables of the same name; with `ghosts`, only these and `t` are
+available.
 
-A label beside a body is left out of pictures that do not show the body. Where it would lie on an arrow or on another
-label, it stands on another side, or farther away. Numbers of a grid that a label would cover are left out.
+A label at a body is left out of pictures without the body. If it would cover an arrow or another
+label, it moves to another side, or farther away. It hides the grid numbers that it would cover.
 
 | name | meaning |
 | --- | --- |
 ";
 
-/// The page as far as it is written.
+/// The page written so far.
 struct Page {
     text: String,
     /// The tables that have a section, each with its title.

@@ -4,23 +4,23 @@ use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, Key, Kind, Rule, TableSpec};
 
-/// More copies than this are not made of all bodies together: a run of them would take more memory than a usual machine has.
+/// The largest number of copies of all bodies together. More would exceed the memory of a usual machine.
 pub const MAX_COPIES: i64 = 500_000;
 
 /// A number of copies.
 pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);
 
-/// The key that makes several of a force or a joint.
+/// The key that repeats a force or a joint.
 pub(super) const LINKS: Key = Key::new(
     "repeat",
     COUNT,
-    "So many copies, `rod[0]`, `rod[1]`, …, which formulas of `i` tell apart, also in the names of bodies: `bob[i]`, \
-     `link[i+1]`",
+    "The number of copies, `rod[0]`, `rod[1]`, …; formulas and names of bodies may contain their index `i`: \
+     `bob[i]`, `link[i+1]`",
 )
-.default("one; where names of bodies contain `i`, as many as there are such bodies")
+.default("one; if names of bodies contain `i`, as many as there are such bodies")
 .also(&["copies", "times"]);
 
-/// The key that says how many copies there are.
+/// The key for the number of copies.
 const fn count() -> Key {
     Key::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
 }
@@ -32,18 +32,25 @@ pub(super) static REPEAT: TableSpec = TableSpec {
         Key::new(
             "count",
             COUNT,
-            "So many copies, `ball[0]`, `ball[1]`, …, which formulas of `i` tell apart; `repeat = 9` is short for it",
+            "The number of copies, `ball[0]`, `ball[1]`, …, with the index `i` for formulas; `repeat = 9` \
+             is short for it",
         )
         .also(&["n", "number", "copies", "times"]),
-        Key::new("grid", Table(&GRID), "Copies in rows, layers and columns: `brick[3,0]`, in formulas `i`, `j`, `k`")
-            .also(&["array", "lattice"]),
+        Key::new(
+            "grid",
+            Table(&GRID),
+            "Copies in rows, layers and columns: `brick[3,0]`, in formulas `i`, `j`, `k`",
+        )
+        .also(&["array", "lattice"]),
         Key::new("ring", Table(&RING), "Copies on a circle around `location`").also(&["circle", "around"]),
-        Key::new("line", Table(&LINE), "Copies evenly on a straight line, one at either end").also(&["row"]),
-        Key::new("curve", Table(&CURVE), "Copies evenly along a curve").also(&["path", "spline", "spiral"]),
+        Key::new("line", Table(&LINE), "Copies evenly spaced on a straight line, including both ends")
+            .also(&["row"]),
+        Key::new("curve", Table(&CURVE), "Copies evenly spaced along a curve")
+            .also(&["path", "spline", "spiral"]),
         Key::new(
             "scatter",
             Table(&SCATTER),
-            "Copies at random places in a volume around `location`; no two of them overlap",
+            "Copies at random positions in a volume around `location`, without overlap",
         )
         .also(&["random", "fill"]),
     ],
@@ -59,7 +66,8 @@ static GRID: TableSpec = TableSpec {
         Key::new(
             "spacing",
             Either(&[ANY, List { of: &ANY, min: 1, max: 3 }]),
-            "From one copy to the next along x, y and z; one number is for all; the first copy is at `location`",
+            "The distance between copies along x, y and z; one number is for all; the first copy is at \
+             `location`",
         )
         .unit("m")
         .default("0: formulas of `i`, `j` and `k` place them")
@@ -72,18 +80,19 @@ static RING: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("radius", POSITIVE, "The radius of the circle, from centre to centre")
+        Key::new("radius", POSITIVE, "The radius of the circle through the copies' centres")
             .unit("m")
             .required()
             .also(&["r", "diameter"]),
         Key::new(
             "axis",
             AXIS,
-            "The axis of the circle, by the right-hand rule; the first copy is towards x, or towards y if x is the axis",
+            "The axis of the circle, by the right-hand rule; the first copy is towards x, or towards y if x \
+             is the axis",
         )
         .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["normal"]),
-        Key::new("turned", Boolean, "Whether each copy is turned about the axis as far as it has come around")
+        Key::new("turned", Boolean, "Whether each copy is rotated about the axis by its angle on the circle")
             .default_flag(true)
             .also(&["align", "rotate"]),
     ],
@@ -94,11 +103,14 @@ static LINE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("from", VECTOR, "Where the first copy is, from `location`")
+        Key::new("from", VECTOR, "The position of the first copy, relative to `location`")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["start"]),
-        Key::new("to", VECTOR, "Where the last copy is, from `location`").unit("m").required().also(&["end"]),
+        Key::new("to", VECTOR, "The position of the last copy, relative to `location`")
+            .unit("m")
+            .required()
+            .also(&["end"]),
     ],
 };
 
@@ -110,23 +122,28 @@ static CURVE: TableSpec = TableSpec {
         Key::new(
             "at",
             Formulas(3),
-            "The curve, from `location`, by formulas of `u`, which goes from 0 to 1; what its pace is does not matter",
+            "The curve, relative to `location`, by formulas of `u` from 0 to 1; copies are evenly spaced \
+             for any parametrization",
         )
         .unit("m")
         .also(&["formula", "xyz"]),
         Key::new(
             "points",
             List { of: &VECTOR, min: 2, max: usize::MAX },
-            "Points that the curve goes through smoothly (Catmull and Rom's spline), from `location`",
+            "Points of a smooth curve (Catmull–Rom spline), relative to `location`",
         )
         .unit("m")
         .also(&["through", "vertices"]),
-        Key::new("closed", Boolean, "Whether it ends where it begins, so that no copy stands on the first one")
+        Key::new("closed", Boolean, "Whether it ends where it begins, with a single copy there")
             .default_flag(false)
             .also(&["loop", "cyclic"]),
-        Key::new("turned", Boolean, "Whether each copy is turned with its x axis along the curve, and y upwards")
-            .default_flag(true)
-            .also(&["align", "follow"]),
+        Key::new(
+            "turned",
+            Boolean,
+            "Whether each copy is rotated so that its x axis follows the curve, with y upwards",
+        )
+        .default_flag(true)
+        .also(&["align", "follow"]),
     ],
 };
 
@@ -135,14 +152,14 @@ static SCATTER: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("within", Table(&VOLUME), "The volume, which holds each copy as a whole")
+        Key::new("within", Table(&VOLUME), "The volume, which contains each copy entirely")
             .required()
             .also(&["in", "volume", "region"]),
-        Key::new("gap", NON_NEGATIVE, "The least distance between the balls around two copies")
+        Key::new("gap", NON_NEGATIVE, "The least distance between the bounding balls of two copies")
             .unit("m")
             .default_number(0.0)
             .also(&["distance", "spacing"]),
-        Key::new("turned", Boolean, "Whether each copy is turned at random, any way as likely")
+        Key::new("turned", Boolean, "Whether each copy has a random orientation, uniformly distributed")
             .default_flag(false)
             .also(&["rotate"]),
     ],
@@ -161,13 +178,9 @@ static VOLUME: TableSpec = TableSpec {
 static BOX: TableSpec = TableSpec {
     noun: "a box to scatter in",
     rule: Rule::Any,
-    keys: &[Key::new(
-        "size",
-        Numbers(3, Bound::NonNegative),
-        "Its edges along x, y, z; where one is 0, all copies are at the same height there",
-    )
-    .unit("m")
-    .required()],
+    keys: &[Key::new("size", Numbers(3, Bound::NonNegative), "Its edges along x, y, z; 0 for a flat box")
+        .unit("m")
+        .required()],
 };
 
 static SPHERE: TableSpec = TableSpec {

@@ -1,6 +1,6 @@
-//! The description of the language as a JSON Schema, with which editors check and complete scenes while they are typed.
+//! The scene language as a JSON Schema. Editors use it to check and complete scenes.
 //!
-//! Draft 7 is what the editors' TOML plugins know. There, nothing beside a `$ref` counts, so every table is written out.
+//! Editors' TOML plugins know draft 7, which ignores everything beside a `$ref`. So every table is written out.
 
 use serde_json::{Map, Value, json};
 
@@ -10,8 +10,8 @@ use crate::scene::color::NAMES;
 
 /// A JSON Schema (draft 7) of scenes.
 ///
-/// It knows everything that can be said of a key and its value alone. What goes together, and which names there are, only
-/// the check of a scene knows.
+/// It covers each key and its value alone. Only the check of a scene knows which keys go together and which names
+/// exist.
 pub fn schema() -> Value {
     let mut schema = table(&SCENE, Whole::No);
     // Keys missing in a table may come from the defaults, or from an included file.
@@ -24,14 +24,14 @@ pub fn schema() -> Value {
     schema.into()
 }
 
-/// Whether a table has to have all that it needs.
+/// Whether a table must contain its required keys.
 #[derive(Clone, Copy, PartialEq)]
 enum Whole {
     Yes,
     No,
 }
 
-/// A schema that requires the keys of a table and of the tables in it, and checks nothing else.
+/// A schema that checks only for the required keys of a table and of the tables in it.
 fn requirements(spec: &TableSpec) -> Map<String, Value> {
     let inner = |key: &Key| {
         let required = match &key.kind {
@@ -79,7 +79,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
         }
         Rule::ExactlyOne(names) if whole == Whole::No => {
             let pairs: Vec<_> = pairs(names).collect();
-            // A single kind excludes none.
+            // With a single kind, nothing excludes anything.
             if !pairs.is_empty() {
                 schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
             }
@@ -92,7 +92,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
     schema
 }
 
-/// For each two of the keys, a schema that requires both.
+/// For each pair of keys, a schema that requires both.
 fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     let with = |(i, name): (usize, &'static &str)| {
         names[i + 1..].iter().map(move |other| json!({ "required": [name, other] }))
@@ -116,7 +116,7 @@ fn property(key: &Key, whole: Whole) -> Value {
 
 fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     match kind {
-        // An editor offers what an `enum` has, whatever else the name may be.
+        // Editors offer the names of the `enum`; other names are valid, too.
         Kind::Reference(Collection::Material) => {
             let library: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
             object(json!({ "anyOf": [{ "type": "string", "enum": library }, { "type": "string" }] }))
@@ -142,7 +142,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| name).collect();
             object(json!({ "anyOf": [
                 { "type": "string", "enum": names },
-                // A schema cannot compare names without heed to their case, so it lets others pass.
+                // A schema cannot compare names case-insensitively, so it admits all with capitals.
                 { "type": "string", "pattern": "^[a-zA-Z]*[A-Z][a-zA-Z]*$" },
                 { "type": "string", "pattern": "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$" },
                 list(number(Bound::From(0.0, 1.0)), 3, 3),
@@ -159,7 +159,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),
-        // A list is as it is written.
+        // A list has no formula form.
         Kind::List { of, min, max } => list(self::kind(of, Whole::Yes), *min, *max),
         Kind::Table(spec) => table(spec, whole),
         Kind::Partial(spec) => table(spec, Whole::No),
@@ -176,7 +176,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     }
 }
 
-/// A number within a bound, or a formula: what is said of numbers, strings need not heed.
+/// A number within a bound, or a formula. Limits apply to numbers only.
 fn number(bound: Bound) -> Map<String, Value> {
     let mut number = object(match bound {
         Bound::Any => json!({}),
@@ -197,7 +197,7 @@ fn list(of: Map<String, Value>, min: usize, max: usize) -> Map<String, Value> {
     list
 }
 
-/// The members of what is written as an object.
+/// The members of a JSON object.
 fn object(value: Value) -> Map<String, Value> {
     match value {
         Value::Object(members) => members,

@@ -6,31 +6,38 @@ use super::{Bound, Key, Rule, TableSpec};
 use crate::scene::sdl::Where;
 
 const SPHERE: Key = Key::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
-const BOX: Key =
-    Key::new("box", Table(&BOX_KEYS), "A box, also with round edges").also(&["cube", "cuboid", "brick"]);
+const BOX: Key = Key::new("box", Table(&BOX_KEYS), "A box, optionally with rounded edges")
+    .also(&["cube", "cuboid", "brick"]);
 const CYLINDER: Key =
     Key::new("cylinder", Table(&CYLINDER_KEYS), "A cylinder").also(&["disk", "disc", "rod", "tube", "pipe"]);
 const CAPSULE: Key =
-    Key::new("capsule", Table(&CAPSULE_KEYS), "A cylinder with a half ball on either end").also(&["pill"]);
+    Key::new("capsule", Table(&CAPSULE_KEYS), "A cylinder with a hemisphere on either end").also(&["pill"]);
 const CONE: Key = Key::new(
     "cone",
     Table(&CONE_KEYS),
-    "A cone that points up, or a part of one; its centre of mass is a quarter of the height above its base",
+    "An upright cone or frustum; the centre of mass of a cone is a quarter of the height above its base",
 )
 .also(&["frustum"]);
 const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
-const MESH: Key = Key::new(
-    "mesh",
-    Table(&MESH_KEYS),
-    "A solid whose surface is the triangles of a file; its axes are the file's",
-)
-.also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
+const MESH: Key =
+    Key::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes")
+        .also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
 
 pub(super) static SHAPE: TableSpec = TableSpec {
     noun: "a shape",
     rule: Rule::ExactlyOne(&[
-        "sphere", "box", "cylinder", "capsule", "cone", "torus", "mesh", "plane", "axes", "heightfield",
-        "compound", "sdl",
+        "sphere",
+        "box",
+        "cylinder",
+        "capsule",
+        "cone",
+        "torus",
+        "mesh",
+        "plane",
+        "axes",
+        "heightfield",
+        "compound",
+        "sdl",
     ]),
     keys: &[
         SPHERE,
@@ -40,8 +47,7 @@ pub(super) static SHAPE: TableSpec = TableSpec {
         CONE,
         TORUS,
         MESH,
-        Key::new("plane", Table(&PLANE), "An endless plane, which is always fixed")
-            .also(&["floor", "ground"]),
+        Key::new("plane", Table(&PLANE), "An infinite plane, always fixed").also(&["floor", "ground"]),
         Key::new(
             "axes",
             Table(&AXES),
@@ -51,22 +57,21 @@ pub(super) static SHAPE: TableSpec = TableSpec {
         Key::new(
             "heightfield",
             Table(&HEIGHTFIELD),
-            "A landscape whose heights are the gray levels of an image, always fixed; at its `location` is the middle \
-             of the rectangle at the height of black",
+            "A landscape with heights from the gray levels of an image, always fixed; its `location` is the \
+             middle of its rectangle at the height of black",
         )
         .also(&["height_field", "terrain", "landscape", "heightmap", "image"]),
         Key::new(
             "compound",
             Table(&COMPOUND),
-            "Several solids of one density as one body; its `location` is the centre of mass of all",
+            "Several solids of one density as one body; its `location` is their common centre of mass",
         )
         .also(&["union", "parts", "composite", "group"]),
-        Key::new(
-            "sdl",
-            Table(&SDL),
-            "An object in POV-Ray's own words, and what stands in for it in mechanics",
-        )
-        .also(&["povray", "custom", "isosurface"]),
+        Key::new("sdl", Table(&SDL), "An object in SDL, with a solid for mechanics").also(&[
+            "povray",
+            "custom",
+            "isosurface",
+        ]),
     ],
 };
 
@@ -76,7 +81,7 @@ static COMPOUND: TableSpec = TableSpec {
     keys: &[Key::new(
         "parts",
         List { of: &Table(&PART), min: 1, max: usize::MAX },
-        "Its parts; where they overlap, both weigh",
+        "Its parts; where they overlap, both count",
     )
     .required()
     .also(&["shapes", "children", "of"])],
@@ -101,7 +106,7 @@ static PART: TableSpec = TableSpec {
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
         .also(&["position", "pos", "center", "translate", "origin", "offset"]),
-        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "How it is turned within the body")
+        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "Its orientation within the body")
             .unit("degrees")
             .default("not turned")
             .also(&["rotation", "rotate", "angle", "attitude"]),
@@ -115,12 +120,12 @@ static SDL: TableSpec = TableSpec {
         Key::new(
             "object",
             Sdl(Where::Inside),
-            "One object in POV-Ray's own words, lengths in metres, its centre of mass at the origin; without \
-             `material` it has the textures that it brings along, and is black without any",
+            "One object in SDL, in metres, with its centre of mass at the origin; without `material` it \
+             keeps its own textures, and is black without any",
         )
         .required()
         .also(&["sdl", "code", "text", "draw"]),
-        Key::new("stand_in", Table(&STAND_IN), "The solid that it weighs and reaches as far as")
+        Key::new("stand_in", Table(&STAND_IN), "The solid that gives its mass, inertia and extent")
             .required()
             .also(&["physics", "collider", "proxy", "bounds", "shape"]),
     ],
@@ -142,14 +147,14 @@ static BOX_KEYS: TableSpec = TableSpec {
     noun: "a box",
     rule: Rule::Any,
     keys: &[
-        Key::new("size", Numbers(3, Bound::Positive), "Its full edges along its own x, y, z")
+        Key::new("size", Numbers(3, Bound::Positive), "Its full edge lengths along its own x, y, z")
             .unit("m")
             .required()
             .also(&["edges", "extents", "dimensions", "half_extents"]),
         Key::new(
             "rounding",
             NON_NEGATIVE,
-            "The radius of its edges and corners, at most half its smallest edge; its size stays",
+            "The radius of its edges and corners, at most half its smallest edge; included in `size`",
         )
         .unit("m")
         .default_number(0.0)
@@ -174,14 +179,10 @@ static CAPSULE_KEYS: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
-        Key::new(
-            "height",
-            POSITIVE,
-            "Its whole height from tip to tip, along its own y: at least twice its radius",
-        )
-        .unit("m")
-        .required()
-        .also(&["h", "length"]),
+        Key::new("height", POSITIVE, "Its total height along its own y: at least twice its radius")
+            .unit("m")
+            .required()
+            .also(&["h", "length"]),
     ],
 };
 
@@ -199,7 +200,7 @@ static CONE_KEYS: TableSpec = TableSpec {
             .unit("m")
             .required()
             .also(&["h", "length"]),
-        Key::new("top_radius", NON_NEGATIVE, "The radius of its upper end; with 0 it has a tip")
+        Key::new("top_radius", NON_NEGATIVE, "The radius of its upper end; 0 gives it a tip")
             .unit("m")
             .default_number(0.0)
             .also(&["radius2", "r2", "tip_radius"]),
@@ -224,7 +225,8 @@ static TORUS_KEYS: TableSpec = TableSpec {
 const SMOOTH: Key = Key::new(
     "smooth",
     Either(&[Boolean, Number(Bound::From(0.0, 180.0))]),
-    "Which edges look round: all, none, or those at which two faces meet at no more than so many degrees",
+    "Which edges look smooth: all, none, or those between faces that meet at no more than this angle in \
+     degrees",
 )
 .unit("°")
 .default_flag(false)
@@ -237,12 +239,12 @@ static MESH_KEYS: TableSpec = TableSpec {
         Key::new(
             "file",
             Asset,
-            "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is fixed or has \
-             `mass` and `inertia`",
+            "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is \
+             fixed or has `mass` and `inertia`",
         )
         .required()
         .also(&["path", "name", "source", "obj", "stl", "filename"]),
-        Key::new("scale", POSITIVE, "The length of one unit of the file: 0.001 where it counts in millimetres")
+        Key::new("scale", POSITIVE, "The length of one unit of the file: 0.001 for millimetres")
             .unit("m")
             .default_number(1.0)
             .also(&["unit", "units", "size", "factor"]),
@@ -257,14 +259,16 @@ static HEIGHTFIELD: TableSpec = TableSpec {
         Key::new(
             "file",
             Asset,
-            "A PNG in the scene's folder, of which each pixel is a point of the landscape; its upper edge is the far one",
+            "A PNG in the scene's folder; each pixel is a point of the landscape, and the upper edge is the \
+             far one",
         )
         .required()
         .also(&["image", "path", "png", "name", "source"]),
         Key::new(
             "size",
             Numbers(3, Bound::Positive),
-            "From the middle of the first to that of the last pixel along x; from black to white; and along z",
+            "The distance between the centres of the first and last pixel along x; the height from black to \
+             white; and the distance along z",
         )
         .unit("m")
         .required()

@@ -1,4 +1,4 @@
-//! The keys that show physics: arrows, axes, ghosts, trails and springs.
+//! The keys that make physics visible: arrows, axes, ghosts, trails and springs.
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
 use super::keys::{POSITIVE, VECTOR};
@@ -9,36 +9,39 @@ static TRAIL_KINDS: [Kind; 2] = [Boolean, Table(&TRAIL_TABLE)];
 static COIL_KINDS: [Kind; 2] = [Boolean, Table(&COIL_TABLE)];
 static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 
-// The keys for the physics shown beside a body.
+// The keys for what is drawn beside a body.
 
-pub(super) const ARROWS: Key =
-    Key::new("arrows", Table(&ARROWS_TABLE), "Arrows from its surface for its velocity, its acceleration and the force on it, where parallel ones stand side by side; and arrows for its weight and the forces of contacts, from where they act")
-        .also(&["vectors", "arrow"]);
+pub(super) const ARROWS: Key = Key::new(
+    "arrows",
+    Table(&ARROWS_TABLE),
+    "Arrows: from its surface for its velocity, acceleration and net force, parallel ones side by side; \
+     from their points of action for its weight and contact forces",
+)
+.also(&["vectors", "arrow"]);
 pub(super) const JOINT_ARROWS: Key = Key::new(
     "arrows",
     Table(&JOINT_ARROWS_TABLE),
-    "Arrows for what it does to its second end, from that point on; to the first it does the opposite",
+    "Arrows for its action on its second end, starting there; the action on the first end is opposite",
 )
 .also(&["vectors", "arrow"]);
 pub(super) const AXES: Key =
-    Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which turn with it")
+    Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which rotate with it")
         .default_flag(false)
         .also(&["triad", "frame"]);
 pub(super) const GHOSTS: Key = Key::new(
     "ghosts",
     Table(&GHOSTS_TABLE),
-    "Its earlier poses at regular intervals, drawn paler, as a stroboscope shows them",
+    "Its earlier poses at regular intervals, drawn paler, as in a stroboscopic photo",
 )
 .also(&["ghost", "strobe", "stroboscope", "onion_skin"]);
-pub(super) const TRAIL: Key =
-    Key::new("trail", Either(&TRAIL_KINDS), "A line along the way that it has come")
-        .default_flag(false)
-        .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
-// How a spring is drawn.
+pub(super) const TRAIL: Key = Key::new("trail", Either(&TRAIL_KINDS), "A line along its past path")
+    .default_flag(false)
+    .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
+// The look of a spring.
 pub(super) const LINE: Key = Key::new(
     "line",
     Choice(|| vec!["coil", "straight", "none"]),
-    "As what it is drawn between its ends; it is left out while they leave no room for it",
+    "Its form between its ends; not drawn if they leave no room",
 )
 .default_word("coil")
 .also(&["look", "drawn", "draw", "visible", "style"]);
@@ -56,24 +59,24 @@ static ARROWS_TABLE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         Key::new("velocity", ARROW, "Its velocity, blue").default_flag(false).also(&["v"]),
-        Key::new("acceleration", ARROW, "The sum of the forces on it by its mass, orange")
+        Key::new("acceleration", ARROW, "The net force on it divided by its mass, orange")
             .default_flag(false)
             .also(&["a"]),
-        Key::new("force", ARROW, "The sum of the forces on it, magenta")
+        Key::new("force", ARROW, "The net force on it, magenta").default_flag(false).also(&["f", "forces"]),
+        Key::new("weight", ARROW, "Its weight, green, from its centre")
             .default_flag(false)
-            .also(&["f", "forces"]),
-        Key::new("weight", ARROW, "Its weight, green, from its centre").default_flag(false).also(&["gravity"]),
+            .also(&["gravity"]),
         Key::new(
             "normal",
             ARROW,
-            "The normal force of each body that touches it, red, from where they touch; needs `simulation.contacts`",
+            "The normal force of each touching body, red, from the contact; needs `simulation.contacts`",
         )
         .default_flag(false)
         .also(&["normal_force", "contact", "contacts", "reaction"]),
         Key::new(
             "friction",
             ARROW,
-            "The friction of each body that touches it, yellow, from where they touch; needs `simulation.contacts`",
+            "The friction of each touching body, yellow, from the contact; needs `simulation.contacts`",
         )
         .default_flag(false)
         .also(&["friction_force"]),
@@ -85,7 +88,7 @@ static JOINT_ARROWS_TABLE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         Key::new("force", ARROW, "Its force, magenta").default_flag(false).also(&["f", "forces", "reaction"]),
-        Key::new("torque", ARROW, "Its torque, along the axis of that, green")
+        Key::new("torque", ARROW, "Its torque, along the torque's axis, green")
             .default_flag(false)
             .also(&["moment", "torques"]),
     ],
@@ -97,9 +100,12 @@ static ARROW_TABLE: TableSpec = TableSpec {
     noun: "an arrow",
     rule: Rule::Any,
     keys: &[
-        Key::new("scale", POSITIVE, "Its length for each m/s, m/s², N or N·m")
+        Key::new("scale", POSITIVE, "Its length per m/s, m/s², N or N·m")
             .unit("m")
-            .default("the same for all of its kind, so that the longest is easily seen; weight, normal force and friction are of one kind")
+            .default(
+                "the same for all arrows of its kind, chosen to make the longest easy to see; weight, \
+                 normal force and friction are of one kind",
+            )
             .also(&["length", "factor", "size"]),
         COLOR.default("that of its kind"),
     ],
@@ -110,7 +116,7 @@ static AXES_TABLE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[Key::new("length", POSITIVE, "The length of each")
         .unit("m")
-        .default("twice as far as the body reaches")
+        .default("twice the body's extent")
         .also(&["size", "scale"])],
 };
 
@@ -118,7 +124,7 @@ static GHOSTS_TABLE: TableSpec = TableSpec {
     noun: "ghosts",
     rule: Rule::Any,
     keys: &[
-        Key::new("every", POSITIVE, "The time from one to the next; the first is at 0")
+        Key::new("every", POSITIVE, "The interval; the first ghost is at 0")
             .unit("s")
             .required()
             .also(&["interval", "period", "step", "dt"]),
@@ -130,9 +136,9 @@ static TRAIL_TABLE: TableSpec = TableSpec {
     noun: "a trail",
     rule: Rule::Any,
     keys: &[
-        Key::new("duration", POSITIVE, "How far back it goes; it becomes thin towards its end")
+        Key::new("duration", POSITIVE, "How far back it goes; it tapers towards its end")
             .unit("s")
-            .default("to the beginning")
+            .default("the whole past")
             .also(&["length", "time"]),
         Key::new("width", POSITIVE, "Its width")
             .unit("m")
@@ -142,7 +148,7 @@ static TRAIL_TABLE: TableSpec = TableSpec {
         Key::new(
             "at",
             VECTOR,
-            "The point of the body that leaves it, in the body's own axes, from its centre of mass",
+            "The point of the body that draws it, in the body's own axes, relative to its centre of mass",
         )
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
@@ -156,8 +162,8 @@ static COIL_TABLE: TableSpec = TableSpec {
     keys: &[
         Key::new("radius", POSITIVE, "Its radius, also that of a straight line")
             .unit("m")
-            .default("after its length and the bodies at its ends"),
-        Key::new("turns", Integer(1, 200), "The number of its turns").default("after its length and radius"),
+            .default("by its length and the bodies at its ends"),
+        Key::new("turns", Integer(1, 200), "The number of its turns").default("The number of turns"),
         COLOR.default("steel"),
     ],
 };
