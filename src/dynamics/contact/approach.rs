@@ -1,9 +1,9 @@
-//! When two bodies first touch within a step.
+//! Finds the time at which two bodies first touch within a step.
 //!
-//! Their gap can shrink only so fast: with n the normal between them, by n·v, by what turning moves along n, and by the curvature of
-//! the paths. Steps that are safe by this bound lead to the touch, however fast the bodies are. Near it, each place has a bound of its
-//! own: one corner can leave the floor while another comes down. Source: B. V. Mirtich,
-//! *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
+//! The rate at which their gap shrinks is bounded by the velocity and the rotation along the normal n, and by the
+//! curvature of the paths. Steps that are safe by this bound lead to the touch at any speed. Near it, each place has a
+//! bound of its own: one corner can leave the floor while another comes down. Source: B. V. Mirtich, *Impulse-based
+//! dynamic simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
 
 use glam::DVec3;
 
@@ -12,20 +12,20 @@ use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
 use super::touch::touches;
 
-/// Bodies touch where their gap is below this part of the coordinates: some roundings. A bounce that is lower than that is none.
+/// Bodies touch if their gap is below this part of the coordinates, a few roundings. Lower bounces are ignored.
 pub(super) const TOUCH: f64 = 4e-15;
 
-/// Bodies that are nearer than this part of the smaller one are looked at place by place.
+/// Bodies nearer than this part of the smaller one are examined place by place.
 const CLOSE: f64 = 0.01;
 
-/// Gaps of places can be too small by this part of the smaller body, where places are counted that are beyond an edge by a rounding.
+/// Rounding beyond an edge can make a place's gap too small by this part of the smaller body.
 const SLACK: f64 = 1e-8;
 
-/// So many safe steps are made at most; what is left then is passed in steps of this part of the whole.
+/// The largest number of safe steps. The rest is covered in steps of this part of the whole.
 const STEPS: usize = 2_000;
 const PART: f64 = 1.0 / 64.0;
 
-/// Two bodies on their ways through a step.
+/// Two bodies on their paths through a step.
 pub(super) struct Approach<'a> {
     pub(super) solids: [&'a Solid; 2],
     pub(super) paths: [&'a Path; 2],
@@ -35,13 +35,13 @@ pub(super) struct Approach<'a> {
     pub(super) touch: f64,
 }
 
-/// Where two bodies are nearest, and all other places where they are nearer than `within`, m.
+/// The place where two bodies are nearest, and all other places where they are nearer than `within`, m.
 pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, within: f64) -> Vec<Nearest> {
     let mut all = vec![near];
     let [a, b] = solids;
     let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
     if !has_one(a, b) && !has_one(b, a) {
-        // No place is nearer than the nearest one: what seems to be lies at the far side of an edge.
+        // No place is nearer than the nearest one. One that seems so lies on the far side of an edge.
         let slack = SLACK * a.size().min(b.size());
         let others = touches(a, poses[0], b, poses[1], within);
         let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
@@ -50,18 +50,18 @@ pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, with
     all
 }
 
-/// Whether both are convex. While neither turns, a plane between them, where they are nearest, bounds their gap at all places.
+/// Whether both are convex. If neither rotates, a plane between them at the nearest place bounds their gap everywhere.
 pub(super) fn are_convex(solids: [&Solid; 2]) -> bool {
     solids.iter().all(|solid| solid.parts().len() == 1 && !solid.is_surface())
 }
 
-/// How near bodies are that are looked at place by place, m.
+/// Bodies nearer than this are examined place by place, m.
 pub(super) fn close(solids: [&Solid; 2]) -> f64 {
     CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
 }
 
 impl Approach<'_> {
-    /// The first time at which they touch and come nearer, s after the beginning, if that is before `end`.
+    /// The first time before `end` at which they touch and approach, s after the beginning.
     pub(super) fn first(&self, end: f64) -> Option<f64> {
         let close = close(self.solids);
         let turns = self.paths.map(|path| path.turning != DVec3::ZERO || path.first_turning != DVec3::ZERO);
@@ -87,7 +87,7 @@ impl Approach<'_> {
                     is_stuck |= is_touched && rate <= self.slight;
                 }
             }
-            // What touches without coming nearer, or comes nearer without end, is passed in small steps.
+            // Touching without approach, and endless approach, are passed in small steps.
             time += if is_stuck { safe.max(PART * end) } else { safe };
             if time.is_nan() || time >= end {
                 return None;
@@ -96,7 +96,7 @@ impl Approach<'_> {
         None
     }
 
-    /// How fast a gap changes, m/s.
+    /// The rate of a gap, m/s.
     fn rate(&self, place: &Nearest, moving: &[Moving; 2], time: f64) -> f64 {
         let at = |i: usize| {
             let arm = place.on[i] - moving[i].pose.location;
@@ -107,7 +107,7 @@ impl Approach<'_> {
         place.normal.dot(at(1) - at(0))
     }
 
-    /// How fast the gap of any two places can shrink, m/s, and a bound of its second derivative, m/s².
+    /// The largest rate at which the gap of any two places can shrink, m/s, and a bound of its second derivative, m/s².
     fn bounds(&self, near: &Nearest, moving: &[Moving; 2]) -> (f64, f64) {
         let velocity = moving[1].velocity - moving[0].velocity;
         let mut shrink = -near.normal.dot(velocity);
@@ -115,7 +115,7 @@ impl Approach<'_> {
         for (i, body) in moving.iter().enumerate() {
             let turning = self.paths[i].turning;
             if turning.length_squared() > 0.0 {
-                // A body without end turns about a place that can be far away.
+                // An infinite body rotates about a place that can be far away.
                 let reach = self.solids[i].reach();
                 let reach = if reach.is_finite() {
                     reach
@@ -123,17 +123,17 @@ impl Approach<'_> {
                     2.0 * (near.on[i] - body.pose.location).length() + self.solids[1 - i].reach()
                 };
                 shrink += turning.cross(near.normal).length() * reach;
-                // The normal turns as well.
+                // The normal rotates as well.
                 bend += turning.length_squared() * reach + 2.0 * turning.length() * velocity.length();
             }
         }
         (shrink, bend)
     }
 
-    /// A time within which a gap cannot close that shrinks with a rate, m/s, s.
+    /// A lower bound of the time in which a gap closes, s.
     fn until(&self, gap: f64, shrink: f64, bend: f64) -> f64 {
         if gap <= self.touch {
-            // Touched, and not coming nearer: free until the paths bend together again.
+            // Touching without approach: free until the paths bend together again.
             return if bend > 0.0 { 2.0 * (-shrink).max(0.0) / bend } else { f64::INFINITY };
         }
         let root = (shrink * shrink + 2.0 * bend * gap).sqrt();

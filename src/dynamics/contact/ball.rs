@@ -7,7 +7,7 @@ use super::patch::Patch;
 use super::solid::{Pose, Solid};
 use crate::dynamics::shape::Shape;
 
-/// A ball that does not turn.
+/// A ball without rotation.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Ball {
     solid: Solid,
@@ -24,7 +24,8 @@ impl Ball {
         self.radius
     }
 
-    /// Where the ball and a convex part of a solid are nearest. The normal points out of the solid; the place is on the solid.
+    /// The nearest places of the ball and a convex part of a solid. The normal points out of the solid; the place is on
+    /// the solid.
     pub(in crate::dynamics) fn nearest(
         &self,
         centre: DVec3,
@@ -37,9 +38,10 @@ impl Ball {
         (gap, -normal, on[1])
     }
 
-    /// How far the ball is from a triangle of a mesh, m, and the direction from there to the ball; none for other parts.
+    /// The distance from a triangle of a mesh to the ball, m, and its direction; none for other parts.
     ///
-    /// [`nearest`](Ball::nearest) gives an infinite gap where a neighbour of the triangle is nearer. This is the gap there.
+    /// [`nearest`](Ball::nearest) gives an infinite gap if a neighbor of the triangle is nearer. This method gives the
+    /// gap.
     pub(in crate::dynamics) fn apart(
         &self,
         centre: DVec3,
@@ -64,7 +66,7 @@ impl Ball {
     }
 }
 
-/// The point of a triangle that is nearest to a place. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+/// The point of a triangle nearest to a place. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 fn nearest_on_triangle(place: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let along = |corner: DVec3| [ab.dot(place - corner), ac.dot(place - corner)];
@@ -114,7 +116,7 @@ impl Solid {
         part.centre.length() + part.bound
     }
 
-    /// The parts of a mesh that may be within a distance of a place in the axes of the body.
+    /// The parts of a mesh that may be within a distance of a place, in the axes of the body.
     pub(in crate::dynamics) fn parts_near(&self, place: DVec3, within: f64) -> Vec<usize> {
         match self.tree() {
             Some(tree) => tree.near([place; 2], within, self.parts().len()),

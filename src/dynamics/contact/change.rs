@@ -1,4 +1,4 @@
-//! How a place of contact moves over two bodies: the rates of its normal and of itself.
+//! The rates of a contact's place and normal as it moves over two bodies.
 
 use glam::{DQuat, DVec3};
 
@@ -7,15 +7,15 @@ use super::nearest::Nearest;
 use super::patch::{Patch, meet};
 use super::solid::Pose;
 
-/// Where there is no formula, places are differentiated along the motion by steps in which bodies turn, or move by their size,
-/// about so much.
+/// Without a formula, places are differentiated numerically along the motion. The bodies rotate by about this angle, or
+/// move by this part of their size.
 const DIFFERENCE: f64 = 1e-4;
 
-/// The rates of a meeting, as velocities make them.
+/// The rates of a meeting for given velocities.
 pub(super) struct Change {
     /// The rate of the normal, 1/s.
     pub(super) normal: DVec3,
-    /// How fast the place moves, m/s; it is no point of a body.
+    /// The velocity of the place, m/s. The place is no material point of a body.
     pub(super) place: DVec3,
 }
 
@@ -41,7 +41,7 @@ impl Rated {
         Rated { value: self.value - other.value, rate: self.rate - other.rate }
     }
 
-    /// Without its part along a unit direction.
+    /// Its component perpendicular to a unit direction.
     fn across(self, unit: Rated) -> Rated {
         let along = self.value.dot(unit.value);
         let along_rate = self.rate.dot(unit.value) + self.value.dot(unit.rate);
@@ -62,7 +62,7 @@ impl Rated {
 }
 
 impl Change {
-    /// That of the meeting of two patches. `size` is a typical length of the smaller body, m.
+    /// The rates of the meeting of two patches. `size` is a typical length of the smaller body, m.
     pub(super) fn of(patches: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
         Change::exact(patches, members)
             .or_else(|| {
@@ -73,7 +73,7 @@ impl Change {
             .unwrap_or_else(|| Change::numeric(patches, members, size))
     }
 
-    /// By formulas, where there are some.
+    /// By formulas, if there are any.
     fn exact([a, b]: [&Patch; 2], [first, second]: [&Member; 2]) -> Option<Change> {
         match (a, b) {
             (Patch::Plane { normal, .. }, Patch::Point { at, radius }) => {
@@ -104,7 +104,7 @@ impl Change {
         }
     }
 
-    /// By central differences along the present motion.
+    /// By central differences along the current motion.
     fn numeric([a, b]: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
         let fastest = members.iter().fold(0.0_f64, |most, member| {
             most.max(member.velocity.length() / size).max(member.angular_velocity.length())
@@ -126,7 +126,7 @@ impl Change {
     }
 }
 
-/// Where a body would be after a time at its present velocities.
+/// The pose of a body after a time at its current velocities.
 fn advanced(member: &Member, time: f64) -> Pose {
     let turn = DQuat::from_scaled_axis(time * member.angular_velocity);
     Pose {

@@ -1,4 +1,4 @@
-//! Two bodies that stay in touch at one place: a constraint that pushes, and never pulls, with friction.
+//! Two bodies in lasting contact at one place: a constraint that pushes and never pulls, with friction.
 
 use std::collections::BTreeSet;
 
@@ -12,29 +12,29 @@ use super::solid::Pose;
 use super::touch::Touch;
 use super::{ContactSnapshot, Meeting, nearest::Nearest};
 
-/// A place where two bodies stay in touch.
+/// A place of lasting contact between two bodies.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Closed {
     /// The bodies, the one with the smaller number first.
     pub(in crate::dynamics) bodies: [usize; 2],
-    /// Where they touch.
+    /// The touching features.
     pub(in crate::dynamics) touch: Touch,
-    /// How their surfaces behave.
+    /// The behavior of their surfaces.
     pub(in crate::dynamics) law: Meeting,
     /// A typical length of the smaller body, m.
     pub(in crate::dynamics) size: f64,
-    /// Bodies that part slower than this are at rest, m/s.
+    /// Bodies that separate more slowly than this are at rest, m/s.
     pub(in crate::dynamics) still: f64,
-    /// The axis of the world along which the first tangent lies, as far as the normal lets it: tangents must not jump while bodies
-    /// stay in touch.
+    /// The world axis that gives the first tangent its direction. It is fixed because tangents must not jump during a
+    /// contact.
     pub(in crate::dynamics) heading: DVec3,
 }
 
-/// Tangents are chosen anew where the normal has turned to the axis that they go by: the cosine of the angle at which they must be,
-/// and of that from which on they are when something else happens.
+/// Tangents are chosen anew when the normal approaches the axis that defines them: the limits for the cosine of their
+/// angle, first the strict one, then the one used at any other event.
 const TURNED: [f64; 2] = [0.95, 0.9];
 
-/// The axis of the world that is the farthest from a normal.
+/// The world axis farthest from a normal.
 pub(super) fn heading(normal: DVec3) -> DVec3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let nearness = |axis: &DVec3| axis.dot(normal).abs();
@@ -47,23 +47,23 @@ impl Closed {
         self.bodies.iter().any(|body| bodies.contains(body))
     }
 
-    /// The pairs of rows of friction and of rolling friction, as far as there are any.
+    /// The pairs of rows for friction and for rolling friction, if any.
     fn pairs(&self) -> [bool; 2] {
         [self.law.friction > 0.0, self.law.rolling_friction > 0.0]
     }
 
-    /// Whether this is the same place as another one that has just been found.
+    /// Whether a newly found contact is at the same place.
     pub(in crate::dynamics) fn is(&self, new: &Closed) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
         is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
     }
 
-    /// How far the normal is from the axis that the tangents go by; tangents are to be chosen anew where this is negative.
+    /// The margin of the normal from the tangents' axis; if negative, tangents must be chosen anew.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
         TURNED[0] - self.heading.dot(self.meet(poses).normal).abs()
     }
 
-    /// Two unit vectors across the normal, which depend on it smoothly.
+    /// Two unit vectors across the normal. They depend on it smoothly.
     fn tangents(&self, normal: DVec3) -> [DVec3; 2] {
         let first = self.heading.reject_from_normalized(normal).normalize();
         [first, normal.cross(first)]
@@ -74,12 +74,12 @@ impl Closed {
     }
 }
 
-/// Where a body is now.
+/// The current pose of a body.
 fn pose(member: &Member) -> Pose {
     Pose { location: member.location, orientation: member.orientation }
 }
 
-/// The velocity of the second body against the first where they meet.
+/// The velocity of the second body relative to the first at the contact.
 fn slip(meeting: &Nearest, members: [&Member; 2]) -> DVec3 {
     let at = |member: &Member, place: DVec3| {
         member.velocity + member.angular_velocity.cross(place - member.location)
@@ -113,7 +113,7 @@ impl Constraint for Closed {
         let [a, b] = &self.touch.patches;
         let change = Change::of([a, b], both, self.size);
         let slipping = slip(&meeting, both);
-        // The rate of the slip that does not come from accelerations: arms change, as the place moves over both bodies.
+        // The rate of the slip apart from accelerations: the arms change as the place moves over both bodies.
         let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);
         let drift = turning(1) - turning(0);
         let size = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
@@ -125,7 +125,7 @@ impl Constraint for Closed {
         write(0, gap, normal.dot(drift) + change.normal.dot(slipping), normal);
         let [u, w] = self.tangents(normal);
         let [slides, rolls] = self.pairs();
-        // For methods that aim at the end of the step: the way that has been slipped, as the trapezoidal rule has it.
+        // For methods that aim at the end of the step: the distance slipped, by the trapezoidal rule.
         let slipped = members.aimed().map_or(DVec3::ZERO, |origin| {
             let before = self.meet([&origin[0], &origin[1]].map(pose));
             0.5 * members.elapsed() * (slip(&before, [&origin[0], &origin[1]]) + slipping)
@@ -150,7 +150,7 @@ impl Constraint for Closed {
 }
 
 impl Closed {
-    /// What can be seen of it. The closure adds the force of one of its rows on the second body.
+    /// The contact's observable data. The closure adds the force of one of its rows on the second body.
     pub(in crate::dynamics) fn seen(
         &self,
         members: [&Member; 2],

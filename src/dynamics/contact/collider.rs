@@ -1,4 +1,4 @@
-//! The bodies that touch each other: where they do, and what happens then.
+//! Finds contacts between bodies and handles them.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,40 +17,40 @@ use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
 use super::{Contacts, Impact, Meeting};
 
-/// At an event, bodies touch where their gap is below this part of the coordinates.
+/// At an event, bodies touch if their gap is below this part of the coordinates.
 pub(super) const NEAR: f64 = 1e-10;
 
-/// Further places of bodies that touch count as touching below this part of the coordinates, where the bodies are at rest. A body that
+/// For bodies at rest, further places touch if their gap is below this part of the coordinates. Otherwise a body that
 /// stands on three of four corners would never come to rest.
 const SNUG: f64 = 1e-8;
 
-/// Further places of bodies that touch may be passed by this part of the coordinates.
+/// Further places of touching bodies may overlap by this part of the coordinates.
 const PASSED: f64 = 1e-12;
 
-/// Bodies may be within each other by this part of the coordinates where contacts begin.
+/// Bodies may overlap by this part of the coordinates when contacts begin.
 const OVERLAP: f64 = 1e-9;
 
-/// Approaches below this part of the fastest one have come from rounding.
+/// Approaches below this part of the fastest one are rounding.
 pub(super) const SLIGHT: f64 = 1e-10;
 
-/// The bodies that touch each other.
+/// The colliding bodies and their contacts.
 #[derive(Clone)]
 pub(in crate::dynamics) struct Collider {
     pub(super) contacts: Contacts,
     pub(super) solids: Vec<Option<Solid>>,
     pub(super) pairs: Pairs,
     pub(super) paths: Vec<Path>,
-    /// Whether a body has been there before, where contacts begin.
+    /// Whether each body was present when contacts were last begun.
     is_known: Vec<bool>,
-    /// The fastest approach so far, m/s: what is slight against it has come from rounding.
+    /// The fastest approach so far, m/s. Much slower ones are rounding.
     pub(super) fastest: f64,
-    /// The impacts since somebody asked last.
+    /// The impacts since the last call of `take_impacts`.
     pub(super) impacts: Vec<Impact>,
-    /// How often pairs of bodies have hit each other in the present step.
+    /// The number of impacts of each pair of bodies in the current step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,
-    /// What has so many events in the present step that they are not followed one by one.
+    /// The bodies with too many events in the current step to follow one by one.
     pub(super) crowd: Crowd,
-    /// The group that is advanced at present, if not all bodies are.
+    /// The group being advanced, if not all bodies are.
     pub(super) focus: Option<Focus>,
 }
 
@@ -60,12 +60,12 @@ pub(super) struct Touching {
     pub(super) bodies: [usize; 2],
     pub(super) law: Meeting,
     pub(super) touches: Vec<Touch>,
-    /// Further places that are so near that they touch as well, as long as the bodies do not move there.
+    /// Further places so near that they count as touching while the bodies do not move there.
     pub(super) snug: Vec<Touch>,
 }
 
 impl Collider {
-    /// Bodies that touch as `contacts` says.
+    /// A collider for given contacts.
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
         let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
@@ -73,7 +73,7 @@ impl Collider {
         Collider { contacts, solids, pairs, paths, is_known, fastest: 0.0, impacts, hits, crowd, focus: None }
     }
 
-    /// Told at the beginning of a step.
+    /// Called at the beginning of a step.
     pub(in crate::dynamics) fn set_out(&mut self) {
         self.hits.clear();
     }
@@ -83,16 +83,16 @@ impl Collider {
         self.fastest
     }
 
-    /// How fast the surface of a body moves since it turns, m/s.
+    /// The largest surface speed of a body from its rotation, m/s.
     pub(in crate::dynamics) fn spin(&self, body: usize, model: &Model, state: &State) -> f64 {
         let turning = model.angular_velocity(body, state).length();
-        // Not that of the core alone, which is 0 for a ball.
+        // The whole solid counts, since the reach of a ball's core is 0.
         let solid = self.solids.get(body).and_then(Option::as_ref);
         let reach = solid.map_or(0.0, |solid| solid.reach() + solid.size());
         if turning == 0.0 { 0.0 } else { turning * reach }
     }
 
-    /// The bodies held at rest that something touches which is not.
+    /// The bodies held at rest that a moving body touches.
     pub(in crate::dynamics) fn touched_at_rest(&mut self, model: &Model, state: &State) -> Vec<usize> {
         let is_held = |body: &usize| model.inverse_mass()[*body] == 0.0 && model.can_move(*body);
         let touching = self.touching_all(model, state);
@@ -104,13 +104,13 @@ impl Collider {
         !self.crowd.is_empty()
     }
 
-    /// Told when bodies have changed.
+    /// Called when bodies have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.pairs.forget();
         self.is_known.clear();
     }
 
-    /// Told when some bodies come or go.
+    /// Called when some bodies appear or disappear.
     pub(in crate::dynamics) fn forget_bodies(&mut self, bodies: &[usize]) {
         self.pairs.forget();
         self.crowd.lose(bodies);
@@ -121,12 +121,12 @@ impl Collider {
             .for_each(|(_, is_known)| *is_known = false);
     }
 
-    /// The impacts since somebody asked last.
+    /// The impacts since the last call.
     pub(in crate::dynamics) fn take_impacts(&mut self) -> Vec<Impact> {
         std::mem::take(&mut self.impacts)
     }
 
-    /// The forms of bodies that have been added since.
+    /// Makes the solids of bodies added since the last call.
     fn meet_bodies(&mut self, model: &Model) {
         for i in self.solids.len()..model.len() {
             let collides = self.contacts.surfaces.get(i).is_some_and(Option::is_some);
@@ -135,7 +135,7 @@ impl Collider {
         }
     }
 
-    /// Notes how bodies move within a step, and which of them can meet then.
+    /// Records the paths of the bodies within a step, and the pairs that can meet.
     pub(super) fn follow(&mut self, model: &Model, (before, after): (&State, &State), duration: f64) {
         self.meet_bodies(model);
         let Collider { contacts, solids, pairs, paths, focus, .. } = self;
@@ -150,7 +150,7 @@ impl Collider {
         }
     }
 
-    /// The first time within a step at which bodies touch and come nearer, s after its beginning.
+    /// The first time within a step at which bodies touch and approach, s after its beginning.
     pub(in crate::dynamics) fn first_touch(
         &mut self,
         model: &Model,
@@ -192,8 +192,8 @@ impl Collider {
         first
     }
 
-    /// The gap of two bodies, m, which is 0 where they touch as nearly as matters and negative where they are within each other; and
-    /// its rate, m/s.
+    /// The gap of two bodies, m, and its rate, m/s. The gap is 0 if they touch to within rounding, and negative if they
+    /// overlap.
     pub(in crate::dynamics) fn gap(
         &self,
         model: &Model,
@@ -213,13 +213,13 @@ impl Collider {
         let found = places([x, y], [&poses[0], &poses[1]], near, close([x, y])).into_iter();
         let found = found.map(|place| (gap(&place), rate(&place, bodies, (model, state))));
         let nearest = (gap(&near), rate(&near, bodies, (model, state)));
-        // Of the places that come nearer, the one that touches first.
+        // Of the approaching places, the first to touch.
         let coming = found.filter(|(_, rate)| *rate < 0.0);
         Some(coming.min_by(|a, b| (a.0 / -a.1).total_cmp(&(b.0 / -b.1))).unwrap_or(nearest))
     }
 
-    /// How far bodies that touch are from touching at further places, or from leaving the edge or the face on which they do, in units of
-    /// what is tolerated: negative where that has happened.
+    /// How far touching bodies are from touching at further places or leaving the edge or face on which they touch, in
+    /// units of the tolerance. Negative once either has happened.
     pub(in crate::dynamics) fn margin(&self, model: &Model, state: &State, closed: &[Arc<Closed>]) -> f64 {
         let mut margin = f64::INFINITY;
         let mut last = None;
@@ -240,7 +240,7 @@ impl Collider {
                 };
                 closed.iter().any(|other| same(&other))
             };
-            // What has been passed by a rounding, and parts again, is none.
+            // An overlap by rounding that opens again is ignored.
             let comes = |touch: &&Touch| rate(&touch.meeting, contact.bodies, (model, state)) < 0.0;
             for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)).filter(comes) {
                 margin = margin.min(touch.meeting.gap / tolerated);
@@ -277,7 +277,7 @@ impl Collider {
         all
     }
 
-    /// Finds the pairs where contacts begin, and the first two bodies that are within each other, if one has just come.
+    /// Finds the pairs where contacts begin, and the first two bodies that overlap, if one has just appeared.
     pub(in crate::dynamics) fn start(
         &mut self,
         model: &Model,
@@ -312,7 +312,7 @@ impl Collider {
         None
     }
 
-    /// How bodies are held by joints: not at all, or somehow.
+    /// Whether joints hold a body.
     pub(super) fn is_jointed(model: &Model, body: usize) -> bool {
         let concerns =
             |constraint: &Arc<dyn Constraint>| constraint.bodies().iter().any(|other| other.index() == body);
@@ -325,7 +325,7 @@ pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
     bodies.iter().all(|&body| model.inverse_mass()[body] == 0.0)
 }
 
-/// How fast the gap of two bodies changes, m/s.
+/// The rate of the gap of two bodies, m/s.
 fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
     let at = |i: usize| {
         let arm = meeting.on[i] - state.location[bodies[i]];

@@ -1,7 +1,7 @@
-//! Bodies whose events do not end within a step: those of the crowd, which time-stepping advances.
+//! The crowd: bodies with too many events in a step, which time-stepping advances.
 //!
-//! Some bodies hit, grip and release each other so often that to follow each event would take for ever: a chain that falls on a floor,
-//! a heap that settles. They are advanced by time-stepping until the end of the step; if they have to be again and again, for some steps.
+//! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap
+//! that settles. Time-stepping advances them to the end of the step; if this happens repeatedly, for some more steps.
 
 mod course;
 mod heap;
@@ -17,47 +17,47 @@ use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
-/// A body stays in the crowd for so many further steps at most: a heap that settles would gather thousands of events in each step before
-/// it is advanced by time-stepping again.
+/// The most further steps of a body in the crowd. Without them, a settling heap would collect thousands of events in
+/// each step before it joins again.
 const AGAIN: u32 = 16;
 
-/// The bodies that are advanced by time-stepping.
+/// The bodies under time-stepping.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
     solver: Solver,
-    /// Its motion until the end of the step, once that has been found.
+    /// Its motion until the end of the step, once computed.
     course: Option<Course>,
     /// The places at which its bodies touched at the end of the last step.
     places: Vec<Arc<Closed>>,
-    /// What has rebounded in the part of a step that was made last.
+    /// The rebounds in the latest substep.
     impacts: Vec<Impact>,
-    /// The pairs that pushed each other at last.
+    /// The pairs in contact in the latest substep.
     pushing: BTreeSet<[usize; 2]>,
-    /// The bodies that are in the crowd again in the steps that come.
+    /// The bodies that rejoin the crowd in the coming steps.
     again: BTreeMap<usize, Again>,
-    /// The bodies that were in the crowd because they were in a heap.
+    /// The bodies that joined the crowd as part of a heap.
     heaps: BTreeSet<usize>,
 }
 
-/// For how long a body stays in the crowd.
+/// How long a body stays in the crowd.
 #[derive(Clone, Copy, Default)]
 struct Again {
-    /// So many further steps.
+    /// The number of further steps.
     left: u32,
-    /// So many steps followed when it joined last. If it has to join again right after them, it stays twice as long.
+    /// The number of further steps at its latest joining. It doubles if the body has to join again right after them.
     span: u32,
-    /// Whether this is the step after them.
+    /// Whether these steps have just ended.
     is_over: bool,
 }
 
 impl Crowd {
-    /// Whether nothing is in it.
+    /// Whether the crowd is empty.
     pub(in crate::dynamics) fn is_empty(&self) -> bool {
         self.bodies.is_empty()
     }
 
-    /// The same bodies, for as long, of whose motion nothing is known.
+    /// The same bodies for the same time, without their computed motion.
     pub(super) fn without_course(&self) -> Crowd {
         Crowd { course: None, ..self.clone() }
     }
@@ -66,7 +66,7 @@ impl Crowd {
         self.bodies.iter()
     }
 
-    /// Some bodies are in it no more.
+    /// Removes some bodies.
     pub(super) fn lose(&mut self, bodies: &[usize]) {
         for body in bodies {
             self.bodies.remove(body);
@@ -76,7 +76,7 @@ impl Crowd {
         self.course = None;
     }
 
-    /// From now on, only some bodies are advanced, in rising order. Gives those of the crowd that are not.
+    /// From now on, only some bodies are advanced, in rising order. Returns the other bodies of the crowd.
     pub(super) fn focus(&mut self, bodies: &[usize]) -> BTreeSet<usize> {
         let is_here = |body: &usize| bodies.binary_search(body).is_ok();
         let (here, others) = std::mem::take(&mut self.bodies).into_iter().partition(is_here);
@@ -85,13 +85,13 @@ impl Crowd {
         others
     }
 
-    /// The others are part of it again.
+    /// Takes the other bodies back.
     pub(super) fn unfocus(&mut self, others: BTreeSet<usize>) {
         self.bodies.extend(others);
         self.course = None;
     }
 
-    /// Whether what two bodies do to each other is its business.
+    /// Whether the crowd handles the contacts of two bodies.
     pub(super) fn holds(&self, bodies: [usize; 2], model: &Model) -> bool {
         if self.bodies.is_empty() {
             return false;
@@ -113,13 +113,13 @@ impl Collider {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Whether all of the crowd, which touches at some places, is to stay in it for the next step.
+    /// Whether the whole crowd, which touches at some places, stays for the next step.
     pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
-    /// The places at which bodies of the crowd touched at the end of the last step, and the forces that time-stepping found there.
+    /// The places at which the crowd's bodies touched at the end of the last step, with the forces from time-stepping.
     pub(in crate::dynamics) fn crowd_contacts(
         &self,
         model: &Model,
@@ -142,18 +142,18 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Whether a body is in the crowd, has just left it, or has been in it as part of a heap.
+    /// Whether a body is in the crowd, has just left it, or was in it as part of a heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
-    /// Nothing is in the crowd any more.
+    /// Empties the crowd.
     pub(in crate::dynamics) fn dissolve(&mut self) {
         self.crowd.bodies.clear();
     }
 
-    /// Bodies join the crowd for this step and some more, with all that touches them or is joined to them. Returns whether the crowd has
-    /// grown.
+    /// Adds bodies to the crowd for this step and some more, with everything that touches them or is joined to them.
+    /// Returns whether the crowd has grown.
     pub(in crate::dynamics) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
@@ -161,7 +161,7 @@ impl Collider {
         has_grown
     }
 
-    /// Notes for how many further steps those stay in the crowd that were not in it `before`: as long as the one that stays longest.
+    /// Sets the number of further steps for the bodies not in the crowd `before`: the longest of them.
     fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
@@ -176,7 +176,8 @@ impl Collider {
         }
     }
 
-    /// Bodies join the crowd, with all that touches them or is joined to them. Returns whether the crowd has grown.
+    /// Adds bodies to the crowd, with everything that touches them or is joined to them. Returns whether the crowd has
+    /// grown.
     pub(in crate::dynamics) fn gather(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut links: Vec<Vec<usize>> =
@@ -199,8 +200,8 @@ impl Collider {
         has_grown
     }
 
-    /// The beginning of a step of `dt`, s: notes for how much longer the bodies that are advanced stay in the crowd, and gathers what touches
-    /// them now or may hit them. Returns whether the crowd has grown.
+    /// Begins a step of `dt`, s: counts down the further steps of the advanced bodies, and gathers everything that
+    /// touches them or may hit them. Returns whether the crowd has grown.
     pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
@@ -215,7 +216,7 @@ impl Collider {
         }
         let mut held = self.leaning(model, state);
         held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
-        // What flies freely rebounds where it hits something.
+        // Bodies in free flight rebound from what they hit.
         let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
@@ -229,12 +230,12 @@ impl Collider {
         self.crowd.bodies.len() > seeds.len()
     }
 
-    /// Nothing stays in the crowd.
+    /// Empties the crowd, further steps included.
     pub(in crate::dynamics) fn release(&mut self) {
         self.crowd.again.clear();
     }
 
-    /// What touches, the crowd included.
+    /// All touching places, with those of the crowd.
     pub(super) fn touching_all(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         let bodies = std::mem::take(&mut self.crowd.bodies);
         let touching = self.touching(model, state);

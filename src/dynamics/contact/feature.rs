@@ -11,7 +11,8 @@ pub(super) struct Feature {
     pub(super) patch: Patch,
     pub(super) outline: Outline,
     pub(super) normals: Normals,
-    /// Whether it is an edge or a corner between triangles that stick out nowhere. Nothing touches it: a face is always nearer.
+    /// Whether it is an edge or a corner without convexity between triangles. A face is always nearer, so nothing
+    /// touches it.
     pub(super) is_seam: bool,
 }
 
@@ -54,7 +55,7 @@ impl Feature {
         Feature::new(patch, Outline::All, Normals::All)
     }
 
-    /// How far a place on the patch is inside the borders of the feature, m; negative outside of them.
+    /// The distance of a place on the patch from the borders of the feature, m; negative outside.
     pub(super) fn margin(&self, place: DVec3) -> f64 {
         match &self.outline {
             Outline::All => f64::INFINITY,
@@ -74,7 +75,7 @@ impl Feature {
         }
     }
 
-    /// Whether a place of the core is as far below the feature as the rounding `radius` of the part, within `tolerance`.
+    /// Whether a place of the core is below the feature by the rounding `radius` of the part, within `tolerance`.
     pub(super) fn is_near(&self, place: DVec3, radius: f64, tolerance: f64) -> bool {
         let point = Patch::Point { at: place, radius: 0.0 };
         let found = meet_placed(&point, &self.patch);
@@ -86,7 +87,7 @@ impl Feature {
         self.is_near(place, 0.0, tolerance)
     }
 
-    /// How far the feature reaches along a unit direction, or more. `part` is the part that has it.
+    /// An upper bound of the feature's extent along a unit direction. `part` is the part that has it.
     pub(super) fn highest(&self, direction: DVec3, part: &Part) -> f64 {
         match self.patch {
             Patch::Point { at, radius } => at.dot(direction) + radius,
@@ -96,7 +97,7 @@ impl Feature {
             Patch::Circle { centre, axis, radius } => {
                 centre.dot(direction) + radius * axis.cross(direction).length()
             }
-            // A face goes on as far as its part. Of a face that looks down, corners and rims reach farther.
+            // A face extends as far as its part. For a face that looks down, corners and rims extend farther.
             Patch::Plane { at, normal } => {
                 let tilt = normal.cross(direction).length();
                 if normal.dot(direction) > 0.0 {
@@ -109,8 +110,8 @@ impl Feature {
         }
     }
 
-    /// The sine of the angle between a unit direction and the nearest border of the normals at a place of the feature. It is
-    /// negative for a direction that is not among the normals.
+    /// The sine of the angle between a unit direction and the nearest border of the normals at a place of the feature;
+    /// negative for a direction outside the normals.
     pub(super) fn slack(&self, place: DVec3, normal: DVec3) -> f64 {
         match &self.normals {
             Normals::All => f64::INFINITY,

@@ -1,4 +1,4 @@
-//! Groups of bodies that do not meet within a step: each can be advanced on its own.
+//! Groups of bodies that cannot meet within a step. Each can be advanced on its own.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,38 +13,39 @@ use super::nearest::nearest;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
-/// Two bodies are in one group if they could meet, were each to move this many times as far as it does alone: impacts make bodies faster.
+/// Two bodies are in one group if they could meet by moving this many times their free distance: impacts make bodies
+/// faster.
 const GENEROUS: f64 = 2.0;
 
-/// Bodies that can meet each other within a step, and nobody else but what nothing moves.
+/// Bodies that can meet each other within a step, but no other movable body.
 pub(in crate::dynamics) struct Group {
     /// Their numbers, in rising order.
     pub(in crate::dynamics) bodies: Vec<usize>,
-    /// Whether bodies touch in it, now or within the step.
+    /// Whether bodies of the group touch, now or within the step.
     pub(in crate::dynamics) is_busy: bool,
     pairs: Vec<Pair>,
 }
 
-/// All bodies in groups.
+/// All bodies, divided into groups.
 pub(in crate::dynamics) struct Parting {
     pub(in crate::dynamics) groups: Vec<Group>,
-    /// The pairs of bodies of two groups.
+    /// The pairs with bodies of two groups.
     between: Vec<Pair>,
-    /// The way of each body within the step where it meets nobody, and the way that it has taken, m.
+    /// The distance that each body moves in the step without impacts, and the distance it has moved, m.
     free: Vec<f64>,
     taken: Vec<f64>,
-    /// How many impacts there had been before, and who was in the crowd.
+    /// The number of impacts before, and the crowd before.
     impacts: usize,
     crowd: Crowd,
 }
 
-/// What is advanced at present, where that is one group.
+/// The bodies being advanced, if they are one group.
 #[derive(Clone, Default)]
 pub(super) struct Focus {
     pub(super) bodies: Vec<usize>,
-    /// The way that each of them has taken, m.
+    /// The distance that each of them has moved, m.
     taken: Vec<f64>,
-    /// The bodies of other groups that are advanced by time-stepping.
+    /// The bodies of other groups under time-stepping.
     others: BTreeSet<usize>,
 }
 
@@ -63,8 +64,8 @@ impl Sets {
 }
 
 impl Collider {
-    /// The groups of bodies within a step of `duration` seconds. `after` is its end where nobody meets anybody; `held` are bodies that are
-    /// held at rest together, and `met` pairs that are in one group whatever their ways.
+    /// The groups of bodies within a step of `duration` seconds. `after` is its end without any impacts, `held` are
+    /// bodies that are held at rest together, and pairs in `met` share a group in any case.
     pub(in crate::dynamics) fn part<'a>(
         &mut self,
         model: &Model,
@@ -149,7 +150,7 @@ impl Collider {
         self.focus = Some(Focus { bodies, taken, others });
     }
 
-    /// Told at the end of a piece of `duration` seconds: notes how far the bodies of the group have moved.
+    /// Called at the end of a piece of `duration` seconds: records how far the bodies of the group have moved.
     pub(in crate::dynamics) fn note_ways(
         &mut self,
         model: &Model,
@@ -173,8 +174,8 @@ impl Collider {
         bodies.iter().zip(taken).for_each(|(&i, taken)| parting_ways[i] = taken);
     }
 
-    /// All groups have been advanced, and all bodies are looked at again. Where a group may have met another one, all is as before, and the
-    /// step is to be made anew: gives the pairs that may have met, as far as they are known.
+    /// Ends the advance of all groups. If a group may have met another one, restores everything so that the step can be
+    /// repeated, and returns the pairs that may have met, as far as known.
     pub(in crate::dynamics) fn unite(
         &mut self,
         model: &Model,
@@ -209,7 +210,7 @@ impl Collider {
 }
 
 impl Parting {
-    /// The groups in which something happens, and room for the ways of their bodies.
+    /// The groups in which something happens, and the distances of their bodies.
     pub(in crate::dynamics) fn busy(&mut self) -> (impl Iterator<Item = &mut Group>, &mut [f64]) {
         (self.groups.iter_mut().filter(|group| group.is_busy), &mut self.taken)
     }

@@ -6,16 +6,16 @@
 
 use glam::{DVec2, DVec3};
 
-/// So many sweeps find the impulses of places that depend on each other.
+/// The largest number of sweeps for the impulses of coupled places.
 const SWEEPS: usize = 2_000;
 
 /// Sweeps end when they change impulses by less than this part.
 const SETTLED: f64 = 1e-14;
 
-/// How one place of an impact behaves.
+/// The behavior of one place of an impact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounce {
-    /// The part of the normal velocity with which the bodies part again.
+    /// The coefficient of restitution.
     pub(super) restitution: f64,
     /// Coulomb's coefficient of friction.
     pub(super) friction: f64,
@@ -58,8 +58,8 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     impulses
 }
 
-/// The normal velocity that an impulse leads to. It is negative where a place parts before the impact, but is pushed by what happens at
-/// others: else the impact would give energy.
+/// The normal velocity after the impulse. It is negative for a place that separates before the impact but is pushed by
+/// others: otherwise the impact would add energy.
 fn goal(bounce: &Bounce, rate: f64) -> f64 {
     -bounce.restitution * rate
 }
@@ -87,7 +87,7 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
         }
         impulse = needed / pushed.x * along;
         let left = (rate + w * impulse).yz();
-        // What would slide back sticks on the way: the direction in which it set out counts.
+        // If the slip would reverse, the place sticks. Its initial direction counts.
         if left.dot(direction) <= 0.0 {
             break;
         }

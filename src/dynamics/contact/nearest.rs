@@ -1,4 +1,4 @@
-//! Where two solids are nearest to each other.
+//! The nearest places of two solids.
 
 use glam::DVec3;
 
@@ -7,22 +7,22 @@ use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A feature is near a guessed place if it is closer than this part of the size. GJK's guesses are better than that, but for
-/// round parts that overlap.
+/// A feature is near a guessed place if it is closer than this part of the size. GJK's guesses are better, except for
+/// overlapping round parts.
 const NEAR: f64 = 1e-3;
-/// A place up to this part of the size outside of a feature counts as on it. The gap changes by the square of this only.
+/// A place up to this part of the size outside a feature counts as on it. The gap changes only by the square of this.
 pub(super) const EDGE: f64 = 1e-9;
-/// The same for a triangle: the next one may be bent a little against it, which leaves a crack between them.
+/// The same for a triangle. The next triangle may be at a slight angle, which leaves a crack.
 const SEAM: f64 = 1e-7;
 /// The search among triangles begins within this part of the size.
 const START: f64 = 0.25;
-/// Two parts with at most so many pairs of features are compared pair by pair, without a guess.
+/// Two parts with at most this many pairs of features are compared pair by pair, without a guess.
 const FEW: usize = 16;
 
-/// Where two solids are nearest to each other.
+/// The nearest places of two solids.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Nearest {
-    /// The distance, m; negative where they overlap, by the depth.
+    /// The distance, m; for overlapping solids, minus the depth.
     pub gap: f64,
     /// The unit normal there, from the first to the second.
     pub normal: DVec3,
@@ -42,7 +42,7 @@ impl Nearest {
     }
 }
 
-/// Where two solids are nearest to each other. `None` where they are farther apart than `beyond`, m.
+/// The nearest places of two solids. `None` if they are farther apart than `beyond`, m.
 ///
 /// A small gap is exact to rounding. No gap is larger than the true one.
 pub(in crate::dynamics) fn nearest(
@@ -64,7 +64,7 @@ pub(in crate::dynamics) fn nearest(
                 }
             }
         });
-        // Triangles outside of this reach are farther away than it.
+        // Triangles outside this range are farther away.
         if best.is_some_and(|best| best.gap <= within) || within >= beyond || !within.is_finite() {
             return best.filter(|best| best.gap.is_finite());
         }
@@ -72,7 +72,7 @@ pub(in crate::dynamics) fn nearest(
     }
 }
 
-/// Calls `look` with the numbers of all pairs of parts that may be nearer to each other than `within`, in rising order.
+/// Calls `look` with the indices of all pairs of parts that may be nearer than `within`, in rising order.
 pub(super) fn for_pairs(
     a: &Solid,
     pa: &Pose,
@@ -105,7 +105,7 @@ pub(super) fn for_pairs(
     }
 }
 
-/// A lower bound of the distance of two parts, m: that of the balls around them.
+/// A lower bound of the distance of two parts, m: that of their bounding balls.
 pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
     match (&a.core, &b.core) {
         (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
@@ -119,7 +119,7 @@ fn above(pose: &Pose, at: DVec3, normal: DVec3, place: DVec3) -> f64 {
     (place - pose.point(at)).dot(pose.orientation * normal)
 }
 
-/// Where two convex parts are nearest to each other.
+/// The nearest places of two convex parts.
 pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     match (&a.core, &b.core) {
         (Core::Ground { at, normal }, _) => on_ground(pa, *at, *normal, b, pb),
@@ -133,10 +133,10 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
-/// Where ground and a part are nearest. The ground comes first.
+/// The nearest places of the ground and a part. The ground comes first.
 fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
     let normal = ground.orientation * normal;
-    // Relative to the ground, so that no digits are lost far from the world's origin.
+    // Relative to the ground, to keep digits far from the world's origin.
     let shift = pose.location - ground.location;
     let lowest = pose.orientation * part.support(-(pose.orientation.conjugate() * normal));
     let gap = (shift + lowest - ground.orientation * at).dot(normal);
@@ -144,25 +144,26 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
     Nearest { gap, normal, on: [place - gap * normal, place] }
 }
 
-/// How far outside of a feature of a part a place still counts as on it, m. `round` says whether what touches it is round.
+/// The distance outside a feature at which a place still counts as on it, m. `round` tells whether the other body is
+/// round there.
 pub(super) fn edge(part: &Part, round: bool) -> f64 {
     part.bound * if round && part.surface.is_some() { SEAM } else { EDGE }
 }
 
-/// Where a ball and a convex part are nearest, and the number of the feature of the part.
+/// The nearest places of a ball and a convex part, and the index of the part's feature.
 pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
     let patch = &ball.features[0].patch;
-    // In the axes of the part, so that its features need not be turned.
+    // In the axes of the part, so that its features need no rotation.
     let centre = at.local(pose.point(ball.centre));
     let local = Patch::Point { at: centre, radius: ball.radius };
-    // Two triangles may be bent a little at their seam.
+    // Two triangles may meet at a slight angle.
     let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
     let mut best: Option<(f64, f64, usize)> = None;
     for (i, feature) in part.features.iter().enumerate().filter(|(_, feature)| !feature.is_seam) {
         let found = meet_placed(&local, &feature.patch);
         let slack = part.bound * feature.slack(found.on[1], -found.normal);
         let inside = feature.margin(found.on[1]).min(slack).clamp(edge, 0.0);
-        // At the border of two features, rounding may put the place outside of both. Then take the one it is nearest to.
+        // At the border of two features, rounding may put the place outside both. Then take the nearer one.
         let better = best.is_none_or(|(other, gap, _)| {
             let (is_in, was_in) = (inside > edge, other > edge);
             is_in && !was_in || is_in == was_in && if is_in { found.gap > gap } else { inside > other }
@@ -170,7 +171,7 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
         if better {
             best = Some((inside, found.gap, i));
         }
-        // Where the centre is outside of a convex part, there is just one such feature.
+        // If the centre is outside a convex part, there is only one such feature.
         if inside == 0.0 && found.gap + ball.radius > 0.0 && part.surface.is_none() {
             break;
         }
@@ -182,15 +183,15 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
     (Nearest { gap, ..found }, i)
 }
 
-/// How far a meeting is inside a feature, m. It is the smaller of two distances: that of its place from the border, and that of its normal
-/// from the limits of the feature's normals, times `size`. The normal points out of the body.
+/// How far a meeting is inside a feature, m: the distance of its place from the border, or, if smaller, `size` times
+/// that of its normal from the limits of the feature's normals. The normal points out of the body.
 pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
     let place = pose.local(place);
     let normal = pose.orientation.conjugate() * normal;
     feature.margin(place).min(size * feature.slack(place, normal))
 }
 
-/// Where two convex parts are nearest to each other.
+/// The nearest places of two convex parts.
 ///
 /// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the
 /// right n is the normal of some pair of features. So the largest separation along the normals of all pairs is the gap, exact to
@@ -220,7 +221,7 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     search.pairs(&all(a), &all(b));
     match search.best {
         Some((along, found)) => Nearest { gap: along, ..found },
-        // Something is not a number.
+        // A value is not a number.
         None => Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
     }
 }
@@ -235,7 +236,7 @@ fn side(part: &Part, feature: &Feature) -> Patch {
     }
 }
 
-/// Where two boxes with parallel edges are nearest. `None` unless that is between two faces.
+/// The nearest places of two boxes with parallel edges. `None` unless two faces are nearest.
 fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let (of_a, of_b) = (a.half?, b.half?);
     if pa.orientation != pb.orientation {
@@ -248,7 +249,7 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
         return None;
     }
     let sign = if apart[axis] < 0.0 { -1.0 } else { 1.0 };
-    // The middle of the area that the two faces share.
+    // The middle of the area shared by the two faces.
     let mut place = 0.5 * ((-of_a).max(apart - of_b) + of_a.min(apart + of_b));
     place[axis] = sign * of_a[axis];
     let mut normal = DVec3::ZERO;
@@ -283,9 +284,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether a pair of a corner with a corner, an edge or a rim is where the parts are nearest: its places and its normal belong
-    /// to the two features. Its gap is then exact. Its normal is not: the smaller the gap, the more of its digits are rounding,
-    /// so the separation along it would be too small.
+    /// Whether the parts are nearest at a pair of a corner with a corner, an edge or a rim: its places and its normal
+    /// belong to the two features. Its gap is then exact. Its normal is less so: the smaller the gap, the larger its
+    /// rounding error, so the separation along it would be too small.
     fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
         let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
@@ -303,7 +304,7 @@ impl Search<'_> {
 
     fn best_of(&mut self, along: f64, found: Nearest) {
         let digits = self.digits();
-        // Of meetings with the same separation, take the one whose gap is nearest to it.
+        // Of meetings with the same separation, take the one with the closest gap.
         let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
                 || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits
@@ -321,7 +322,7 @@ impl Search<'_> {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
         };
-        // Where parts overlap, the places need not be on the parts.
+        // The places of overlapping parts need not be on the parts.
         let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
         (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
@@ -333,7 +334,7 @@ impl Search<'_> {
     }
 }
 
-/// How far apart two parts are along a unit vector from the first to the second, m.
+/// The separation of two parts along a unit vector from the first to the second, m.
 fn separation(a: &Part, pa: &Pose, b: &Part, pb: &Pose, normal: DVec3) -> f64 {
     let (local_a, local_b) = (pa.orientation.conjugate() * normal, -(pb.orientation.conjugate() * normal));
     let (high_a, high_b) = (a.core.support(local_a).dot(local_a), b.core.support(local_b).dot(local_b));

@@ -1,8 +1,8 @@
-//! Which pairs of bodies can touch soon.
+//! Lists the pairs of bodies that can touch soon.
 //!
-//! Pairs of boxes that are near each other are kept in a list until a body has moved farther than its box was made larger. For each
-//! pair, a lower bound of the gap is known, from which the ways of both are taken off: only where it is used up, somebody has to
-//! look. Source: L. Verlet, Phys. Rev. 159 (1967) 98, for the list.
+//! A list holds the pairs of nearby boxes until a body has moved farther than the margin of its box. Each pair has a
+//! lower bound of its gap, reduced by the distances that both move. Only when it is used up, the pair is examined
+//! again. Source for the list: L. Verlet, Phys. Rev. 159 (1967) 98.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use super::path::{Path, pose};
 use super::solid::Solid;
 use super::{Contacts, Meeting};
 
-/// Boxes are made larger by so many times the way of a step.
+/// The margin of boxes, in distances moved per step.
 const WAYS: f64 = 8.0;
 
 /// Two bodies that may touch.
@@ -19,49 +19,49 @@ const WAYS: f64 = 8.0;
 pub(super) struct Pair {
     /// Their numbers, the smaller one first.
     pub(super) bodies: [usize; 2],
-    /// How their surfaces behave.
+    /// The behavior of their surfaces.
     pub(super) law: Meeting,
     /// A lower bound of their gap, m.
     pub(super) free: f64,
 }
 
-/// The pairs that are near each other.
+/// The nearby pairs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pairs {
     /// In the order of the numbers of their bodies.
     pub(super) list: Vec<Pair>,
-    /// How far each body may still move before the list is made anew, m.
+    /// The distance that each body may still move before the list is rebuilt, m.
     left: Vec<f64>,
-    /// How far bodies moved in the step that is made again, if the list was not long enough for it, m.
+    /// The distances that bodies moved in the repeated step, if the list was too short for it, m.
     expected: Vec<f64>,
     is_known: bool,
 }
 
 impl Pairs {
-    /// Bodies have changed: the list is to be made anew.
+    /// Called when bodies have changed: the list must be rebuilt.
     pub(super) fn forget(&mut self) {
         self.is_known = false;
     }
 
-    /// The list, if it has all pairs of bodies whose boxes, made larger by a margin each, overlap now.
+    /// The list, if it contains all pairs whose boxes overlap after adding a margin to each.
     pub(super) fn within(&self, margins: &[f64]) -> Option<&[Pair]> {
         let is_long = self.is_known && margins.iter().zip(&self.left).all(|(margin, left)| margin <= left);
         is_long.then_some(&self.list[..])
     }
 
-    /// The list was too short for bodies that move so far, m: it is to be made anew.
+    /// The list was too short for these distances, m: it must be rebuilt.
     pub(super) fn expect(&mut self, ways: Vec<f64>) {
         self.expected = ways;
         self.is_known = false;
     }
 
-    /// How two bodies of the list behave where they touch.
+    /// The contact law of two bodies of the list.
     pub(super) fn law(&self, bodies: [usize; 2]) -> Option<Meeting> {
         let at = self.list.binary_search_by_key(&bodies, |pair| pair.bodies).ok()?;
         Some(self.list[at].law)
     }
 
-    /// Takes the ways of a step off, and makes the list anew where it is not long enough for it.
+    /// Subtracts the distances of a step, and rebuilds the list if it is too short for it.
     pub(super) fn follow(
         &mut self,
         contacts: &Contacts,
@@ -90,7 +90,7 @@ impl Pairs {
         self.take_ways_off(solids, paths);
     }
 
-    /// Takes the ways of a step off the gaps.
+    /// Subtracts the distances of a step from the gaps.
     pub(super) fn take_ways_off(&mut self, solids: &[Option<Solid>], paths: &[Path]) {
         let way = |i: usize| way(solids[i].as_ref(), &paths[i]);
         for pair in &mut self.list {
@@ -99,20 +99,20 @@ impl Pairs {
         }
     }
 
-    /// Told that bodies have moved farther than was thought, m. Returns whether the list is still long enough.
+    /// Adds to the expected distances of bodies, m. Returns whether the list is still long enough.
     pub(super) fn go_farther(&mut self, more: &[f64]) -> bool {
         self.left.iter_mut().zip(more).for_each(|(left, more)| *left -= more.max(0.0));
         self.left.iter().all(|left| *left >= 0.0)
     }
 }
 
-/// The longest way of a point of a body's core within a step, m.
+/// The longest path of a point of a body's core within a step, m.
 pub(super) fn way(solid: Option<&Solid>, path: &Path) -> f64 {
     let reach = solid.map_or(0.0, Solid::reach);
     path.reach + if path.turn > 0.0 { path.turn * reach } else { 0.0 }
 }
 
-/// All pairs whose boxes, made larger by a margin each, overlap.
+/// All pairs whose boxes overlap after adding a margin to each.
 pub(super) fn near(
     contacts: &Contacts,
     solids: &[Option<Solid>],
@@ -125,7 +125,7 @@ pub(super) fn near(
         let [low, high] = solid.bounds(&pose(i, model, state));
         boxes.push((i, [low - margins[i], high + margins[i]]));
     }
-    // Swept along the axis on which they are spread the most.
+    // Swept along the axis of their largest spread.
     let spread = |axis: usize| {
         let ends = boxes.iter().map(|(_, [low, _])| low[axis]).filter(|low| low.is_finite());
         let (least, most) = ends.fold((f64::MAX, f64::MIN), |(least, most), x| (least.min(x), most.max(x)));
@@ -151,7 +151,7 @@ pub(super) fn near(
     pairs
 }
 
-/// How two bodies behave where they touch; none where they pass through each other, or where forces move neither.
+/// The contact law of two bodies; none if they do not collide or if forces move neither.
 fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<Meeting> {
     let [a, b] = bodies;
     let is_moved = |i: usize| model.can_move(i);

@@ -1,4 +1,4 @@
-//! The surface of a body around a place where it is touched, and where two such surfaces are nearest.
+//! The surface of a body around a touched place, and the nearest places of two such surfaces.
 
 mod rim;
 
@@ -7,13 +7,13 @@ use glam::{DQuat, DVec3};
 use super::nearest::Nearest;
 use super::solid::Pose;
 
-/// Two directions count as parallel where the sine of their angle is smaller.
+/// Two directions are parallel if the sine of their angle is smaller.
 const PARALLEL: f64 = 1e-9;
 
-/// The surface of a body around a place where it is touched, in the body's own axes.
+/// The surface of a body around a touched place, in the body's own axes.
 ///
-/// A patch goes on beyond the borders of its edge or face, so that the places of a meeting are smooth functions of the poses.
-/// [`inside`](super::touch::inside) says how far the borders are.
+/// A patch extends beyond the borders of its edge or face, so that the places of a meeting are smooth functions of the
+/// poses. [`inside`](super::touch::inside) gives the distance from the borders.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Patch {
     /// A corner, a ball, the end of a capsule, the corner of a rounded box.
@@ -31,7 +31,7 @@ pub(in crate::dynamics) enum Patch {
         along: DVec3,
         /// Half its length, m.
         half: f64,
-        /// How far the surface is from it, m; 0 for a sharp edge.
+        /// The distance of the surface from it, m; 0 for a sharp edge.
         radius: f64,
         /// The direction out of the body at an edge. Zero for a capsule or a cylinder, which are round about the line.
         outward: DVec3,
@@ -62,8 +62,8 @@ pub(in crate::dynamics) enum Patch {
         half: f64,
         /// The radius of the ball around `at`, m.
         radius: f64,
-        /// By how much the radius of the balls grows along the axis, m/m. For a cone that becomes thinner along it, this is minus
-        /// the sine of half the opening angle.
+        /// The growth of the balls' radius along the axis, m/m. For a cone that narrows along it, this is minus the
+        /// sine of half the opening angle.
         taper: f64,
     },
 }
@@ -98,7 +98,7 @@ impl Patch {
         }
     }
 
-    /// Whether the surface has no normal of its own there: a corner, an edge, or a rim.
+    /// Whether the surface has no unique normal there: a corner, an edge, or a rim.
     pub(super) fn is_sharp(&self) -> bool {
         match *self {
             Patch::Point { radius, .. } | Patch::Line { radius, .. } => radius == 0.0,
@@ -112,13 +112,13 @@ impl Patch {
         matches!(self, Patch::Circle { .. })
     }
 
-    /// Whether neither patch has a normal of its own where they meet, nor do two edges cross there, which would give one.
+    /// Whether the meeting has no unique normal: neither patch has one, and they are not two crossing edges.
     pub(super) fn has_no_normal_with(&self, other: &Patch) -> bool {
         let corner = |patch: &Patch| matches!(patch, Patch::Point { .. });
         self.is_sharp() && other.is_sharp() && (corner(self) || corner(other))
     }
 
-    /// The line of balls whose envelope the patch is. `None` for planes and rims.
+    /// The line of balls whose envelope is the patch. `None` for planes and rims.
     fn spine(&self) -> Option<Spine> {
         let zero = DVec3::ZERO;
         match *self {
@@ -136,11 +136,11 @@ impl Patch {
     }
 }
 
-/// Where two patches are nearest to each other.
+/// The nearest places of two patches.
 ///
 /// A gap between a corner and a corner, an edge or a rim is never negative, because the normal is not unique there.
 pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> Nearest {
-    // Near the first body, so that digits are not lost far from the origin.
+    // Near the first body, to keep digits far from the origin.
     let origin = pa.location;
     let a = a.placed(&Pose { location: DVec3::ZERO, orientation: pa.orientation });
     let b = b.placed(&Pose { location: pb.location - origin, orientation: pb.orientation });
@@ -161,19 +161,19 @@ pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
         }
         _ => match (a.spine(), b.spine()) {
             (Some(a), Some(b)) => spines(&a, &b),
-            // Planes and rims are above.
+            // Planes and rims are handled above.
             _ => Nearest { gap: f64::INFINITY, normal: DVec3::X, on: [DVec3::ZERO; 2] },
         },
     }
 }
 
-/// Where a plane and a patch are nearest. For a line, that is its nearer end.
+/// The nearest places of a plane and a patch. For a line, this is its nearer end.
 fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
     let lowest = match *other {
         Patch::Plane { at, .. } => at,
         Patch::Circle { centre, axis, radius } => {
             let across = normal - normal.dot(axis) * axis;
-            // A rim that lies flat has no lowest place: any place will do.
+            // A rim that lies flat has no lowest place; any place will do.
             centre - radius * across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
         }
         _ => match other.spine() {
@@ -185,7 +185,7 @@ fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
     Nearest { gap, normal, on: [lowest - gap * normal, lowest] }
 }
 
-/// Where a rim is nearest to a point, a line, or the side of a cone.
+/// The nearest places of a rim and a point, a line, or the side of a cone.
 fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
     match other.spine() {
         Some(spine) => rim::rim_and_spine(rim, &spine),
@@ -194,7 +194,7 @@ fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
 }
 
 impl Spine {
-    /// The place of the surface that is farthest against a direction.
+    /// The farthest place of the surface against a direction.
     fn lowest(&self, normal: DVec3) -> DVec3 {
         let end = |s: f64| self.at + s * self.along - (self.radius + self.taper * s) * normal;
         let ends = [end(self.half), end(-self.half)];
@@ -206,7 +206,7 @@ impl Spine {
     }
 }
 
-/// Where two envelopes of balls are nearest.
+/// The nearest places of two envelopes of balls.
 ///
 /// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. Let the lines be nearest at (s₀, t₀), at the
 /// distance h. With x = (s, t) − (s₀, t₀) and the matrix G of the scalar products of the directions, the gap is
@@ -245,10 +245,10 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let [s0, t0] = inverse(w.dot(u), -w.dot(v));
     let k = [a.taper, b.taper];
     let steepest = inverse(k[0], k[1]);
-    // The directions out of the two bodies give the sign of the normal, also where the bodies overlap.
+    // The outward directions of the two bodies give the sign of the normal, even if the bodies overlap.
     let out = unit.dot(a.outward - b.outward);
     let sign = if out == 0.0 { 1.0_f64.copysign(h) } else { out.signum() };
-    // With its sign, the gap is smooth also where the lines cross.
+    // With its sign, the gap is smooth even at a crossing of the lines.
     let below = (1.0 - k[0] * steepest[0] - k[1] * steepest[1]).max(0.0).sqrt();
     if below < PARALLEL {
         return nowhere(a.at + s0 * u, b.at + t0 * v, sign * unit);
@@ -264,13 +264,13 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     }
 }
 
-/// No meeting. The gap becomes ever smaller along the lines of steep cones, so they are nearest at an end, which is a patch of its
-/// own.
+/// No meeting. The gap shrinks steadily along the lines of steep cones, so they are nearest at an end, which is a
+/// separate patch.
 fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> Nearest {
     Nearest { gap: f64::INFINITY, normal, on: [a, b] }
 }
 
-/// The middle of the length that two parallel lines have in common, from the middle of the second, m.
+/// The middle of the common part of two parallel lines, from the middle of the second, m.
 fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
     let start = w.dot(b.along);
     let low = (-b.half).max(-start - a.half);
@@ -278,7 +278,7 @@ fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
     (0.5 * (low + high)).clamp(-b.half, b.half)
 }
 
-/// Where two balls are nearest. `away` is the normal if their centres are the same.
+/// The nearest places of two balls. `away` is the normal for concentric balls.
 fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
     let between = b - a;
     let normal = between.try_normalize().or(away.try_normalize()).unwrap_or(DVec3::X);
@@ -296,7 +296,7 @@ impl Pose {
         self.orientation.conjugate() * (place - self.location)
     }
 
-    /// Not moved and not turned.
+    /// Neither moved nor rotated.
     pub(in crate::dynamics) const IDENTITY: Pose =
         Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
 }

@@ -1,15 +1,15 @@
-//! How a body moves within a step, as far as it is needed to find where it touches others.
+//! The motion of a body within a step, for the search of contacts.
 
 use glam::{DQuat, DVec3};
 
 use super::super::{Model, State};
 use super::solid::Pose;
 
-/// What is below this part of the coordinates has come from rounding.
+/// Values below this part of the coordinates are rounding.
 const ROUNDING: f64 = 2e-15;
 
-/// The motion of a body between the two ends of a step: a cubic polynomial through places and velocities, and a steady turn. A
-/// touch that it finds is then looked for in steps of the method itself, so that it need not be more accurate.
+/// The motion of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a
+/// steady rotation. It need not be more accurate, since a touch found on it is then located by steps of the integrator.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     start: Pose,
@@ -17,7 +17,7 @@ pub(super) struct Path {
     velocity: DVec3,
     /// x'' at both ends; it is linear in time.
     acceleration: [DVec3; 2],
-    /// The mean angular velocity, and that at the beginning, rad/s.
+    /// The mean angular velocity, and the initial one, rad/s.
     pub(super) turning: DVec3,
     pub(super) first_turning: DVec3,
     /// The largest distance that it can cover, m; and the largest angle, rad.
@@ -25,7 +25,7 @@ pub(super) struct Path {
     pub(super) turn: f64,
 }
 
-/// A body at one moment of its path.
+/// A body at a moment of its path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
     pub(super) pose: Pose,
@@ -33,12 +33,12 @@ pub(super) struct Moving {
 }
 
 impl Path {
-    /// That of body `i`.
+    /// The path of body `i`.
     pub(super) fn of(i: usize, model: &Model, before: &State, after: &State, duration: f64) -> Path {
         let way = after.location[i] - before.location[i];
         let (v, w) = (before.velocity[i], after.velocity[i]);
         let h = duration;
-        // By how much the way is not that of a steady acceleration; roundings would be large accelerations in short steps.
+        // The deviation from steady acceleration. In short steps, rounding would look like large accelerations.
         let rest = way - 0.5 * h * (v + w);
         let rounding = ROUNDING * after.location[i].abs().max(before.location[i].abs()).max_element();
         let rest = if rest.abs().max_element() <= rounding { DVec3::ZERO } else { rest };
@@ -72,19 +72,19 @@ impl Path {
         Moving { pose: Pose { location, orientation }, velocity }
     }
 
-    /// The largest acceleration of another body against this one.
+    /// The largest acceleration of another body relative to this one.
     pub(super) fn bend(&self, other: &Path) -> f64 {
         let apart = |end: usize| (other.acceleration[end] - self.acceleration[end]).length();
         apart(0).max(apart(1))
     }
 }
 
-/// Where body `i` is.
+/// The pose of body `i`.
 pub(super) fn pose(i: usize, model: &Model, state: &State) -> Pose {
     Pose { location: state.location[i], orientation: model.world_from_body(i, state) }
 }
 
-/// The vector about which and by which a body turns, rad. Of the turns that lead to the end, it is the one that fits the angular
+/// The rotation vector of a body, rad. Of the rotations that lead to the end, it is the one that fits the angular
 /// velocity.
 fn turned(i: usize, model: &Model, before: &State, after: &State, duration: f64) -> DVec3 {
     if before.orientation[i] == after.orientation[i] && before.angular_momentum[i] == DVec3::ZERO {
@@ -100,7 +100,7 @@ fn turned(i: usize, model: &Model, before: &State, after: &State, duration: f64)
 }
 
 impl Path {
-    /// The same for a body that stays where it is.
+    /// The same for a body that does not move.
     pub(super) fn stop(&mut self) {
         self.velocity = DVec3::ZERO;
         self.acceleration = [DVec3::ZERO; 2];

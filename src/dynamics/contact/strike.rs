@@ -1,8 +1,8 @@
-//! Bodies that hit each other: one pair after another, the fastest approach first.
+//! Impacts of bodies: one pair after another, the fastest approach first.
 //!
-//! Places that touch at the same instant take part as gaps of zero: the impulse of one pair can make another approach, which is
-//! struck then. Where approaches are equally fast, the order of the bodies counts. What two bodies do at several places happens at
-//! once, and joints act at the same time as each impact.
+//! Places that touch at the same instant take part as zero gaps: the impulse of one pair can make another approach,
+//! which is then struck. Among equal approaches, the order of the bodies counts. Impacts of one pair at several places
+//! are simultaneous, and joints act together with each impact.
 
 use std::sync::Arc;
 
@@ -17,43 +17,43 @@ use super::impulse::{Bounce, impulses};
 use super::nearest::Nearest;
 use super::touch::Touch;
 
-/// What rebounds with less than this part of the fastest approach rebounds no more: no picture and no table would show it.
+/// A rebound below this part of the fastest approach is suppressed: it would be invisible.
 const REST: f64 = 1e-8;
 
-/// Places that part with less than this part of the fastest approach may stay closed.
+/// Places that separate below this part of the fastest approach may stay closed.
 const STILL: f64 = 1e-9;
 
-/// Where two bodies have hit each other so often within a step, beside what their restitution makes of a bounce, slow ones count as
-/// rest: they would go on without end between others that press them together.
+/// If two bodies have hit each other this often within a step, beyond what their restitution explains, slow impacts count
+/// as rest. Bodies pressed together by others would otherwise bounce endlessly.
 const OFTEN: f64 = 10.0;
 
-/// What counts as rest becomes twice as fast with so many more impacts, and at most so many times as fast.
+/// With this many more impacts, the speed limit of rest doubles, up to this factor.
 const MORE: f64 = 5.0;
 const MOST: f64 = 1000.0;
 
-/// After so many, or so many of all pairs, they are followed no longer one by one.
+/// After this many impacts of a pair, or this many of all pairs, events are no longer followed one by one.
 const TOO_OFTEN: f64 = 40.0;
 const TOGETHER: u32 = 1_000;
 
-/// Rates are alike where they differ by less than this part.
+/// Rates are equal if they differ by less than this part.
 const ALIKE: f64 = 1e-13;
 
-/// So many impacts may follow each other in an instant, for each pair that touches.
+/// The most impacts in an instant per touching pair.
 const ROUNDS: usize = 2_000;
 
-/// The same where every impact loses energy. Between wedged bodies, many impacts follow that each lose little. After so many rounds, the rest
-/// of the approach is lost at once.
+/// The same if every impact loses energy. Wedged bodies have many impacts that each lose little. After this many
+/// rounds, the rest of the approach is lost at once.
 const ROUNDS_WITH_LOSSES: usize = 100;
 
-/// The place of an impact: the directions of its normal and its tangents, and where it is.
+/// The place of an impact: its position, and the directions of its normal and its tangents.
 #[derive(Clone, Copy)]
 struct Place {
     axes: [DVec3; 3],
-    /// The ways to it from both centres of mass, m.
+    /// The vectors to it from both centres of mass, m.
     arms: [DVec3; 2],
 }
 
-/// What became of bodies that touch.
+/// The result of impacts between touching bodies.
 pub(in crate::dynamics) struct Strike {
     /// The places at which bodies may stay in touch.
     pub(in crate::dynamics) closed: Vec<Arc<Closed>>,
@@ -71,7 +71,7 @@ impl Place {
         Place { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
     }
 
-    /// The velocity of the second body against the first, along the axes.
+    /// The velocity of the second body relative to the first, along the axes.
     fn rate(&self, [a, b]: [Motion; 2]) -> DVec3 {
         let apart = b.0 + b.1.cross(self.arms[1]) - a.0 - a.1.cross(self.arms[0]);
         DVec3::from_array(self.axes.map(|axis| axis.dot(apart)))
@@ -79,7 +79,7 @@ impl Place {
 }
 
 impl Collider {
-    /// Strikes the bodies that touch and come nearer, until none do.
+    /// Strikes touching bodies that approach, until none do.
     pub(in crate::dynamics) fn strike(
         &mut self,
         model: &Model,
@@ -107,7 +107,7 @@ impl Collider {
         };
         for (pair, places) in touching.iter().zip(&places) {
             let motions = pair.bodies.map(|body| motion(body, model, state));
-            // What has only rolled so far has rates of rounding; its speed says what is slight.
+            // Pure rolling leaves only rounding in the rates. The speeds set the scale for slight ones.
             let speeds = places.iter().map(|place| place.rate(motions).length());
             let speeds = speeds.chain(motions.map(|(velocity, _)| velocity.length()));
             self.fastest = speeds.fold(self.fastest, f64::max);
@@ -128,7 +128,7 @@ impl Collider {
                 if is_elastic && speeds[i] > STILL * self.fastest {
                     return Err(Breakdown::Jammed { bodies: touching[i].bodies.map(BodyId::new), time });
                 }
-                // What is left is taken from all at once.
+                // The remaining approach is removed at all places at once.
                 break;
             }
             let joints = if jointed[i] { Some(&mut *solver) } else { None };
@@ -159,7 +159,7 @@ impl Collider {
         Ok(Strike { closed, struck })
     }
 
-    /// How many times faster than usual two bodies may part that count as at rest, since they hit each other again and again.
+    /// The factor on the speed at which two bodies count as at rest, after repeated impacts.
     fn haste(&self, pair: &Touching) -> f64 {
         let hits = self.hits.get(&pair.bodies).copied().unwrap_or(0);
         if pair.law.restitution == 1.0 {
@@ -169,7 +169,7 @@ impl Collider {
         libm::exp2(more.max(0.0)).min(MOST)
     }
 
-    /// Whether two bodies have hit each other so often in the present step, beside what restitution explains, that it would not end.
+    /// Whether two bodies have hit each other too often in the current step, beyond what restitution explains.
     pub(in crate::dynamics) fn hits_too_often(&self, bodies: [usize; 2]) -> bool {
         let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
         let hits = self.hits.get(&bodies).copied().unwrap_or(0);
@@ -222,7 +222,7 @@ impl Collider {
                     state.velocity[body] += inverse_mass * push;
                     state.angular_momentum[body] += turn;
                 } else {
-                    // What guides the body bears the impulse on it, and its work.
+                    // The drive of the body takes the impulse on it, and its work.
                     let turning = turn.dot(model.angular_velocity(body, state));
                     state.accounts.work -= push.dot(state.velocity[body]) + turning;
                 }
@@ -251,13 +251,13 @@ impl Collider {
     }
 }
 
-/// So many bounces lead from the fastest one to rest.
+/// The number of bounces from the fastest one to rest.
 fn bounces(restitution: f64) -> f64 {
     libm::log(REST) / libm::log(restitution)
 }
 
-/// An impact at several places that makes nothing turn is one in their middle: that place, its rate before, and its impulse; none where
-/// something turns, so that the places behave differently.
+/// Replaces an impact at several places that causes no rotation by one in their middle: that place, its rate before,
+/// and its impulse. None if it causes rotation, so that the places behave differently.
 fn middle(
     bodies: [usize; 2],
     places: &[Place],
@@ -291,7 +291,7 @@ fn motion(body: usize, model: &Model, state: &State) -> Motion {
     (state.velocity[body], model.angular_velocity(body, state))
 }
 
-/// J M⁻¹ Jᵀ of some places, row by row; joints let bodies move only as they allow.
+/// J M⁻¹ Jᵀ of some places, row by row, under the constraints of joints.
 fn response(
     bodies: [usize; 2],
     places: &[Place],
@@ -301,7 +301,7 @@ fn response(
     response_to(bodies, places, places.len(), (model, state), joints)
 }
 
-/// The columns of the same that belong to the first places.
+/// The columns of J M⁻¹ Jᵀ for the first places.
 fn response_to(
     bodies: [usize; 2],
     places: &[Place],

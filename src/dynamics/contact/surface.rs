@@ -1,12 +1,12 @@
-//! How surfaces behave where they touch.
+//! The behavior of surfaces in contact.
 
-/// The coefficient of friction where neither body says one.
+/// The coefficient of friction if neither body has one.
 const FRICTION: f64 = 0.5;
 
-/// How the surface of a body behaves where others touch it.
+/// The contact behavior of a body's surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// The part of the normal velocity with which bodies part again, from 0 to 1.
+    /// The coefficient of restitution, from 0 to 1.
     pub restitution: Option<f64>,
     /// Coulomb's coefficient of friction.
     pub friction: Option<f64>,
@@ -14,10 +14,10 @@ pub struct Surface {
     pub rolling_friction: Option<f64>,
 }
 
-/// How two surfaces behave together.
+/// The combined behavior of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// The part of the normal velocity with which they part again.
+    /// The coefficient of restitution.
     pub restitution: f64,
     /// Coulomb's coefficient of friction.
     pub friction: f64,
@@ -26,8 +26,8 @@ pub struct Meeting {
 }
 
 impl Surface {
-    /// How this surface and another behave together. What one does not say, the other says. Where both do, the larger
-    /// restitution, the geometric mean of the frictions and the larger rolling friction count; where neither does, 0, 0.5 and 0.
+    /// Combines this surface with another: the larger restitution, the geometric mean of the frictions and the larger
+    /// rolling friction. If only one has a value, it counts; if neither has, the values are 0, 0.5 and 0.
     #[must_use]
     pub fn meet(&self, other: &Surface) -> Meeting {
         let mix = |a: Option<f64>, b: Option<f64>, both: fn(f64, f64) -> f64, neither: f64| match (a, b) {

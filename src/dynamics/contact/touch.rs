@@ -7,26 +7,26 @@ use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, m
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A flat end lies flat where the sine of its tilt is smaller.
+/// A flat end lies flat if the sine of its tilt is smaller.
 const FLAT: f64 = 1e-7;
 /// Two places closer than this part of the size are one.
 const SAME: f64 = 1e-6;
-/// At most so many places are kept for a pair of parts: they are enough to hold one on the other.
+/// The most places kept for a pair of parts: enough to hold one on the other.
 const MOST: usize = 8;
 
-/// A place at which two solids touch, or nearly so.
+/// A place at which two solids touch or nearly touch.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Touch {
     /// The surface of each body around it, in the axes of that body.
     pub patches: [Patch; 2],
-    /// Where the two surfaces are nearest.
+    /// The nearest places of the two surfaces.
     pub meeting: Nearest,
-    /// For each body, the numbers of its part and of the feature there. There is no feature for a single place of a rim.
+    /// For each body, the indices of its part and of the feature there. A single place of a rim has no feature.
     features: [(usize, Option<usize>); 2],
 }
 
-/// All places at which two solids are closer than `within`, m, which must be small against their sizes. Each is listed once. The
-/// same arguments give the same order.
+/// All places at which two solids are closer than `within`, m, which must be small compared to their sizes. Each is
+/// listed once, in a deterministic order.
 pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
     let mut all = Vec::new();
     for_pairs(a, pa, b, pb, within, &mut |i, j| {
@@ -46,7 +46,7 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
                 once.push(touch);
             }
         }
-        // Two corners meet where the next triangle has a normal: its meeting counts.
+        // At two corners, the meeting with the adjacent triangle's normal counts instead.
         let is_smooth = |touch: &Touch| !touch.patches[0].has_no_normal_with(&touch.patches[1]);
         if once.iter().any(is_smooth) {
             once.retain(is_smooth);
@@ -61,7 +61,7 @@ fn is_same(a: &Nearest, b: &Nearest, same: f64) -> bool {
     a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
 }
 
-/// How far a touch is inside the borders of its features, m; negative outside of them, infinite where there are none.
+/// The distance of a touch from the borders of its features, m; negative outside, infinite without borders.
 ///
 /// A touch that is 1e-9 sizes outside counts as inside, so that faces of the same size can lie on each other.
 pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) -> f64 {
@@ -77,8 +77,8 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
         let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
         let place = pose.local(meeting.on[side]);
         least = least.min(feature.margin(place) + edge(parts[side], sum > 0.0));
-        // Something round that rolls from an edge to a face leaves the edge's normals before its places. Against a flat face, the
-        // normals do not matter: corners touch it at any tilt.
+        // A round body that rolls from an edge to a face leaves the edge's normals before its places. Against a flat
+        // face the normals do not matter: corners touch it at any tilt.
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
             let normal = if side == 0 { meeting.normal } else { -meeting.normal };
             let slack = feature.slack(place, pose.orientation.conjugate() * normal);
@@ -88,7 +88,7 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
     least
 }
 
-/// Two convex parts, and where they touch.
+/// Two convex parts and their touches.
 struct Pair<'a> {
     a: &'a Part,
     pa: &'a Pose,
@@ -147,7 +147,7 @@ impl Pair<'_> {
         self.depth = self.within + nearest.gap.abs() + SAME * self.a.bound.min(self.b.bound);
         let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, self.depth);
         let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, self.depth);
-        // Each is placed once, and not for each pair.
+        // Each feature is placed once, not for each pair.
         let near_a = placed(self.a, self.pa, self.pa.location, near_a);
         let near_b = placed(self.b, self.pb, self.pa.location, near_b);
         self.add_where(&near_a, &near_b, is_needed);
@@ -216,7 +216,8 @@ impl Pair<'_> {
         }
     }
 
-    /// Places that stand for a rim that lies flat on a face: four around it, and those where it crosses an edge of the face.
+    /// Places that represent a rim that lies flat on a face: four around it, and those where it crosses an edge of the
+    /// face.
     fn rim_points(&self, side: usize, rim: &Patch, face: &Feature) -> Vec<Patch> {
         let Patch::Circle { centre, axis, radius } = *rim else { return Vec::new() };
         let (own, other) = if side == 0 { (self.pa, self.pb) } else { (self.pb, self.pa) };
@@ -273,7 +274,7 @@ impl Pair<'_> {
         self.found.push(Touch { patches, meeting, features });
     }
 
-    /// Keeps the places that hold best: the ends of lines, and those that are farthest from each other.
+    /// Keeps the most supportive places: the ends of lines, and those farthest from each other.
     fn thin_out(&mut self) {
         let lines = |touch: &Touch| match touch.patches {
             [
@@ -282,7 +283,7 @@ impl Pair<'_> {
             ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT,
             _ => false,
         };
-        // Parallel lines that touch are held at their ends, which are places of their own.
+        // Touching parallel lines are held at their ends, which are separate places.
         if self.found.iter().any(|touch| !lines(touch)) {
             let parallel: Vec<bool> = self.found.iter().map(lines).collect();
             let mut parallel = parallel.into_iter();
@@ -292,7 +293,7 @@ impl Pair<'_> {
     }
 }
 
-/// Of too many touches, those that are farthest from each other, beginning with the one with the smallest gap.
+/// If there are too many touches, keeps those farthest from each other, beginning with the smallest gap.
 fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     if all.len() <= MOST {
         return all;
@@ -320,8 +321,8 @@ fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     kept.into_iter().map(|i| all[i]).collect()
 }
 
-/// Whether two patches have a touch of their own. A line or a face on a face touches at its ends or corners, which are patches
-/// themselves.
+/// Whether two patches need their own touch. A line or a face on a face touches at its ends or corners, which are
+/// separate patches.
 fn is_needed(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
         (Patch::Plane { .. }, other) | (other, Patch::Plane { .. }) => {
@@ -331,13 +332,13 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
     }
 }
 
-/// Some features of a part with their patches, in the axes of the world, from an origin.
+/// Some features of a part with their patches, in world axes, relative to an origin.
 fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
     let pose = Pose { location: pose.location - origin, orientation: pose.orientation };
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
-/// The features of a part that reach as far along a normal as its nearest place `at`, within `depth`.
+/// The features of a part that extend as far along a normal as its nearest place `at`, within `depth`.
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
     let lowest = at.dot(normal) - depth;

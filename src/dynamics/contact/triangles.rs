@@ -9,19 +9,19 @@ use super::patch::Patch;
 use super::solid::Pose;
 use crate::dynamics::shape::Mesh;
 
-/// Two triangles lie in one plane where the sine of the angle between them is smaller. Nothing catches at their edge.
+/// Two triangles are coplanar if the sine of the angle between them is smaller. Nothing catches at their edge.
 const FLAT: f64 = 1e-9;
 
 /// The triangles of a mesh, each by its corners and its features. `pose` is that of the mesh in the axes of the body.
 ///
-/// A surface can be touched from both sides. An edge or a corner that sticks out on neither side is a seam.
+/// A surface can be touched from both sides. An edge or a corner that is convex on neither side is a seam.
 pub(super) fn triangles(mesh: &Mesh, scale: f64, pose: &Pose) -> Vec<([DVec3; 3], Vec<Feature>)> {
     let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| pose.point(scale * *vertex)).collect();
     let corners = |triangle: &[u32; 3]| triangle.map(|i| vertices[i as usize]);
     // Leave out triangles without an area. Their neighbours have the same edges.
     let solid: Vec<[u32; 3]> =
         mesh.triangles().iter().copied().filter(|triangle| normal(corners(triangle)).is_some()).collect();
-    // For each edge, the directions from it into its triangles; for each corner, those along its edges.
+    // For each edge, the directions from it into its triangles; for each corner, the directions along its edges.
     let mut of_edges: BTreeMap<[u32; 2], Vec<DVec3>> = BTreeMap::new();
     let mut of_corners: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     for triangle in &solid {
@@ -80,15 +80,15 @@ fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (b - a).normalize_or_zero().cross((c - a).normalize_or_zero()).try_normalize()
 }
 
-/// The direction in which an edge sticks out. `into` are the directions from the edge into its triangles. `None` if those lie in
-/// one plane.
+/// The convex direction of an edge. `into` are the directions from the edge into its triangles. `None` if those are
+/// coplanar.
 fn outward(into: &[DVec3]) -> Option<DVec3> {
     let sum: DVec3 = into.iter().sum();
     let out = -sum.try_normalize()?;
     (sum.length() > FLAT && into.iter().all(|direction| direction.dot(out) <= 0.0)).then_some(out)
 }
 
-/// Whether a corner sticks out. `edges` are the directions of its edges.
+/// Whether a corner is convex. `edges` are the directions of its edges.
 fn outward_of_all(edges: &[DVec3]) -> bool {
     let out = -edges.iter().sum::<DVec3>().normalize_or_zero();
     edges.iter().all(|edge| edge.dot(out) < -FLAT)

@@ -1,8 +1,9 @@
 //! The motion of the crowd through a step.
 //!
-//! It is made in a few equal parts: an impulse stops what comes nearer, or lets it rebound, the forces act, contacts push and grip at the end of the part.
-//! Energy that this takes is booked; the order is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom
-//! dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
+//! A step is divided into a few equal substeps. In each, an impulse stops or reverses approaches, the forces act, and
+//! contacts push and grip at its end. The energy that this takes is booked; the order is 1. Sources: J. J. Moreau,
+//! *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng.
+//! 177 (1999) 235.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -23,54 +24,55 @@ use super::super::solid::Solid;
 use super::super::touch::touches;
 use super::Crowd;
 
-/// A step is made in at least so many parts, and in at most so many.
+/// The smallest and largest number of substeps.
 const PARTS: [f64; 2] = [2.0, 64.0];
 
-/// Nothing moves farther in a part than this part of the smaller body, as long as parts are not too many.
+/// The longest motion in a substep, as part of the smaller body, unless that takes too many substeps.
 const FAR: f64 = 0.12;
 
-/// Places count as touching at the end where their gap is below this part of the smaller body.
+/// Places touch at the end if their gap is below this part of the smaller body.
 const GRASP: f64 = 1e-5;
 
-/// Bodies that are deeper within each other at the end than this part of the smaller one are jammed.
+/// Bodies that overlap at the end by more than this part of the smaller one are jammed.
 const DEEP: f64 = 0.01;
 
-/// So often these are moved apart before that is said.
+/// The most attempts to separate them before that is an error.
 const REPAIRS: usize = 5;
 
-/// Bodies stay in the crowd while they are nearer to others than this part of the smaller one: what rebounds no higher is no flight.
+/// Bodies stay in the crowd while they are nearer to others than this part of the smaller one: lower bounces are no
+/// flight.
 const LEAN: f64 = 0.01;
 
-/// Times that differ by less than this part are the same.
+/// Times that differ by less than this part are equal.
 const SAME: f64 = 1e-12;
 
-/// Bodies touch where their gap is below this part of the coordinates.
+/// Bodies touch if their gap is below this part of the coordinates.
 const NEAR: f64 = 1e-9;
 
-/// The motion of a crowd: what it is like at equally long intervals.
+/// The motion of a crowd, sampled at equal intervals.
 #[derive(Clone, Default)]
 pub(super) struct Course {
-    /// When it begins, s.
+    /// The time of its beginning, s.
     start: f64,
-    /// How long each interval is, s.
+    /// The length of each interval, s.
     part: f64,
     /// The states at the ends of the intervals, each with one entry for each body of the crowd.
     states: Vec<State>,
-    /// The state of all bodies when it begins, and how fast those move that are not in the crowd, m/s.
+    /// The state of all bodies at its beginning, and the velocities of bodies outside the crowd, m/s.
     first: State,
     velocity: Vec<DVec3>,
-    /// The pairs that can meet on the way.
+    /// The pairs that can meet during it.
     pairs: Vec<Pair>,
     failure: Option<Breakdown>,
-    /// What rebounds on the way, in the order of time.
+    /// The rebounds during it, in order of time.
     impacts: Vec<Impact>,
-    /// The moments within an interval that were asked for last, s after its beginning.
+    /// The two most recently computed moments within an interval, s after its beginning.
     between: [(f64, State); 2],
 }
 
 impl Collider {
-    /// Advances the crowd from time `t` by `dt`, s. `rest` is what is left of the step then, s. The others have been advanced from `before` to
-    /// `after`.
+    /// Advances the crowd from time `t` by `dt`, s. `rest` is the remainder of the step then, s. The others have been
+    /// advanced from `before` to `after`.
     pub(in crate::dynamics) fn advance_crowd(
         &mut self,
         model: &Model,
@@ -83,7 +85,7 @@ impl Collider {
         }
         let known = self.crowd.course.take().and_then(|mut course| {
             let now = self.moment(&mut course, t, model, loads);
-            // Others may have hit them meanwhile.
+            // Other bodies may have hit them meanwhile.
             let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
             is_here.then_some((course, now.accounts))
         });
@@ -105,7 +107,7 @@ impl Collider {
         failure
     }
 
-    /// The motion of the crowd from `before` on, for `span` seconds. The velocities of the others are as in `after`.
+    /// The motion of the crowd from `before`, for `span` seconds. The velocities of the others are as in `after`.
     fn course(
         &mut self,
         model: &Model,
@@ -132,7 +134,7 @@ impl Collider {
         course
     }
 
-    /// The crowd has been advanced to a time, s: its rebounds until then count.
+    /// The crowd has been advanced to a time, s: counts its rebounds until then.
     pub(in crate::dynamics) fn note_rebounds(&mut self, time: f64) {
         let Collider { crowd, impacts, .. } = self;
         let Some(course) = &mut crowd.course else { return };
@@ -163,7 +165,7 @@ impl Collider {
         found
     }
 
-    /// The crowd some time (s) after the beginning of an interval, and before its end.
+    /// The crowd some time (s) after the beginning of an interval and before its end.
     fn advance_from(
         &mut self,
         course: &Course,
@@ -177,7 +179,7 @@ impl Collider {
         let time = course.start + passed;
         let mut now = course.first.clone();
         for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
-            // What is not in the crowd goes on as it does.
+            // Bodies outside the crowd keep their velocities.
             *location += passed * *velocity;
         }
         for (at, &body) in crowd.bodies.iter().enumerate() {
@@ -200,7 +202,7 @@ impl Collider {
         part
     }
 
-    /// The pairs whose impacts are the crowd's business, as far as they can meet within a step of `dt`.
+    /// The pairs whose impacts the crowd handles and that can meet within a step of `dt`.
     fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
         let margin = |i: usize| match &self.solids[i] {
             Some(solid) if self.crowd.bodies.contains(&i) => {
@@ -219,7 +221,7 @@ impl Collider {
         pairs
     }
 
-    /// The bodies of the crowd that are so near another one, or what nothing moves, that they are not free.
+    /// The crowd's bodies that are close to others or to fixed bodies, and so are not free.
     pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
         let mut all = BTreeSet::new();
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -233,7 +235,7 @@ impl Collider {
         all
     }
 
-    /// In how many parts a step is made.
+    /// The number of substeps.
     fn parts(&self, model: &Model, state: &State, dt: f64) -> f64 {
         let way = |&i: &usize| {
             let (size, reach) =
@@ -284,8 +286,8 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
     }
 
-    /// The end of a step: moves bodies of the crowd apart that are too deep within each other. Gives the places at which they touch now, or
-    /// why they cannot go on.
+    /// Ends a step: separates bodies of the crowd that overlap too deeply. Returns their touching places, or why they
+    /// cannot go on.
     pub(in crate::dynamics) fn end_course(
         &mut self,
         model: &Model,
@@ -315,7 +317,7 @@ impl Collider {
         Err(Breakdown::Jammed { bodies, time })
     }
 
-    /// The places at which bodies of the crowd touch, and two that are too deep within each other.
+    /// The places at which the crowd's bodies touch, and two bodies that overlap too deeply.
     fn touching_in_crowd(&self, model: &Model, state: &State) -> (Vec<Arc<Closed>>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -335,7 +337,7 @@ impl Collider {
 }
 
 impl Crowd {
-    /// Its part of a state.
+    /// The crowd's part of a state.
     fn part_of(&self, state: &State) -> State {
         State {
             location: self.bodies.iter().map(|&i| state.location[i]).collect(),
@@ -346,7 +348,7 @@ impl Crowd {
         }
     }
 
-    /// Makes one part of a step.
+    /// Advances by one substep.
     fn advance(
         &mut self,
         closed: Vec<Arc<Closed>>,
@@ -370,7 +372,7 @@ impl Crowd {
         solver.find_by_sweeps(model);
         solver.take_contacts(closed);
         solver.forget();
-        // What comes nearer stops where it would touch at the end of the part.
+        // An approach stops if it would lead to a touch by the end of the substep.
         solver.prepare_sweeps(model, t, now);
         let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
         model.sum(t, now, loads);
@@ -396,12 +398,12 @@ impl Crowd {
         separate(&mut self.solver, model, t + part, now);
     }
 
-    /// Lets bodies move freely for a time, s.
+    /// Moves bodies freely for a time, s.
     fn fly(&self, model: &Model, time: f64, now: &mut State) {
         self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
     }
 
-    /// Lets forces change velocities for a time, s.
+    /// Applies forces to velocities for a time, s.
     fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
         for &i in &self.bodies {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
@@ -410,7 +412,7 @@ impl Crowd {
     }
 }
 
-/// Takes back what bodies have moved too far, m. The energy that this takes counts as work of impacts.
+/// Undoes the excess motion of bodies, m. The energy that this takes counts as work of impacts.
 fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
     if !ways.is_empty() {
         let before = mechanical(model, t, state);
@@ -419,7 +421,7 @@ fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
     }
 }
 
-/// Moves bodies out of each other. The energy that this takes counts as work of impacts.
+/// Separates overlapping bodies. The energy that this takes counts as work of impacts.
 fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
     if solver.are_within(t, state) {
         let before = mechanical(model, t, state);

@@ -1,4 +1,4 @@
-//! Heaps: many bodies that touch each other. They are advanced by time-stepping from their first event on until they rest.
+//! Heaps: many touching bodies. Time-stepping advances them from their first event until they rest.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use super::super::super::{Model, State};
 use super::super::closed::Closed;
 use super::super::collider::Collider;
 
-/// Where more pairs of bodies touch than this, they are a heap: to find out which of them push and slide, again and again, takes long.
+/// More touching pairs than this make a heap: finding again and again which of them push and slide takes long.
 const PAIRS: usize = 6;
 
 impl Collider {
-    /// The bodies of the heap that some are in, which touch at some places; none if it is no heap.
+    /// The heap of some bodies, which touch at some places; none if there is no heap.
     pub(in crate::dynamics) fn heap_of(
         &mut self,
         bodies: &[usize],
@@ -23,8 +23,8 @@ impl Collider {
         heap
     }
 
-    /// Bodies that touch at some places, and have been advanced by time-stepping as a heap before, join the crowd again. What has just hit
-    /// them does not: it rebounds first.
+    /// Adds touching bodies that were advanced as a heap before to the crowd again. Bodies just hit are left out: they
+    /// rebound first.
     pub(in crate::dynamics) fn crowd_known_heaps(
         &mut self,
         model: &Model,
@@ -50,7 +50,7 @@ impl Collider {
     }
 }
 
-/// Whether the bodies that touch at some places are so many that they are a heap, if they all hold each other. The places are in the order of
+/// Whether the bodies that touch at some places form a heap if they all hold each other. The places are in the order of
 /// their bodies.
 pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> bool {
     let (mut pairs, mut last) = (0, None);
@@ -63,7 +63,7 @@ pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> 
     pairs > PAIRS
 }
 
-/// All bodies that touch some, that touch these, and so on, in rising order; none if they are no heap.
+/// All bodies connected by touches to some bodies, in rising order; none if they are no heap.
 fn heap(bodies: &[usize], places: &[Arc<Closed>], model: &Model) -> Vec<usize> {
     if !is_heap(places) {
         return Vec::new();

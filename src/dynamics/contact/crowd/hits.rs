@@ -1,4 +1,4 @@
-//! What hits the crowd within a step: it is part of it from the beginning.
+//! Adds bodies that will hit the crowd within a step from the beginning.
 
 use super::super::super::{Model, State};
 use super::super::collider::Collider;
@@ -6,17 +6,17 @@ use super::super::nearest::nearest;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 
-/// A crowd with fewer bodies is struck by what hits it, at the exact time: that makes its motion anew, which costs little.
+/// A crowd with fewer bodies is hit at the exact time. Its motion is then computed again, at little cost.
 const FEW: usize = 6;
 
-/// Bodies can become faster within a step: they join where they could hit the crowd if they moved this many times as far as they do alone,
-/// and this part of their size.
+/// Impacts can make bodies faster within a step. They join if they could hit the crowd by moving this many times their
+/// free distance, plus this part of their size.
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.02;
 
 impl Collider {
-    /// What may hit the crowd within a step of `dt` (s) joins it, and what may hit this, and so on. So the motion of a large crowd is found once
-    /// in a step, and not anew after each hit.
+    /// Adds bodies that may hit the crowd within a step of `dt` (s), then bodies that may hit those, and so on. So the
+    /// motion of a large crowd is computed once in a step, not after each hit.
     pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
         if self.crowd.bodies.len() <= FEW {
             return;
@@ -59,7 +59,7 @@ impl Collider {
         }
     }
 
-    /// Whether two bodies are as near as they can move together, m.
+    /// Whether the distances that two bodies can move add up to their gap, m.
     fn can_meet(&self, pair: &Pair, model: &Model, state: &State, ways: &[f64]) -> bool {
         let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { return false };
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));

@@ -1,5 +1,5 @@
-//! Where the rim of a cylinder or a cone is nearest to an edge or another rim. There is no closed form: Newton's method finds the
-//! angle on the rim, to rounding.
+//! The nearest places of a cylinder's or cone's rim and an edge or another rim. There is no closed form: Newton's
+//! method finds the angle on the rim, to rounding.
 
 use std::f64::consts::TAU;
 
@@ -8,9 +8,9 @@ use glam::DVec3;
 use super::super::nearest::Nearest;
 use super::{PARALLEL, Spine, balls};
 
-/// Newton's method starts at the best of so many angles.
+/// The number of angles from which Newton's method takes the best as its start.
 const STARTS: u32 = 24;
-/// So many halvings make an interval as small as rounding.
+/// The number of halvings that shrink an interval to rounding.
 const STEPS: u32 = 60;
 
 /// The rim of a flat end.
@@ -30,7 +30,7 @@ impl Rim {
         cos * x + sin * self.axis.cross(x)
     }
 
-    /// The unit direction from the axis to a place. Any direction across the axis for a place on it.
+    /// The unit direction from the axis to a place; any direction across the axis if the place is on it.
     fn towards(&self, place: DVec3) -> DVec3 {
         let from = place - self.centre;
         let across = from - from.dot(self.axis) * self.axis;
@@ -38,7 +38,7 @@ impl Rim {
     }
 }
 
-/// Where a rim is nearest to an envelope of balls.
+/// The nearest places of a rim and an envelope of balls.
 pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     if spine.is_point() {
         let radial = rim.towards(spine.at);
@@ -91,7 +91,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     crossing(place, rim.axis.cross(radial), rim.axis + radial, foot, v, spine.outward, spine.radius)
 }
 
-/// Where two rims are nearest.
+/// The nearest places of two rims.
 pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
     let place_a = |angle: f64| a.centre + a.radius * a.radial(angle);
     let gap = |angle: f64| {
@@ -114,8 +114,8 @@ pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
     crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
 }
 
-/// Where two edges cross. Known are a place p on the first, its direction u, and a direction out of its body; for the second, q, v
-/// and `out_q`. The second edge may be round, with a radius.
+/// The crossing of two edges. The first has a place p, its direction u, and a direction out of its body; the second has
+/// q, v and `out_q`, and may be round, with a radius.
 fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, radius: f64) -> Nearest {
     let cross = u.cross(v);
     let sine = cross.length();
@@ -127,7 +127,7 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     Nearest { gap, normal, on: [p, q - radius * normal] }
 }
 
-/// The angle at which a function has its smallest minimum, to rounding. `derivatives` are the first and the second.
+/// The angle of a function's smallest minimum, to rounding. `derivatives` are the first and the second.
 ///
 /// Newton's method within an interval; a step that would leave it halves it instead.
 fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
