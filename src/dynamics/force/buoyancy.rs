@@ -5,26 +5,26 @@ use glam::DVec3;
 use super::super::{BodyId, Shape};
 use super::{Force, Loads, Moment};
 
-/// A liquid at rest below a surface carries each of some bodies by the weight of what it displaces: F = −ρ V g at the centre of the part of the
-/// body that is below the surface, whose volume is V.
+/// Buoyancy of some bodies in a liquid at rest: F = −ρ V g acts at the centre of the submerged part of a body, whose volume is V.
 ///
-/// The potential is ρ |g| ∫ (level − h) dV over that part, the energy with which the liquid has been lifted to its surface. The force and its
-/// torque about the centre of mass are minus its gradient. The surface stays flat, and at its level. Source: Archimedes, *On Floating
-/// Bodies* I, prop. 5 and 6; L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 2.
+/// The potential is ρ |g| ∫ (level − h) dV over that part: the energy that lifted the displaced liquid to its surface. The force and its
+/// torque about the centre of mass are minus the gradient of this potential. The surface stays flat, and its level stays the same.
+/// Source: Archimedes, *On Floating Bodies* I, prop. 5 and 6; L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Buoyancy {
-    /// The bodies it acts on, each with its shape; those that cannot be cut feel nothing.
+    /// The bodies it acts on, each with its shape. Shapes that cannot be cut feel nothing.
     pub bodies: Vec<(BodyId, Shape)>,
     /// The density ρ of the liquid, kg/m³.
     pub density: f64,
-    /// The height of its surface against gravity, from the origin, m.
+    /// The height of the liquid's surface above the origin, measured against gravity, m.
     pub level: f64,
     /// The acceleration g of gravity, m/s²; not zero.
     pub gravity: DVec3,
 }
 
 impl Buoyancy {
-    /// Shows what is below the surface of each body that is there: the body, the volume, and its moment about the centre of mass in world axes.
+    /// Calls `see` for each present body with the volume below the surface, and the moment of this volume about the centre of mass in
+    /// world axes.
     fn each(&self, moment: &Moment, mut see: impl FnMut(usize, f64, DVec3)) {
         let up = -self.gravity.normalize();
         for (body, shape) in &self.bodies {
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(loads(&force, &model, &state).force[0].length(), 0.0);
     }
 
-    /// The torque is minus the derivative of the potential by a small turn about each axis of the world.
+    /// The torque is minus the derivative of the potential by a small rotation about each world axis.
     #[test]
     fn force_and_torque_are_minus_the_gradient_of_the_potential() {
         const H: f64 = 1e-5;

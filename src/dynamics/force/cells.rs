@@ -1,32 +1,32 @@
-//! Which of many points are near each other, by cells.
+//! Sorts points into cells to find those that are near each other.
 
 use glam::DVec3;
 
-/// The most cells along an axis: three of these numbers fit into a key.
+/// The largest number of cells along an axis: three such numbers fit into a key.
 const MOST: f64 = 1_048_576.0;
-/// The bits of a key for each axis: one more, so that there are cells around all.
+/// The bits of a key for each axis. One bit more than needed leaves room for a border of cells on all sides.
 const BITS: u32 = 21;
 
-/// Points in the order of their cells, cubes whose edge is at least the reach. What is within reach of a point is then in its own cell or in
-/// one of the 26 around it. Along x, the cells of a row stand behind each other, so that three of them are one range.
+/// Points in the order of their cells. A cell is a cube whose edge is at least the reach. All points within reach of a point are in its
+/// own cell or in one of the 26 cells around it. Cells in a row along x follow each other, so three of them are one range.
 ///
-/// Only cells with points take memory, so that one point far away costs nothing. Time is linear in the number of points: keys are sorted
-/// digit by digit.
+/// Only cells with points take memory, so one point far away costs nothing. Time is linear in the number of points, because the keys are
+/// sorted digit by digit.
 #[derive(Debug, Default)]
 pub(super) struct Cells {
-    /// The points in their new order, coordinate by coordinate.
+    /// The sorted points, coordinate by coordinate.
     pub(super) at: [Vec<f64>; 3],
-    /// The number that each has among those that were given.
+    /// The number of each sorted point in the input.
     pub(super) number: Vec<u32>,
     keys: Vec<u64>,
     spare: (Vec<u64>, Vec<u32>),
 }
 
-/// The rows of cells that stand ahead of a cell's own: with its own, each pair of cells is seen once. By (y, z).
+/// The rows of cells ahead of a cell's own row, by (y, z). Together with its own row, they show each pair of cells once.
 const AHEAD: [(i64, i64); 4] = [(1, 0), (-1, 1), (0, 1), (1, 1)];
 
 impl Cells {
-    /// Sorts points into cells of a reach.
+    /// Sorts points into cells; `reach` is the least edge of a cell.
     #[allow(clippy::cast_possible_truncation, reason = "there are far fewer than 2^32 bodies")]
     pub(super) fn sort(&mut self, points: &[DVec3], reach: f64) {
         let finite = || points.iter().filter(|point| point.is_finite());
@@ -44,7 +44,7 @@ impl Cells {
         }
     }
 
-    /// Sorts the keys with their numbers, eleven bits at a time, from the last to the first. Points of one cell stay in their order.
+    /// Sorts the keys with their numbers, eleven bits at a time, from the lowest to the highest. Points of one cell keep their order.
     #[allow(clippy::cast_possible_truncation, reason = "a digit is small, and so is the number of points")]
     fn sort_keys(&mut self) {
         const DIGIT: u32 = 11;
@@ -72,11 +72,11 @@ impl Cells {
         }
     }
 
-    /// Shows each point with the ranges of those behind it, in its own row of cells and in the four ahead, among which is each that is within
-    /// reach. So each two points that are near are shown together once.
+    /// Calls `see` for each point with ranges of later points: those in its own row of cells and in the four rows ahead. The ranges
+    /// contain all later points within reach, so each pair of near points is shown once.
     pub(super) fn each(&self, mut see: impl FnMut(usize, std::ops::Range<usize>)) {
         let count = self.keys.len();
-        // How far each of the rows has been gone through: cells come in rising order, and so do those ahead of them.
+        // The progress in each row. Cells come in rising order, and so do the cells ahead of them.
         let mut from = [0; AHEAD.len()];
         let mut first = 0;
         while first < count {
@@ -102,7 +102,7 @@ impl Cells {
     }
 }
 
-/// The key of a cell: x counts least. Each coordinate begins at 1, so that its neighbours are no others.
+/// The key of a cell: x is the lowest part. Each coordinate begins at 1, so that the neighbours of a cell have valid keys of their own.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -136,7 +136,7 @@ mod tests {
         pairs
     }
 
-    /// A dense lump, one point far away, several at one place, and one that is nowhere.
+    /// A dense lump, one point far away, several points at one position, and one that is not finite.
     #[test]
     fn each_pair_within_reach_is_seen_once_and_no_other() {
         let part = |i: usize, k: f64| (i as f64 * k).fract();

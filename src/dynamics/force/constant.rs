@@ -7,8 +7,8 @@ use super::{Force, Loads, Moment};
 
 /// A constant force at the centre of mass, and a constant torque, on each of some bodies.
 ///
-/// The force has the potential −F·x. The torque has none (turning once round and back to the same orientation, it has
-/// done work), so its power τ·ω is counted.
+/// The force has the potential −F·x. The torque has none, since it does work in a full rotation back to the same orientation. So its
+/// power τ·ω is counted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstantForce {
     /// The bodies it acts on.
@@ -30,7 +30,7 @@ impl Force for ConstantForce {
     }
 
     fn is_local(&self) -> bool {
-        // A torque does work, which is counted as it is done.
+        // The work of a torque is counted as it is done.
         self.torque == DVec3::ZERO
     }
 

@@ -4,16 +4,16 @@ use super::super::BodyId;
 use super::pairs::{self, Pairs};
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other where their charges
-/// have different signs; the potential is k q₁ q₂ / √(r² + ε²).
+/// Each two of some bodies repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if their charges have different
+/// signs. The potential is k q₁ q₂ / √(r² + ε²).
 ///
-/// A body that does not move acts on the others all the same. No magnetic forces between moving charges: this is the
-/// law for velocities far below that of light. Source: J. D. Jackson, *Classical Electrodynamics*, 1.1.
+/// A fixed body acts on the others as well. Moving charges exert no magnetic forces: this law holds for velocities far below that of
+/// light. Source: J. D. Jackson, *Classical Electrodynamics*, 1.1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coulomb {
     /// The bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
     pub against: Option<Vec<BodyId>>,
     /// The constant k = 1/4πε₀, N m²/C².
     pub constant: f64,

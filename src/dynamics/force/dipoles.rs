@@ -1,4 +1,4 @@
-//! Magnets, small against their distance.
+//! Magnets that are small compared to their distances.
 
 use glam::DVec3;
 
@@ -6,22 +6,22 @@ use super::super::BodyId;
 use super::pairs;
 use super::{Force, Loads, Moment};
 
-/// Magnetic dipoles on bodies, which turn with them, in the fields of each other and in one that is the same everywhere.
+/// Magnetic dipoles that rotate with their bodies, in the fields of each other and in a uniform field.
 ///
-/// The field of a dipole m at a place d = r n from it is B = k (3 (m·n) n − m)/r³ with k = μ₀/4π; the energy of another in it is −m·B. So on the
-/// first of two, with d from the second to the first,
+/// At a distance d = r n, the field of a dipole m is B = k (3 (m·n) n − m)/r³ with k = μ₀/4π; another dipole has the energy −m·B in it.
+/// With d from the second dipole to the first, the first feels
 ///
 /// F = 3k/r⁴ ((m₁·n) m₂ + (m₂·n) m₁ + (m₁·m₂) n − 5 (m₁·n)(m₂·n) n), τ = m₁ × B.
 ///
-/// The torques on both and the couple d × F add up to zero. In the uniform field B₀, each has the energy −m·B₀. Source: J. D. Jackson,
-/// *Classical Electrodynamics*, 5.6 and 5.7.
+/// The torques on both and the couple d × F add up to zero. In the uniform field B₀, each dipole has the energy −m·B₀. Source: J. D.
+/// Jackson, *Classical Electrodynamics*, 5.6 and 5.7.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dipoles {
     /// The bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
     pub against: Option<Vec<BodyId>>,
-    /// The magnetic moment of each of the bodies, then of those of the other group, in the body's own axes, A m².
+    /// The magnetic moment of each body in its own axes, first group first, A m².
     pub moments: Vec<DVec3>,
     /// The constant k = μ₀/4π, N/A².
     pub constant: f64,
@@ -29,7 +29,7 @@ pub struct Dipoles {
     pub field: DVec3,
 }
 
-/// A dipole as it stands now.
+/// A dipole at one moment.
 struct Dipole {
     body: usize,
     at: DVec3,
@@ -42,7 +42,7 @@ impl Dipoles {
     /// μ₀/4π, N/A². Source: CODATA 2022.
     pub const CONSTANT: f64 = 9.999_999_998_7e-8;
 
-    /// The dipoles that are there, and how many of them are of the first group.
+    /// The present dipoles, and how many of them belong to the first group.
     fn present(&self, moment: &Moment) -> (Vec<Dipole>, usize) {
         let model = moment.model;
         let all = self.bodies.iter().chain(self.against.iter().flatten()).zip(&self.moments);
@@ -64,7 +64,7 @@ impl Dipoles {
         (dipoles, first)
     }
 
-    /// Shows each pair of which one at least can move.
+    /// Calls `see` for each pair in which at least one body can move.
     fn each_pair(&self, dipoles: &[Dipole], first: usize, mut see: impl FnMut(&Dipole, &Dipole)) {
         for (number, one) in dipoles[..first].iter().enumerate() {
             let others = if self.against.is_some() { &dipoles[first..] } else { &dipoles[number + 1..] };
@@ -137,7 +137,7 @@ mod tests {
         Dipoles { bodies, against: None, moments: moments.to_vec(), constant: 2.0, field: DVec3::ZERO }
     }
 
-    /// One behind the other, two attract with 6 k m₁ m₂/r⁴; side by side, they repel with half of it.
+    /// In line, two magnets attract each other with 6 k m₁ m₂/r⁴; side by side, they repel each other with half of that.
     #[test]
     fn two_magnets_by_hand() {
         let (model, state) = bodies(&[(DVec3::ZERO, DVec3::ZERO), (2.0 * DVec3::X, DVec3::ZERO)]);
@@ -149,7 +149,7 @@ mod tests {
             assert_eq!(loads.force[0], -loads.force[1]);
             assert!(loads.torque.iter().all(|torque| *torque == DVec3::ZERO));
         }
-        // Across: k m₁ m₂/r³ turns one, and twice that the other.
+        // At right angles, the torque on one is k m₁ m₂/r³, and twice that on the other.
         let given = loads(&dipoles(&[DVec3::X, DVec3::Y]), &model, &state);
         assert!(
             given.torque[0].abs_diff_eq(-0.25 * DVec3::Z, 1e-15)

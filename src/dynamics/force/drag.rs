@@ -7,9 +7,9 @@ use super::{Force, Loads, Moment};
 
 /// Drag on each of some bodies, F = −(c₁ + c₂ |u|) u, where u = v − w is the velocity relative to the fluid.
 ///
-/// The linear part is that of slow and small bodies (Stokes: c₁ = 6π η r for a sphere), the quadratic one that of fast
-/// and large ones (Newton: c₂ = ½ ρ C A, with the density ρ of the fluid, the drag coefficient C and the cross-section
-/// A). Source: L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 20 and § 45.
+/// The linear part is for slow and small bodies (Stokes: c₁ = 6π η r for a sphere). The quadratic part is for fast and large ones
+/// (Newton: c₂ = ½ ρ C A, with the density ρ of the fluid, the drag coefficient C and the cross-section A). Source: L. D. Landau & E. M.
+/// Lifshitz, *Fluid Mechanics*, § 20 and § 45.
 ///
 /// Drag has no potential; its power F·v is counted. In a wind it may be positive: the fluid does work on the body.
 #[derive(Debug, Clone, PartialEq)]

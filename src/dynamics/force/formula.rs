@@ -1,4 +1,4 @@
-//! A force by formulas.
+//! A force given by formulas.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -10,28 +10,28 @@ use glam::DVec3;
 use super::super::{BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
-/// As many bodies as a [`ForceLaw`] is asked about at once, at most.
+/// The largest number of bodies that a [`ForceLaw`] is asked about at once.
 pub const FORCE_BLOCK: usize = 64;
 
-/// The law of a force that depends only on a body's place, motion, mass and charge, and on the time.
+/// The law of a force that depends only on a body's position, velocity, mass and charge, and on the time.
 pub trait ForceLaw: Debug + Send + Sync {
-    /// Writes the force on each of at most [`FORCE_BLOCK`] bodies, N; `at_rest`: as if their velocities were zero.
+    /// Writes the force on each of at most [`FORCE_BLOCK`] bodies, N. With `at_rest`, their velocities count as zero.
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]);
 
-    /// Writes the potential energy of each of at most [`FORCE_BLOCK`] bodies, J; 0 where there is no potential.
+    /// Writes the potential energy of each of at most [`FORCE_BLOCK`] bodies, J; 0 without a potential.
     fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]);
 
-    /// Whether the force on a body at rest is −∂U/∂x of a potential.
+    /// Whether the force on a body at rest is −∂U/∂x for a potential U.
     fn has_potential(&self) -> bool;
 
     /// Whether the force depends on velocities.
     fn depends_on_velocity(&self) -> bool;
 }
 
-/// A force on each of some bodies by a [`ForceLaw`], F(x, v, t).
+/// A force F(x, v, t) on each of some bodies, given by a [`ForceLaw`].
 ///
-/// A law with a potential U has F(x, 0, t) = −∂U/∂x. The work of what the velocity adds to that, F(x, v, t) − F(x, 0, t), is
-/// counted; without a potential, the work of the whole force.
+/// A law with a potential U has F(x, 0, t) = −∂U/∂x. The velocity adds F(x, v, t) − F(x, 0, t), and the work of this part is counted.
+/// Without a potential, the work of the whole force is counted.
 #[derive(Debug)]
 pub struct FormulaForce {
     bodies: Vec<BodyId>,
@@ -39,20 +39,20 @@ pub struct FormulaForce {
     failure: Failure,
 }
 
-/// The place at which a law has no finite value.
+/// The position at which a law has no finite value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Undefined {
-    /// The body that has no force.
+    /// The body for which the force is undefined.
     pub body: BodyId,
     /// The time, s.
     pub time: f64,
-    /// The place of the body, m.
+    /// The position of the body, m.
     pub location: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
 }
 
-/// The last place without a value. A run that comes to a value there after all, in a shorter step, goes on.
+/// The last failure. A run continues if a shorter step gives a finite value.
 #[derive(Debug, Default)]
 struct Failure {
     is_there: AtomicBool,
@@ -66,7 +66,7 @@ impl FormulaForce {
         FormulaForce { bodies, law, failure: Failure::default() }
     }
 
-    /// Shows the forces on all bodies that are there, block by block; the second are those at rest, where they count.
+    /// Calls `see` with the forces on all present bodies, block by block. The second list is the forces at rest, if they are needed.
     fn each_block(&self, moment: &Moment, mut see: impl FnMut(&[BodyId], &[DVec3], Option<&[DVec3]>)) {
         let (mut force, mut rest) = ([DVec3::ZERO; FORCE_BLOCK], [DVec3::ZERO; FORCE_BLOCK]);
         let has_rest = self.law.has_potential() && self.law.depends_on_velocity();
@@ -88,7 +88,7 @@ impl Force for FormulaForce {
         let mut power = 0.0;
         self.each_block(moment, |bodies, force, rest| {
             match (in_a_row(bodies), rest) {
-                // Most often: no body has to be looked up.
+                // The most common case: no body has to be looked up.
                 (Some(row), None) => {
                     let all = loads.force[row.clone()].iter_mut().zip(force);
                     all.for_each(|(sum, force)| *sum += *force);
@@ -143,20 +143,19 @@ impl Force for FormulaForce {
     }
 }
 
-/// The numbers of bodies that follow each other without a gap.
+/// The range of bodies whose numbers are consecutive; otherwise `None`.
 #[inline]
 pub fn in_a_row(bodies: &[BodyId]) -> Option<Range<usize>> {
     let first = bodies.first()?.index();
-    // Without a way out in the middle: that is quicker.
+    // A loop without an early exit is faster.
     let off = bodies.iter().zip(first..).fold(0, |off, (body, i)| off | body.index() ^ i);
     (off == 0).then(|| first..first + bodies.len())
 }
 
 impl Failure {
-    /// Notes the first of some bodies that has no force where it has a place and a velocity.
+    /// Notes the first body that has no finite force although its position and velocity are finite.
     fn look(&self, bodies: &[BodyId], force: &[DVec3], moment: &Moment) {
-        // 0 · ∞ is not a number, and neither is a sum with one.
-        // Four sums, so that none waits for the other.
+        // 0 · ∞ is NaN, and so is any sum with NaN. Four independent sums run in parallel.
         let mut sums = [DVec3::ZERO; 4];
         let (fours, others) = force.as_chunks::<4>();
         for four in fours {
@@ -243,7 +242,7 @@ mod tests {
         }
     }
 
-    /// More bodies than a block has; one that cannot move has no share of the potential.
+    /// More bodies than fit into one block. A fixed body has no share of the potential.
     #[test]
     fn many_bodies_and_a_potential() {
         let located: Vec<_> = (0..150).map(|i| (DVec3::X * (f64::from(i) * 0.01 - 0.7), DVec3::Y)).collect();
@@ -266,7 +265,7 @@ mod tests {
         loads(&force, &model, &state);
         let found = force.undefined().unwrap();
         assert_eq!((found.body, found.location), (BodyId::new(1), 1e200 * DVec3::X));
-        // Values that follow from it are not the cause.
+        // A non-finite position is not the cause: it is a result of the undefined force.
         state.location[1].x = f64::NAN;
         loads(&force, &model, &state);
         assert_eq!(force.undefined(), Some(found));

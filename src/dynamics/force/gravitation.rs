@@ -5,24 +5,25 @@ use super::pairs::{self, Pairs};
 use super::tree::ByTree;
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2); the potential is −G m₁ m₂ / √(r² + ε²).
+/// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ / √(r² + ε²).
 ///
-/// A body that does not move attracts the others all the same. Source: I. Newton, *Principia* III, prop. 7; for the
-/// softening ε, H. C. Plummer, Mon. Not. R. Astron. Soc. 71 (1911) 460.
+/// A fixed body attracts the others as well. Source: I. Newton, *Principia* III, prop. 7; for the softening ε, H. C. Plummer, Mon. Not.
+/// R. Astron. Soc. 71 (1911) 460.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gravitation {
     /// The bodies that attract each other.
     pub bodies: Vec<BodyId>,
-    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
     pub against: Option<Vec<BodyId>>,
     /// The constant G, m³/(kg s²).
     pub constant: f64,
     /// The softening length ε, m.
     pub softening: f64,
-    /// The largest size over distance at which bodies act together, by a tree: above 0, up to 1. Without it, the sum is over all pairs.
+    /// The opening angle of the tree: the largest ratio of size to distance at which a group of bodies acts as a whole, above 0 and up to
+    /// 1. `None` sums over all pairs.
     ///
-    /// The tree's forces are not exactly opposite, and not exactly the gradient of its potential: momentum and energy drift by
-    /// about as much as the forces are wrong, 4e-4 at an angle of 0.5.
+    /// The forces of the tree are not exactly opposite, and not exactly the gradient of its potential. So momentum and energy drift by
+    /// about the error of the forces, 4e-4 at an angle of 0.5.
     pub opening_angle: Option<f64>,
 }
 
@@ -41,12 +42,12 @@ impl Gravitation {
         }
     }
 
-    /// The same sums by trees.
+    /// The same sums, by trees.
     fn by_tree<'a>(&'a self, angle: f64, moment: &Moment<'a>) -> ByTree<'a> {
         ByTree { pairs: self.of(moment), angle, each: self.interactions(angle) }
     }
 
-    /// About how many interactions each body takes with a tree.
+    /// The approximate number of interactions for each body with a tree.
     fn interactions(&self, angle: f64) -> u64 {
         let most = self.bodies.len().max(self.against.as_ref().map_or(0, Vec::len)) as u64;
         // Measured: 1,500 for 100,000 bodies at 0.5.
@@ -131,8 +132,8 @@ mod tests {
         }
     }
 
-    /// Tiles hold 128 bodies: fewer, two that are full, one that is not behind those. Each sum of n terms is rounded
-    /// by n · 1e-16 of the sum of their magnitudes.
+    /// Tiles hold 128 bodies. The counts give a part of a tile, two full tiles, and one body more. The rounding error of a sum of n terms
+    /// is n · 1e-16 of the sum of their magnitudes.
     #[test]
     fn any_number_of_bodies_is_the_plain_double_sum() {
         for count in [1, 5, 128, 129, 300] {

@@ -1,4 +1,4 @@
-//! The same gravity everywhere, as near the surface of a planet.
+//! Uniform gravity, as near the surface of a planet.
 
 use std::ops::Range;
 

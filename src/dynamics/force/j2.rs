@@ -5,22 +5,22 @@ use glam::DVec3;
 use super::super::BodyId;
 use super::{Force, Loads, Moment};
 
-/// The gravity of a planet's flattening on some bodies: the potential
+/// The gravity of an oblate planet's bulge on some bodies. Its potential is
 ///
 /// U = G M m J₂ R² (3 (d·a)²/r² − 1) / (2 r³), with d from the planet to the body, r its length, and a the planet's axis.
 ///
-/// It does not hold the attraction −G M m/r of a round planet, which is [`Gravitation`](super::Gravitation). The planet gets the opposite
-/// force, and a torque that keeps the angular momentum of both. Source: D. Brouwer & G. M. Clemence, *Methods of Celestial Mechanics*, ch.
-/// III.
+/// This excludes the attraction −G M m/r of a round planet, which is [`Gravitation`](super::Gravitation). The planet gets the opposite
+/// force, and a torque that conserves the angular momentum of both. Source: D. Brouwer & G. M. Clemence, *Methods of Celestial
+/// Mechanics*, ch. III.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
     /// The planet.
     pub planet: BodyId,
-    /// The bodies it acts on, and which act on it; none of them is the planet.
+    /// The bodies it acts on, and which act on the planet. The planet is not one of them.
     pub bodies: Vec<BodyId>,
-    /// The coefficient J₂, without unit; positive for a planet that is flat at its poles.
+    /// The dimensionless coefficient J₂; positive for an oblate planet.
     pub j2: f64,
-    /// The radius R of the equator to which J₂ belongs, m.
+    /// The equatorial radius R that belongs to J₂, m.
     pub radius: f64,
     /// The axis of the planet in its own axes, a unit vector.
     pub axis: DVec3,
@@ -29,7 +29,8 @@ pub struct J2 {
 }
 
 impl J2 {
-    /// Shows each body that is there, if the planet is: the body, what leads to it from the planet, the planet's axis, and 3/2 G M m J₂ R².
+    /// If the planet is present, calls `see` for each present body with the vector from the planet to it, the planet's axis, and 3/2 G M
+    /// m J₂ R².
     fn each(&self, moment: &Moment, mut see: impl FnMut(usize, DVec3, DVec3, f64)) {
         let (model, state, planet) = (moment.model, moment.state, self.planet.index());
         if !model.is_present(planet) {
@@ -85,7 +86,7 @@ mod tests {
         J2 { planet: BodyId::new(0), bodies, j2: 0.3, radius: 0.8, axis: DVec3::Y, constant: 2.0 }
     }
 
-    /// Above the equator, the pull is larger by 3/2 J₂ (R/r)² of G M m/r²; above a pole, smaller by twice that.
+    /// Above the equator, the attraction is larger by 3/2 J₂ (R/r)² of G M m/r²; above a pole, it is smaller by twice that.
     #[test]
     fn at_the_equator_and_at_a_pole() {
         let (model, state) = bodies(&[

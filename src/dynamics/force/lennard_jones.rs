@@ -9,20 +9,20 @@ use super::super::BodyId;
 use super::cells::Cells;
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
-/// u = 4ε ((σ/r)¹² − (σ/r)⁶): they repel each other below 2^(1/6) σ, and attract each other beyond.
+/// Each two of some bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with u = 4ε ((σ/r)¹² − (σ/r)⁶).
+/// They repel each other below 2^(1/6) σ, and attract each other beyond.
 ///
-/// It is cut off, so that time is linear in the number of bodies, and shifted, so that it has no step there: a step would not be in the
-/// force, and the energy would not balance. The force still has one, of 0.039 ε/σ at the usual 2.5 σ. `smooth` shifts the force as well,
-/// U(r) = u(r) − u(r_c) − (r − r_c) u′(r_c): then methods keep their order across the cutoff. Source: M. P. Allen & D. J. Tildesley,
-/// *Computer Simulation of Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
+/// The cutoff makes the time linear in the number of bodies. The shift −u(r_c) makes the potential continuous there, so that the energy
+/// balances. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. `smooth` shifts the force as well, U(r) = u(r) − u(r_c) −
+/// (r − r_c) u′(r_c), so that methods keep their order across the cutoff. Source: M. P. Allen & D. J. Tildesley, *Computer Simulation of
+/// Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
 ///
-/// The sums run in an order that depends on the places alone.
+/// The order of the sums depends on the positions alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LennardJones {
     /// The bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// The bodies of another group, none of which is one of those: then each acts on those of the other group alone.
+    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
     pub against: Option<Vec<BodyId>>,
     /// The depth ε of the potential, J.
     pub epsilon: f64,
@@ -30,11 +30,11 @@ pub struct LennardJones {
     pub sigma: f64,
     /// The distance beyond which there is no force, m.
     pub cutoff: f64,
-    /// Whether the force, too, falls to 0 at the cutoff.
+    /// Whether the force also falls to 0 at the cutoff.
     pub smooth: bool,
 }
 
-/// Working memory of an evaluation. It is kept, so that a run allocates nothing.
+/// Working memory of an evaluation. It is reused, so that a run allocates nothing.
 #[derive(Debug, Default)]
 struct Room {
     sorted: Sorted,
@@ -42,7 +42,7 @@ struct Room {
     force: [Vec<f64>; 3],
 }
 
-/// The bodies that are there, those of the second group behind those of the first, and what is known of them in the order of cells.
+/// The present bodies with their properties, in the order of cells. Before sorting, the second group follows the first.
 #[derive(Debug, Default)]
 struct Sorted {
     bodies: Vec<BodyId>,
@@ -52,18 +52,18 @@ struct Sorted {
     movable: Vec<bool>,
     /// Whether there are two groups.
     has_groups: bool,
-    /// Whether not each pair counts: there are two groups, or some cannot move.
+    /// Whether some pairs do not count: there are two groups, or some bodies cannot move.
     is_mixed: bool,
 }
 
-/// Evaluations of several forces, or of clones of one, do not wait for each other: whoever finds no room makes some.
+/// Rooms that are not in use. Evaluations never wait for each other: if none is free, a new one is made.
 static ROOMS: Mutex<Vec<Room>> = Mutex::new(Vec::new());
 
 impl LennardJones {
-    /// The cutoff in units of σ that is usual.
+    /// The usual cutoff in units of σ.
     pub const CUTOFF: f64 = 2.5;
 
-    /// u = 4ε ((σ/r)¹² − (σ/r)⁶) and −u′/r at a distance whose square is given.
+    /// u = 4ε ((σ/r)¹² − (σ/r)⁶) and −u′/r, where `square` is r².
     #[inline(always)]
     fn pure(&self, square: f64) -> (f64, f64) {
         let inverse = 1.0 / square;
@@ -73,13 +73,13 @@ impl LennardJones {
         (potential, 24.0 * self.epsilon * inverse * six * (2.0 * six - 1.0))
     }
 
-    /// The potential that is taken off everywhere, and the force −u′(r_c) that is taken off if it is smooth.
+    /// The constant that is subtracted from the potential, and the force −u′(r_c) that is subtracted if it is smooth.
     fn shifts(&self) -> (f64, f64) {
         let (potential, push) = self.pure(self.cutoff * self.cutoff);
         (potential, if self.smooth { push * self.cutoff } else { 0.0 })
     }
 
-    /// Sorts the bodies that are there, and does something with them.
+    /// Sorts the present bodies, and passes them to `work`.
     fn with_room<T>(&self, moment: &Moment, work: impl FnOnce(&mut Room) -> T) -> T {
         let taken = ROOMS.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut room = taken.unwrap_or_default();
@@ -89,8 +89,8 @@ impl LennardJones {
         done
     }
 
-    /// Shows each two bodies that act on each other: their numbers in the order of cells, and what leads from the second to the first, with its
-    /// square. `begin` and `end` frame those of one body.
+    /// Calls `see` for each two interacting bodies with their numbers in the order of cells, the vector from the second to the first, and
+    /// its square. `begin` and `end` enclose the pairs of one body.
     #[inline]
     fn each_pair<S>(
         &self,
@@ -137,7 +137,7 @@ impl Sorted {
         self.has_groups = force.against.is_some();
     }
 
-    /// Whether two bodies do not interact: they belong to one of two groups, or neither can move.
+    /// Whether two bodies do not interact: they belong to the same one of two groups, or neither can move.
     fn is_no_pair(&self, one: usize, other: usize) -> bool {
         self.has_groups && self.is_second[one] == self.is_second[other]
             || !self.movable[one] && !self.movable[other]
@@ -241,7 +241,7 @@ mod tests {
         assert!(step > 1e-3 && none < 1e-8, "{step} {none}");
     }
 
-    /// Compares with the sum over all pairs, in the order of bodies. Between two groups, only pairs of different groups count.
+    /// Compares with the sum over all pairs, in the order of bodies. With two groups, only pairs across them count.
     #[test]
     fn cells_give_the_plain_double_sum() {
         let at = |i: usize, k: f64| (i as f64 * k).fract() * 9.0;

@@ -7,8 +7,8 @@ use super::{Force, Loads, Moment};
 
 /// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are the same everywhere.
 ///
-/// The electric field has the potential −q E·x; the magnetic force is perpendicular to the velocity, and does no work.
-/// Source: J. D. Jackson, *Classical Electrodynamics*, 6.7 and 12.2 (for velocities far below that of light).
+/// The electric field has the potential −q E·x. The magnetic force is perpendicular to the velocity, and does no work. Source: J. D.
+/// Jackson, *Classical Electrodynamics*, 6.7 and 12.2 (for velocities far below that of light).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lorentz {
     /// The bodies it acts on.

@@ -33,7 +33,7 @@ use std::ops::Range;
 
 use super::{Loads, Model, State, WorkAccount};
 
-/// All that a force may look at.
+/// All data that a force may use.
 #[derive(Clone, Copy)]
 pub struct Moment<'a> {
     /// Time, s.
@@ -44,65 +44,64 @@ pub struct Moment<'a> {
     pub model: &'a Model,
 }
 
-/// A force, or anything else that pushes and turns bodies.
+/// A force, or anything else that pushes or rotates bodies.
 ///
-/// A new kind of force is one type with this trait, anywhere: the world does not know which kinds there are.
+/// A new kind of force is one type with this trait. It can be defined anywhere, since the world does not know the kinds.
 pub trait Force: Send + Sync {
     /// Adds the forces and torques at this moment to `loads`.
     ///
-    /// A force without a potential (or the part of one that has none) adds its power, F·v + τ·ω, to `loads.power.work`
-    /// as well. Loads on a body that does not move are dropped afterwards.
+    /// A force that has no potential, or only for a part, adds the power of the rest, F·v + τ·ω, to `loads.power.work`. Loads on fixed
+    /// bodies are dropped afterwards.
     fn apply(&self, moment: &Moment, loads: &mut Loads);
 
     /// The potential energy, J; 0 for a force that has none.
     ///
-    /// The share of a body that does not move is left out where it is a constant.
+    /// The share of a fixed body is left out if it is constant.
     fn potential(&self, moment: &Moment) -> f64;
 
-    /// The account for the work of the part that has no potential. `None` if there is no such part.
+    /// The account for the work of the part without a potential. `None` if there is no such part.
     fn work_account(&self) -> Option<WorkAccount> {
         None
     }
 
-    /// Adds the part of the forces and torques that has no potential, with its power, as [`apply`](Self::apply) adds all. It is called
-    /// only if there is a [`work_account`](Self::work_account). The default adds all.
+    /// Adds the part of the forces and torques without a potential, and its power. It is called only if there is a
+    /// [`work_account`](Self::work_account). The default calls [`apply`](Self::apply).
     fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) {
         self.apply(moment, loads);
     }
 
-    /// Adds the forces on the bodies of a range alone, as [`apply`](Self::apply) does for all; only a force that is
-    /// [local](Self::is_local) can. The default does nothing and answers false: such a force is always evaluated as a whole.
+    /// Adds the forces on a range of bodies only. Only a [local](Self::is_local) force can do this. The default does nothing and returns
+    /// false; such a force is always evaluated as a whole.
     fn apply_to(&self, _bodies: Range<usize>, _moment: &Moment, _loads: &mut Loads) -> bool {
         false
     }
 
-    /// Whether what it does to a body depends on no other body, and has a potential: bodies that do not meet can then be advanced one
-    /// after another.
+    /// Whether the force has a potential and depends on no other body. Bodies that do not meet can then be advanced one after another.
     fn is_local(&self) -> bool {
         false
     }
 
-    /// Whether the force depends on velocities, or does work that no potential gives back.
+    /// Whether the force depends on velocities, or does work without a potential.
     fn depends_on_motion(&self) -> bool {
         true
     }
 
-    /// Whether it can turn bodies, or depends on how they are turned.
+    /// Whether the force can rotate bodies, or depends on their orientations.
     fn turns_bodies(&self) -> bool {
         true
     }
 
-    /// It itself, if it is Newton's: for a method that moves bodies along their orbits.
+    /// This force as Newton's gravitation, if it is that. Methods that move bodies along orbits need it.
     fn gravitation(&self) -> Option<&Gravitation> {
         None
     }
 
-    /// The number of pairs of bodies that an evaluation looks at, where that number is what takes the time.
+    /// The number of pairs of bodies in an evaluation, if it determines the time.
     fn pairs(&self) -> u64 {
         0
     }
 
-    /// The place at which the last evaluation had no finite value. `None` for a force that is finite everywhere.
+    /// The position at which the last evaluation had no finite value. `None` for a force that is finite everywhere.
     fn undefined(&self) -> Option<Undefined> {
         None
     }

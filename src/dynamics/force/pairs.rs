@@ -1,32 +1,32 @@
-//! Forces between all pairs of bodies that fall with the square of their distance.
+//! Inverse-square forces between all pairs of bodies.
 
 use glam::DVec3;
 
 use super::super::BodyId;
 use super::{Loads, Moment};
 
-/// The bodies in one tile: two tiles and their sums fit into the first-level cache, and lie on the stack.
+/// The bodies in one tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
 const TILE: usize = 128;
-/// Up to this many bodies, tiles do not pay off: making one takes as long as visiting all pairs.
+/// Up to this many bodies, tiles do not pay off: copying one takes as long as visiting all pairs.
 const FEW: usize = 16;
-/// As many interactions side by side as give the compiler something to vectorise.
+/// The number of interactions side by side, for the compiler to vectorise.
 const LANES: usize = 4;
 
 /// The force and the potential of all pairs of some bodies:
 ///
 /// Fᵢⱼ = c sᵢ sⱼ d / (d² + ε²)^(3/2) on i, with d = xᵢ − xⱼ; Uᵢⱼ = c sᵢ sⱼ / √(d² + ε²).
 ///
-/// c > 0 repels what has equal signs, c < 0 attracts it. The softening ε (Plummer's) makes of a point a small cloud, so
-/// that close encounters stay harmless. Source: S. J. Aarseth, *Gravitational N-Body Simulations* (2003), 1.2.
+/// c > 0 repels equal signs, c < 0 attracts them. The softening ε (Plummer's) replaces a point by a small cloud, so that close encounters
+/// stay harmless. Source: S. J. Aarseth, *Gravitational N-Body Simulations* (2003), 1.2.
 ///
-/// Every pair is looked at once, and what one body gets the other loses. Bodies that are not there are
-/// left out: two of them may be at one place. The sums run over tiles of bodies that are copied coordinate by coordinate;
-/// their order depends on nothing but the number of bodies.
+/// Every pair is visited once, and adds opposite forces to its two bodies. Absent bodies are left out, since two of them may be at the
+/// same position. The sums run over tiles, which hold copies of bodies, coordinate by coordinate. Their order depends on the number of
+/// bodies alone.
 #[derive(Clone, Copy)]
 pub(super) struct Pairs<'a> {
     /// The bodies that act on each other.
     pub(super) bodies: &'a [BodyId],
-    /// The bodies of another group: then those of one act on those of the other, and not among themselves.
+    /// A second group of bodies. With it, bodies act only on those of the other group.
     pub(super) against: Option<&'a [BodyId]>,
     /// s of every body of the world.
     pub(super) strength: &'a [f64],
@@ -36,7 +36,7 @@ pub(super) struct Pairs<'a> {
     pub(super) softening: f64,
 }
 
-/// The number of pairs within some bodies, or between them and those of another group.
+/// The number of pairs within some bodies, or between two groups.
 pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
     let count = bodies.len() as u64;
     match against {
@@ -66,7 +66,7 @@ impl Pairs<'_> {
         });
     }
 
-    /// The same for few bodies: the same sums in the same order.
+    /// Like [`apply`](Self::apply) for few bodies: the same sums in the same order.
     fn apply_to_few(&self, moment: &Moment, loads: &mut Loads) {
         let (bodies, places) = (moment.model.present(self.bodies), moment.state.location.as_slice());
         let softening = self.softening * self.softening;
@@ -89,7 +89,7 @@ impl Pairs<'_> {
         }
     }
 
-    /// The potential of all pairs of which at least one body can move.
+    /// The potential of all pairs in which at least one body can move.
     pub(super) fn potential(&self, moment: &Moment) -> f64 {
         let softening = self.softening * self.softening;
         let mut sum = 0.0;
@@ -102,8 +102,8 @@ impl Pairs<'_> {
         self.constant * sum
     }
 
-    /// Shows every tile alone, then with each of those behind it; of two groups, every tile with each of the other group.
-    /// The flag says that it is shown for the last time.
+    /// Calls `see` for every tile alone, then with each later tile; with two groups, for every tile with each tile of the other group.
+    /// The flag marks the last call with the first tile.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
         let effort = moment.model.effort();
         let bodies = moment.model.present(self.bodies);
@@ -180,7 +180,7 @@ impl Tile<'_> {
 
     /// All pairs of one body here and one there.
     fn attract(&mut self, other: &mut Tile<'_>, softening: f64) {
-        // The number of lanes of full tiles is known beforehand. Only where there are two groups, one may be not full.
+        // The compiler knows the number of lanes of full tiles. A tile here can be partly filled only if there are two groups.
         let full = if self.len() == TILE { TILE } else { 0 };
         for j in 0..other.len() {
             let (at, strength) = (other.at.map(|at| at[j]), other.strength[j]);
@@ -199,7 +199,7 @@ impl Tile<'_> {
         }
     }
 
-    /// The pairs of bodies `i`, `i + 1`, … with a body elsewhere, which gets `back`.
+    /// The pairs of bodies `i`, `i + 1`, … with a body of another tile. `back` receives the sum for that body.
     #[inline(always)]
     fn attract_lanes<const N: usize>(
         &mut self,
@@ -258,14 +258,14 @@ impl Tile<'_> {
         sum
     }
 
-    /// Σ sᵢ / √(d² + ε²) over the first bodies of the tile, at a place.
+    /// Σ sᵢ / √(d² + ε²) over the first bodies of the tile, at the position `at`.
     #[inline(always)]
     fn potential_of(&self, at: [f64; 3], movable: bool, bodies: usize, softening: f64) -> f64 {
         let mut lanes = [0.0; LANES];
         for i in 0..bodies {
             let d = [self.at[0][i] - at[0], self.at[1][i] - at[1], self.at[2][i] - at[2]];
             let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + softening;
-            // Two bodies that cannot move may well be at the same place.
+            // Two fixed bodies may be at the same position.
             lanes[i % LANES] +=
                 if movable || self.movable[i] { self.strength[i] / square.sqrt() } else { 0.0 };
         }

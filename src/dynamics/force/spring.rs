@@ -1,4 +1,4 @@
-//! A spring with a damper beside it.
+//! A spring and a damper in parallel.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use super::{Force, Loads, Moment};
 struct End {
     /// Where it is, m.
     location: DVec3,
-    /// The way to it from the centre of mass of its body, m.
+    /// The vector from its body's centre of mass to it, m.
     arm: DVec3,
 }
 
@@ -18,7 +18,7 @@ impl End {
         match anchor {
             Anchor::Body { id, at } => {
                 let (i, Moment { state, model, .. }) = (id.index(), moment);
-                // The state has the orientation of the principal axes.
+                // The state holds the orientation of the principal axes.
                 let from_body = || state.orientation[i] * (model.principal_axes(i).conjugate() * at);
                 let arm = if at == DVec3::ZERO { at } else { from_body() };
                 End { location: state.location[i] + arm, arm }
@@ -38,16 +38,15 @@ impl End {
     }
 }
 
-/// A linear spring and a linear damper, side by side between two anchors (a Kelvin–Voigt element).
+/// A linear spring and a linear damper, in parallel between two anchors (a Kelvin–Voigt element).
 ///
-/// With d the vector from one end to the other, ℓ its length and u = d/ℓ, they pull the ends together with
-/// k (ℓ − ℓ₀) + c ℓ' along u. Where an anchor is off the centre of mass, the force F there turns its body: with the
-/// arm r from the centre, it has the torque r × F, and the anchor moves with v + ω × r. The spring has the potential
-/// ½ k (ℓ − ℓ₀)²; the damper has none, and its power −c ℓ'² is counted.
+/// With d the vector from one end to the other, ℓ its length and u = d/ℓ, they pull the ends together with k (ℓ − ℓ₀) + c ℓ' along u. A
+/// force F at an anchor off the centre of mass rotates its body: with the arm r from the centre, the torque is r × F, and the anchor's
+/// velocity is v + ω × r. The spring has the potential ½ k (ℓ − ℓ₀)²; the damper has none, so its power −c ℓ'² is counted.
 ///
-/// At ℓ = 0, u is undefined. A spring of rest length 0 needs no u, as its force −k d is linear; any other spring exerts no force
-/// then. The damper takes the direction of the relative velocity, which is the next direction of u. So an oscillation right
-/// through the anchor is damped as m x'' + c x' + k x = 0.
+/// At ℓ = 0, u is undefined. A spring of rest length 0 needs no u, since its force −k d is linear; any other spring exerts no force
+/// there. The damper acts along the relative velocity, which is the next direction of u. So an oscillation through the anchor is damped
+/// as m x'' + c x' + k x = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
     /// The two ends.
@@ -78,7 +77,7 @@ impl Spring {
     /// The elastic force on the second end.
     fn elastic(&self, span: DVec3) -> DVec3 {
         if self.rest_length == 0.0 {
-            // Not −k ℓ u: linear, and so smooth through ℓ = 0.
+            // Linear, and so smooth through ℓ = 0, unlike −k ℓ u.
             return -self.stiffness * span;
         }
         let length = span.length();
@@ -152,8 +151,8 @@ mod tests {
         bodies(&[(DVec3::new(0.5, 1.0, -1.0), velocities.0), (DVec3::new(2.0, -1.0, 0.25), velocities.1)])
     }
 
-    /// Two bodies that move and turn, and a spring between points of theirs. The first is a compound whose principal axes
-    /// are not its own axes.
+    /// Two bodies that move and rotate, and a spring between points of both. The first is a compound whose principal axes differ from its
+    /// own axes.
     fn hinged(stiffness: f64, damping: f64) -> (Model, State, Spring) {
         let ball = |radius: f64, x: f64, y: f64| Part {
             shape: Shape::Sphere { radius },
@@ -194,8 +193,8 @@ mod tests {
         }
     }
 
-    /// τ = −∂U/∂φ for turns φ about each of the world's axes; tolerances as for the forces. A point that is taken in the
-    /// frame of the principal axes is elsewhere, and has another potential: so its place is held against the body's frame.
+    /// τ = −∂U/∂φ for rotations φ about each world axis; tolerances as for the forces. The anchor's position is compared with the body's
+    /// frame, because an error there would change the force and the potential alike.
     #[test]
     fn the_torque_is_minus_the_gradient_of_the_potential_over_turns() {
         const H: f64 = 1e-5;
@@ -221,7 +220,7 @@ mod tests {
         assert!(placed.abs_diff_eq(from.location, 1e-15), "{placed}");
     }
 
-    /// About the origin, the two bodies get as much momentum and angular momentum as the other loses.
+    /// About the origin, the momenta and angular momenta that the two bodies receive add up to zero.
     #[test]
     fn off_the_centre_action_is_reaction_and_the_power_is_that_of_the_damper() {
         let (model, state, spring) = hinged(0.0, 0.7);

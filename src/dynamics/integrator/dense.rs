@@ -1,23 +1,23 @@
-//! Dense output: what happens within a step, so that any moment can be looked at without a step of its own.
+//! Dense output: the motion within a step, at any time, without additional steps.
 //!
-//! Each method has its own: what is drawn between two steps is then as accurate as the steps, and the steps never
-//! depend on what is drawn. Velocities are derivatives of places.
+//! Each method has its own dense output. So the interpolated motion is as accurate as the steps, and the steps never depend on the times
+//! that are drawn. Velocities are the derivatives of positions.
 
 use glam::{DQuat, DVec3};
 
 use super::super::{Accounts, Loads, Model, State, System};
 use super::{rotation, splitting};
 
-/// A step that has been made.
+/// A completed step.
 #[derive(Clone, Copy)]
 pub struct Step<'a> {
     /// The masses and forces.
     pub model: &'a Model,
-    /// The time at which it begins, s.
+    /// The time at its start, s.
     pub start: f64,
     /// The duration of the step, s.
     pub duration: f64,
-    /// The bodies at its beginning.
+    /// The bodies at its start.
     pub before: &'a State,
     /// The bodies at its end.
     pub after: &'a State,
@@ -25,12 +25,12 @@ pub struct Step<'a> {
 
 /// The motion within a step.
 pub trait DenseOutput {
-    /// Sets `state` to that of time `t` (s) within the step. Bodies whose motion is given are placed exactly.
+    /// Sets `state` to that at time `t` (s) within the step. Bodies with a given motion are placed exactly.
     fn at(&self, t: f64, state: &mut State);
 }
 
 impl Step<'_> {
-    /// The part of the step that has passed at time `t`, from 0 to 1.
+    /// The fraction of the step that has passed at time `t`, from 0 to 1.
     fn part(&self, t: f64) -> f64 {
         ((t - self.start) / self.duration).clamp(0.0, 1.0)
     }
@@ -41,7 +41,7 @@ impl Step<'_> {
     }
 }
 
-/// Interpolation for methods that kick at the beginning of a step: after the kick, bodies drift freely.
+/// Interpolation for methods that kick at the start of a step: after the kick, bodies drift freely.
 pub(super) struct Drift<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Drift<'_> {
@@ -57,7 +57,7 @@ impl DenseOutput for Drift<'_> {
     }
 }
 
-/// Interpolation for explicit Euler: the tangent at the beginning of the step.
+/// Interpolation for explicit Euler: the tangent at the start of the step.
 pub(super) struct Tangent<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Tangent<'_> {
@@ -81,20 +81,19 @@ impl DenseOutput for Tangent<'_> {
     }
 }
 
-/// Quintic Hermite polynomials through places, velocities and accelerations at both ends of a step: off by O(h⁶) in
-/// the place and O(h⁵) in the velocity. An orientation is exp(θ) q₀, and its rotation vector θ is such a polynomial;
-/// angular momenta and accounts are cubic ones through values and slopes. Source: Hairer, Nørsett & Wanner, *Solving
-/// Ordinary Differential Equations I*, II.6; the derivatives of θ: Iserles et al., *Lie-group methods*, Acta
-/// Numerica 9 (2000) 215, section B.
+/// Quintic Hermite polynomials through positions, velocities and accelerations at both ends of a step. The error is O(h⁶) in the position
+/// and O(h⁵) in the velocity. An orientation is exp(θ) q₀, where the rotation vector θ is such a polynomial. Angular momenta and accounts
+/// are cubic polynomials through values and slopes. Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6;
+/// the derivatives of θ: Iserles et al., *Lie-group methods*, Acta Numerica 9 (2000) 215, section B.
 pub(super) struct Hermite<'a> {
     step: Step<'a>,
     start: Loads,
     end: Loads,
-    /// θ, θ' and θ'' at the end, for bodies that turn.
+    /// θ, θ' and θ'' at the end, for rotating bodies.
     turns: Vec<Option<Turn>>,
 }
 
-/// The rotation vector within a step, by its values at both ends; it is 0 at the beginning.
+/// The rotation vector within a step, by its values at both ends; it is 0 at the start.
 #[derive(Clone, Copy)]
 struct Turn {
     rate: DVec3,
@@ -149,8 +148,7 @@ fn turn(step: &Step<'_>, i: usize, torque: DVec3, end_torque: DVec3) -> Option<T
     Some(Turn { rate, curvature, end, end_rate, end_curvature })
 }
 
-/// c(u) = 1/u − (1 + cos φ) / (2 φ sin φ) with u = φ², and its derivative; by the series where u is small, since the
-/// terms cancel.
+/// c(u) = 1/u − (1 + cos φ) / (2 φ sin φ) with u = φ², and its derivative. For small u, the terms cancel, so the series is used.
 fn coefficients(u: f64) -> (f64, f64) {
     let series = |u: f64| 1.0 / 12.0 + u * (1.0 / 720.0 + u * (1.0 / 30_240.0 + u / 1_209_600.0));
     let slope = |u: f64| 1.0 / 720.0 + u * (2.0 / 30_240.0 + u * (3.0 / 1_209_600.0));
@@ -187,7 +185,7 @@ impl DenseOutput for Hermite<'_> {
                 after.velocity[i] * h,
                 b * (h * h),
             ];
-            // Around the beginning, so that what stands still stays where it is to the last bit.
+            // Relative to the start, so that a body at rest keeps its position to the last bit.
             let moved = terms[3] - terms[0];
             state.location[i] = terms[0]
                 + (place[1] * terms[1] + place[2] * terms[2] + place[3] * moved)
@@ -221,7 +219,7 @@ impl DenseOutput for Hermite<'_> {
     }
 }
 
-/// The quintic Hermite polynomials at `s`: of place, rate and curvature at 0, then of the same at 1.
+/// The quintic Hermite polynomials at `s`: for value, rate and curvature at 0, then for the same at 1.
 fn quintic(s: f64) -> [f64; 6] {
     let (s2, s3) = (s * s, s * s * s);
     let end = s3 * (10.0 + s * (-15.0 + 6.0 * s));
@@ -249,7 +247,7 @@ fn quintic_rate(s: f64) -> [f64; 6] {
     ]
 }
 
-/// The cubic Hermite polynomials at `s`: of the value and the slope at 0, then of the same at 1.
+/// The cubic Hermite polynomials at `s`: for value and slope at 0, then for the same at 1.
 fn cubic(s: f64) -> [f64; 4] {
     let (s2, s3) = (s * s, s * s * s);
     let end = 3.0 * s2 - 2.0 * s3;

@@ -1,4 +1,4 @@
-//! Euler–Cromer: first the velocity, then the location with the new velocity.
+//! Euler–Cromer: updates the velocity first, then the position with the new velocity.
 
 use super::super::{Loads, State, System};
 use super::dense::{DenseOutput, Drift, Hermite, Step};
@@ -33,7 +33,7 @@ impl Integrator for EulerCromer {
     }
 
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        // With constraints, the velocity that leads to the end of the step is not the one that is kept there.
+        // With constraints, the velocity that leads to the end of the step differs from the velocity that is kept there.
         if system.is_constrained() { Box::new(Hermite::new(system, step)) } else { Box::new(Drift(step)) }
     }
 

@@ -1,7 +1,7 @@
-//! Methods of numerical integration: the interface of one, the table of all, and one file for each.
+//! Integration methods: their interface, the table of all methods, and one file for each.
 //!
-//! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]; the tests of order and of
-//! energy then run on it by themselves.
+//! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]. The tests of order and energy then cover it
+//! automatically.
 
 mod dense;
 mod euler_cromer;
@@ -21,23 +21,22 @@ pub use dense::{DenseOutput, Step};
 pub(super) use rotation::{free as turn_freely, rate as orientation_rate};
 pub(super) use splitting::drift_body;
 
-/// A method of integration. It advances a state; time belongs to the [`World`](super::World).
+/// An integration method. It advances a state; the time belongs to the [`World`](super::World).
 pub trait Integrator: Send {
-    /// Advances `state` from time `t` by one step of `dt` seconds. Where it evaluates forces at a later time, it
-    /// must [arrive](System::arrive) there; at the end of the step, the caller does, and settles what constraints hold.
+    /// Advances `state` from time `t` by one step of `dt` seconds. To evaluate forces at a later time, it must [arrive](System::arrive)
+    /// there first. The caller arrives at the end of the step, and settles the constraints there.
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State);
 
-    /// The motion within the last step, for times between two steps. The default takes quintic Hermite polynomials, which suit
-    /// smooth methods from order 2 up.
+    /// The motion within the last step. The default uses quintic Hermite polynomials, which suit smooth methods of order 2 and higher.
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
         Box::new(dense::Hermite::new(system, step))
     }
 
-    /// Told after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from
-    /// earlier steps do not hold any more.
+    /// Called after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from earlier steps become
+    /// invalid.
     fn discontinuity(&mut self) {}
 
-    /// A copy that goes on exactly as this one would.
+    /// A copy that continues exactly as this one would.
     fn clone_box(&self) -> Box<dyn Integrator>;
 }
 
@@ -47,28 +46,28 @@ impl Clone for Box<dyn Integrator> {
     }
 }
 
-/// Takes over a world, and advances it from then on.
+/// Takes over a world and advances it from then on.
 pub type TakeOver = fn(World, Accuracy) -> Box<dyn Dynamics>;
 
 /// An entry of the table of methods.
 #[derive(Debug)]
 pub struct Method {
-    /// The name by which it is chosen.
+    /// The name that selects it.
     pub name: &'static str,
     /// The order p: halving the step divides the error by 2ᵖ.
     pub order: u32,
-    /// Whether it is symplectic: then the error of the energy stays bounded over any time.
+    /// Whether it is symplectic: the energy error then stays bounded over any time.
     pub symplectic: bool,
-    /// Whether it can keep constraints; a scene with joints is refused where it cannot.
+    /// Whether it supports constraints. A scene with joints cannot use other methods.
     pub constraints: bool,
-    /// Whether it chooses its steps by their error, and a scene says `tolerance` and not `step`.
+    /// Whether it chooses its steps by their error. A scene then sets `tolerance`, not `step`.
     pub adaptive: bool,
     /// One line for a list of methods.
     pub summary: &'static str,
-    /// Makes a new integrator, which makes steps of a given length.
+    /// Makes a new integrator.
     pub create: fn() -> Box<dyn Integrator>,
-    /// Takes over a world, to advance it by steps that know nothing of frames; none for a method whose steps divide the time between two
-    /// frames.
+    /// Takes over a world, to advance it by steps that are independent of frames. `None` for a method whose steps divide the time between
+    /// two frames.
     pub ahead: Option<TakeOver>,
 }
 
@@ -76,7 +75,7 @@ pub struct Method {
 pub static METHODS: &[Method] =
     &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
-/// The methods whose steps know nothing of frames.
+/// The methods whose steps are independent of frames.
 pub static AHEAD: &[Method] = &[ahead::DOP853, ahead::GAUSS_RADAU, ahead::WISDOM_HOLMAN];
 
 impl Method {
@@ -91,7 +90,7 @@ impl Method {
         Method::all().find(|method| method.name == name)
     }
 
-    /// Whether it is for planets about a heavy body alone, which no force but gravitation moves.
+    /// Whether it is only for planets about a heavy body that gravitation alone moves.
     #[must_use]
     pub fn is_of_planets(&self) -> bool {
         self.name == ahead::WISDOM_HOLMAN.name

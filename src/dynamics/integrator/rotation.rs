@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::super::model::is_isotropic;
 
-/// The rate of change of an orientation that turns at `angular_velocity` (world axes, rad/s): q' = ½ ω q, with ω as
-/// a quaternion without real part.
+/// The rate of change of an orientation that rotates at `angular_velocity` (world axes, rad/s): q' = ½ ω q, with ω as a quaternion
+/// without real part.
 pub(in crate::dynamics) fn rate(orientation: DQuat, angular_velocity: DVec3) -> DQuat {
     let half = 0.5 * angular_velocity;
     DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * orientation
@@ -13,10 +13,10 @@ pub(in crate::dynamics) fn rate(orientation: DQuat, angular_velocity: DVec3) -> 
 
 /// The orientation after `dt` of free rotation with the given angular momentum (world axes).
 ///
-/// With m = Rᵀ L the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃, and each of the three terms by itself makes the
-/// body turn evenly about one of its own axes. Turning by x for half the time, y half, z, y half, x half is a
-/// symmetric splitting: second order, reversible, symplectic. L is not touched at all, and so kept exactly. Source:
-/// Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840; Touma & Wisdom, Astron. J. 107 (1994) 1189.
+/// With m = Rᵀ L the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃. Each of the three terms alone rotates the body uniformly about one of
+/// its own axes. Rotating by x for half the time, y half, z, y half, x half is a symmetric splitting: second order, reversible,
+/// symplectic. It does not change L, so L is conserved exactly. Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
+/// 5840; Touma & Wisdom, Astron. J. 107 (1994) 1189.
 pub(in crate::dynamics) fn free(
     orientation: DQuat,
     angular_momentum: DVec3,
@@ -24,7 +24,7 @@ pub(in crate::dynamics) fn free(
     dt: f64,
 ) -> DQuat {
     if is_isotropic(inverse_inertia) {
-        // ω is parallel to L and constant: one turn, exact for any step.
+        // ω is parallel to L and constant: one rotation is exact for any step.
         let turn = DQuat::from_scaled_axis(inverse_inertia.x * dt * angular_momentum);
         return (turn * orientation).normalize();
     }
@@ -36,14 +36,14 @@ pub(in crate::dynamics) fn free(
     body.orientation.normalize()
 }
 
-/// A freely turning body: its orientation, and its angular momentum as seen in its own frame.
+/// A freely rotating body: its orientation, and its angular momentum in its own frame.
 struct Free {
     orientation: DQuat,
     momentum: DVec3,
 }
 
 impl Free {
-    /// Turns the body by `angle` about its own axis; the momentum, fixed in the world, turns the other way in its frame.
+    /// Rotates the body by `angle` about its own axis. The momentum is fixed in the world, so it rotates backwards in the body's frame.
     fn turn(&mut self, axis: usize, angle: f64) {
         let (sin, cos) = libm::sincos(0.5 * angle);
         let turn = DQuat::from_vec4((DVec3::AXES[axis] * sin).extend(cos));
@@ -84,7 +84,7 @@ mod tests {
         assert!(back.abs_diff_eq(start(), 1e-15));
     }
 
-    /// A difference quotient over dt = 1e-6: off by ½ q'' dt, and q'' is about 1 here.
+    /// A difference quotient over dt = 1e-6; its error is ½ q'' dt, and q'' is about 1 here.
     #[test]
     fn both_ways_to_turn_begin_with_the_same_rate() {
         for inverse in [INVERSE, DVec3::splat(0.5)] {

@@ -5,8 +5,7 @@ use glam::{DQuat, DVec3};
 use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
-/// The derivative of a [`State`] with respect to time. The slopes of angular momentum and of work are the torque and
-/// the power among the loads.
+/// The derivative of a [`State`] with respect to time. The loads hold the slopes of angular momentum (torque) and work (power).
 #[derive(Clone, Default)]
 pub(super) struct Slope {
     location: Vec<DVec3>,
@@ -22,7 +21,7 @@ impl Slope {
         self.read(system.model(), state);
     }
 
-    /// The same at a later time, at which bodies whose motion is given are elsewhere.
+    /// Measures the slope at a later time, at which bodies with a given motion have moved.
     pub(super) fn arrive(&mut self, system: &mut System<'_>, t: f64, state: &mut State) {
         system.arrive(t, state, &mut self.loads);
         self.read(system.model(), state);
@@ -42,8 +41,8 @@ impl Slope {
     }
 }
 
-/// Advances `state` by `dt` along the weighted sum of slopes. Orientations leave the unit sphere on their way and are
-/// put back at the end, also at the stages of a method: to it, that is only another way to write the same equations.
+/// Advances `state` by `dt` along the weighted sum of slopes. The sum takes orientations off the unit sphere, so they are normalized at
+/// the end, also at the stages of a method. This keeps the method's order: it only writes the same equations differently.
 pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state: &mut State) {
     add(&mut state.location, dt, slopes.map(|(weight, slope)| (weight, slope.location.as_slice())));
     add(&mut state.velocity, dt, slopes.map(|(weight, slope)| (weight, slope.velocity.as_slice())));
@@ -57,7 +56,7 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
         for (weight, slope) in slopes {
             rate += slope.orientation[i] * weight;
         }
-        // Most bodies do not turn at all: no need of a square root then.
+        // Most bodies do not rotate: this saves a square root.
         if rate.length_squared() != 0.0 {
             *orientation = (*orientation + rate * dt).normalize();
         }
@@ -67,7 +66,7 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
     state.accounts.add(dt, power);
 }
 
-/// values += dt · Σ weight · slope. The small terms are summed first, as each sum with a large value is rounded.
+/// values += dt · Σ weight · slope. The small terms are summed first to reduce rounding.
 fn add<const N: usize>(values: &mut [DVec3], dt: f64, slopes: [(f64, &[DVec3]); N]) {
     for (i, value) in values.iter_mut().enumerate() {
         let mut sum = DVec3::ZERO;

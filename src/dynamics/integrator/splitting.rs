@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::{Loads, Model, State};
 use super::rotation;
 
-/// The effect of constant loads for `dt` on bodies that keep their places: v += F/m dt, L += τ dt.
+/// The effect of constant loads for `dt` at fixed positions: v += F/m dt, L += τ dt.
 pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     if let Some(bodies) = model.in_focus() {
         for &i in bodies {
@@ -24,7 +24,7 @@ pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     }
 }
 
-/// Corrects a kick for `dt` that was made with the loads `first`, if these become `later`.
+/// Corrects a kick of `dt` that was made with the loads `first`, now that they are `later`.
 pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, state: &mut State) {
     let mut change = |i: usize| {
         state.velocity[i] += dt * model.inverse_mass()[i] * (later.force[i] - first.force[i]);
@@ -36,7 +36,7 @@ pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, st
     }
 }
 
-/// The motion for `dt` of bodies on which nothing acts: x += v dt, and a free rotation.
+/// The free motion of bodies for `dt`: x += v dt, and a free rotation.
 pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
     if let Some(bodies) = model.in_focus() {
         bodies.iter().for_each(|&i| drift_body(model, dt, state, i));

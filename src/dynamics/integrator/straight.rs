@@ -1,4 +1,4 @@
-//! Runge–Kutta steps of bodies that nothing can turn: these cost nothing but their way.
+//! Runge–Kutta steps of bodies that nothing can rotate: only their positions and velocities cost time.
 
 use std::ops::Range;
 
@@ -7,33 +7,33 @@ use glam::{DQuat, DVec3};
 use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
-/// The number of independent bodies that are advanced together, so that their data stay in the nearest cache.
+/// The number of independent bodies that are advanced together, so that their data stay in the first-level cache.
 const BLOCK: usize = 128;
 
-/// A stage of a method in which a stage follows from the one before alone.
+/// A stage of a method in which each stage depends only on the one before.
 #[derive(Clone, Copy)]
 pub(super) struct Stage {
     /// Its time, s.
     pub(super) time: f64,
     /// The weight of its slope in the step.
     pub(super) weight: f64,
-    /// The time for which its slope leads from the beginning of the step to the next stage, s.
+    /// The duration for which its slope leads from the start of the step to the next stage, s.
     pub(super) next: f64,
 }
 
-/// Room for a step. Its bits are those that [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow) give.
+/// Memory for a step. The bits are the same as with [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow).
 #[derive(Clone, Default)]
 pub(super) struct Straight {
     stage: State,
     loads: Loads,
-    /// The weighted slopes of the stages so far, of the bodies of a block.
+    /// The weighted slopes of the stages so far, for the bodies of a block.
     location: Vec<DVec3>,
     velocity: Vec<DVec3>,
     power: Accounts,
 }
 
 impl Straight {
-    /// Whether nothing can turn a body, or guide or hold one.
+    /// Whether nothing can rotate, guide or hold a body.
     pub(super) fn suits(system: &System<'_>) -> bool {
         let model = system.model();
         !model.turns_bodies() && !model.has_guided() && !system.is_constrained()
@@ -73,7 +73,7 @@ impl Straight {
         }
     }
 
-    /// Adds the slopes of a stage, and goes to the next one.
+    /// Adds the slopes of a stage, and continues to the next one.
     #[inline]
     fn go_on(&mut self, model: &Model, block: Range<usize>, stage: &Stage, is_first: bool, state: &State) {
         let Stage { weight, next, .. } = *stage;
@@ -89,13 +89,13 @@ impl Straight {
             let (velocity, acceleration) = (*here.1, *load.0 * *load.1);
             *sum.0 += weight * velocity;
             *sum.1 += weight * acceleration;
-            // A sum that begins with zero: it has no negative zero.
+            // A sum that begins with zero has no negative zero.
             *here.0 = *begin.0 + next * (DVec3::ZERO + velocity);
             *here.1 = *begin.1 + next * (DVec3::ZERO + acceleration);
         }
     }
 
-    /// Turns the bodies that turn, each on its own: its angular momentum stays the same.
+    /// Rotates the rotating bodies, each on its own. Their angular momenta stay the same.
     fn turn(&mut self, model: &Model, stages: &[Stage], dt: f64, state: &mut State) {
         let nothing = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         let advanced = |from: DQuat, rate: DQuat, time: f64| {
@@ -115,7 +115,7 @@ impl Straight {
                 here.orientation[i] = advanced(state.orientation[i], nothing + rate * 1.0, stage.next);
             }
             state.orientation[i] = advanced(state.orientation[i], sum, dt);
-            // As by a torque of zero, which leaves no negative zero.
+            // Adding a zero torque removes a negative zero.
             state.angular_momentum[i] += DVec3::ZERO;
         }
     }
@@ -127,7 +127,7 @@ mod tests {
     use super::super::Method;
     use super::*;
 
-    /// What can turn bodies, but does nothing.
+    /// A force that could rotate bodies, but does nothing.
     struct Idle;
 
     impl super::super::super::Force for Idle {
@@ -173,7 +173,7 @@ mod tests {
         world
     }
 
-    /// The whole way and the short one, for bodies that move by themselves and for those that attract each other.
+    /// Compares this path with the general one, for independent bodies and for bodies that attract each other.
     #[test]
     fn bodies_that_nothing_turns_have_the_same_bits_as_all_others() {
         for attract in [false, true] {

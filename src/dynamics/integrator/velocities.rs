@@ -1,10 +1,10 @@
-//! Velocities of all bodies, for methods that try several of them in a step.
+//! The velocities of all bodies, for methods that try several of them in a step.
 
 use glam::DVec3;
 
 use super::super::State;
 
-/// Velocities are the same where they differ by less than this part.
+/// Velocities count as equal if their relative difference is below this.
 const SAME: f64 = 4e-16;
 
 /// The velocities of all bodies.
@@ -25,7 +25,7 @@ impl Velocities {
         state.angular_momentum.clone_from(&self.angular_momentum);
     }
 
-    /// Adds to the velocities of a state by how much it is faster than these.
+    /// Extrapolates the velocities of a state: adds their difference from these velocities.
     pub(super) fn extrapolate(&self, state: &mut State) {
         let pairs = state.velocity.iter_mut().zip(&self.velocity);
         pairs.for_each(|(now, before)| *now += *now - *before);
@@ -42,9 +42,9 @@ impl Velocities {
         state.angular_momentum.extend(self.angular_momentum.iter().zip(&others.angular_momentum).map(mean));
     }
 
-    /// Lets the bodies of a state that move as fast as this, but for rounding, move exactly so. Returns whether all do.
+    /// Sets the velocities of a state to these where they agree up to rounding. Returns whether all agree.
     ///
-    /// Each body is judged by itself, so that particles that are advanced side by side do not depend on each other.
+    /// Each body is compared on its own, so that particles that are advanced together do not depend on each other.
     pub(super) fn settle(&self, state: &mut State) -> bool {
         let take = |known: &[DVec3], new: &mut [DVec3]| {
             let mut are_all = true;

@@ -6,9 +6,9 @@ use super::{Integrator, Method, splitting};
 
 /// Source: W. C. Swope et al., J. Chem. Phys. 76 (1982) 637.
 ///
-/// Their method falls to first order where a force depends on velocity, as it evaluates the force at the end of the
-/// step before the velocity there is known. Here that velocity is predicted, v + a·dt; it is off by O(dt²), so the
-/// step by O(dt³), and second order is kept. With constraints it is RATTLE: H. C. Andersen, J. Comput. Phys. 52 (1983) 24.
+/// The published method falls to first order if a force depends on velocity, since it evaluates the force at the end of the step before
+/// the velocity there is known. This version predicts that velocity as v + a·dt. The prediction is off by O(dt²) and the step by O(dt³),
+/// so the method stays of second order. With constraints it is RATTLE: H. C. Andersen, J. Comput. Phys. 52 (1983) 24.
 pub(super) const METHOD: Method = Method {
     name: "velocity-verlet",
     order: 2,
@@ -24,16 +24,16 @@ pub(super) const METHOD: Method = Method {
 struct VelocityVerlet {
     start: Loads,
     end: Loads,
-    /// Whether `start` holds the loads at the current state, from the end of the step before.
+    /// Whether `start` holds the loads at the current state, from the end of the last step.
     primed: bool,
-    /// Velocities at the beginning and in the middle of a step, where constraints change them on the way.
+    /// Velocities at the start and in the middle of a step, if constraints change them within the step.
     begin: Velocities,
     middle: Velocities,
 }
 
 impl VelocityVerlet {
-    /// A step of RATTLE: the impulses of the constraints take part in the kicks. What they do at the end of the step,
-    /// [`System::settle`] adds.
+    /// A step of RATTLE: the impulses of the constraints are part of the kicks. [`System::settle`] adds the impulses at the end of the
+    /// step.
     fn rattle(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let (model, half) = (system.model(), 0.5 * dt);
         self.begin.read(state);
@@ -41,7 +41,7 @@ impl VelocityVerlet {
         system.aim(t, dt, state);
         self.middle.read(state);
         splitting::drift(model, dt, state);
-        // The second half of the kick is predicted to be like the first.
+        // Predicts that the second half of the kick is like the first.
         self.begin.extrapolate(state);
         model.place(t + dt, state);
         system.evaluate_forces(t + dt, state, &mut self.end);
@@ -54,12 +54,12 @@ impl VelocityVerlet {
         splitting::kick(model, &self.start, half, state);
         splitting::drift(model, dt, state);
 
-        // The second half of the kick, with the old loads: this is the prediction.
+        // The second half of the kick with the old loads is the prediction.
         splitting::kick(model, &self.start, half, state);
         model.place(t + dt, state);
         system.evaluate_forces(t + dt, state, &mut self.end);
 
-        // And now what the new loads would have made of it.
+        // Corrects the prediction with the new loads.
         splitting::kick_again(model, [&self.start, &self.end], half, state);
     }
 }

@@ -1,4 +1,4 @@
-//! Yoshida's method of fourth order: three steps of second order, of which the one in the middle goes back in time.
+//! Yoshida's fourth-order method: three second-order steps, the middle one backwards in time.
 
 use super::super::{Loads, State, System};
 use super::velocities::Velocities;
@@ -6,8 +6,8 @@ use super::{Integrator, Method, splitting};
 
 /// Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150 (1990) 262.
 ///
-/// The step of second order must be symmetric in time, or the fourth order is lost. So it is half a drift, a kick, and half a drift; a force
-/// that depends on velocity is taken at the mean of the velocities before and after the kick.
+/// The second-order step must be symmetric in time, or the fourth order is lost. So it is half a drift, a kick, and half a drift. Forces
+/// that depend on velocity use the mean of the velocities before and after the kick.
 pub(super) const METHOD: Method = Method {
     name: "yoshida4",
     order: 4,
@@ -19,10 +19,10 @@ pub(super) const METHOD: Method = Method {
     ahead: None,
 };
 
-/// 1 / (2 − ∛2): the length of the first and the third step. The second one is as long as is missing to 1.
+/// 1 / (2 − ∛2): the length of the first and third step. The three lengths add up to 1.
 const OUTER: f64 = 1.351_207_191_959_657_8;
 
-/// The mean velocity is looked for at most so many times.
+/// The largest number of iterations for the mean velocity.
 const TRIALS: usize = 60;
 
 #[derive(Clone, Default)]
@@ -33,7 +33,7 @@ struct Yoshida4 {
 }
 
 impl Yoshida4 {
-    /// A step of second order, which can go back in time.
+    /// A second-order step, which can go backwards in time.
     fn leap(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let (model, half) = (system.model(), 0.5 * dt);
         splitting::drift(model, half, state);

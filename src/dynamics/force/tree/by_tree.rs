@@ -9,9 +9,9 @@ use super::{Potential, Pull, Tree};
 pub(in super::super) struct ByTree<'a> {
     /// The bodies and their law.
     pub(in super::super) pairs: Pairs<'a>,
-    /// The largest size over distance of a node that acts as a whole.
+    /// The opening angle: the largest ratio of size to distance at which a node acts as a whole.
     pub(in super::super) angle: f64,
-    /// How many interactions are counted for each body.
+    /// The number of interactions that are counted for each body.
     pub(in super::super) each: u64,
 }
 
@@ -36,7 +36,7 @@ impl ByTree<'_> {
         pull(&against, &others, Some(&tree));
     }
 
-    /// The potential of all pairs of which at least one body can move.
+    /// The potential of all pairs in which at least one body can move.
     pub(in super::super) fn potential(&self, moment: &Moment) -> f64 {
         let effort = moment.model.effort();
         let done = |bodies: usize| effort.add(bodies * self.each as usize);
@@ -44,7 +44,7 @@ impl ByTree<'_> {
             let present = moment.model.present(bodies);
             present.iter().partition(|body| moment.model.movable()[body.index()])
         };
-        // Σ sᵢ φᵢ over some bodies, with the potential φ of others, or of these bodies themselves.
+        // Σ sᵢ φᵢ over `bodies`, where φ is the potential of `others`, or of `bodies` themselves.
         let sum = |bodies: &[BodyId], others: Option<&[BodyId]>, done: &(dyn Fn(usize) + Sync)| -> f64 {
             let others = others.map(|others| self.tree(others, moment));
             let sums =
@@ -57,7 +57,7 @@ impl ByTree<'_> {
             Some(against) => {
                 let (their_free, their_held) = movable(against);
                 let theirs = [their_free.as_slice(), their_held.as_slice()].concat();
-                // The bodies of the other group are counted here: no sum runs over them.
+                // The bodies of the other group are counted here, since no sum runs over them.
                 effort.add(theirs.len() * self.each as usize);
                 sum(&free, Some(&theirs), &done) + sum(&held, Some(&their_free), &done)
             }

@@ -1,13 +1,13 @@
-//! The formulas for the action of a body, and of a node.
+//! The formulas for the action of a body and of a node.
 
 use glam::DVec3;
 
 use super::Moments;
 
-/// The number of places side by side, for the compiler to vectorise.
+/// The number of positions side by side, for the compiler to vectorise.
 pub(super) const LANES: usize = 4;
 
-/// A number for each of some places.
+/// A number for each of several positions.
 pub(super) type Lanes = [f64; LANES];
 
 /// A node in the form that the formulas need.
@@ -39,15 +39,15 @@ impl Source {
     }
 }
 
-/// A quantity that is summed up at places. `d` leads from the source to each place, and `square` is d² + ε².
+/// A quantity that is summed at positions. `d` is the vector from the source to each position, and `square` is d² + ε².
 ///
-/// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε²: Taylor's expansion of
-/// Σ m / √(|d − s|² + ε²) up to second order in s. The first order is zero about the centre of mass.
+/// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε². This is the Taylor expansion of Σ
+/// m / √(|d − s|² + ε²) up to second order in s. The first order vanishes about the centre of mass.
 pub(super) trait Kernel {
-    /// A sum at one place.
+    /// A sum at one position.
     type Sum: Copy + Default + Send;
 
-    /// Adds the action of a mass: zero where the square is infinite.
+    /// Adds the action of a mass. It is zero if `square` is infinite.
     fn near(mass: f64, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
 
     /// Adds the action of a node.

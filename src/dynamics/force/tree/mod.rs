@@ -1,4 +1,4 @@
-//! Gravitation of many bodies by a tree: distant bodies act together.
+//! Gravitation of many bodies by a tree, in which distant bodies act together.
 
 mod by_tree;
 mod kernel;
@@ -10,25 +10,25 @@ pub(super) use self::by_tree::ByTree;
 use self::kernel::{Potential, Pull};
 use crate::threads;
 
-/// The most bodies of a leaf.
+/// The largest number of bodies in a leaf.
 const LEAF: usize = 8;
-/// The most bodies that walk through the tree together.
+/// The largest number of bodies that walk through the tree together.
 const GROUP: usize = 32;
 /// A node with fewer bodies is built on one thread.
 const ALONE: usize = 2048;
-/// 2/√3: the size of a uniform cube is its edge.
+/// 2/√3. With this factor, the size of a uniform cube is its edge.
 const EDGE: f64 = 1.154_700_538_379_251_5;
 
 /// A tree of bodies, after J. Barnes and P. Hut, Nature 324 (1986) 446.
 ///
-/// Each node is split in two across the longest edge of its box, near the middle of that edge. A node acts as a whole, by its mass, centre
-/// of mass and second moments, where its size is less than `angle` times its distance. Its size is 2/√3 of the largest distance of
-/// a body from the centre of mass (J. Stadel, thesis, University of Washington 2001). So the expansion converges for angles up to 1.
+/// Each node is split in two across the longest edge of its box, near the middle of that edge. A node acts as a whole, by its mass,
+/// centre of mass and second moments, if its size is less than `angle` times its distance. Its size is 2/√3 of the largest distance of a
+/// body from the centre of mass (J. Stadel, thesis, University of Washington 2001). So the expansion converges for angles up to 1.
 ///
-/// The tree follows from the locations, the masses and the order of the bodies alone.
+/// The tree depends only on the positions, the masses and the order of the bodies.
 struct Tree {
     bodies: Vec<Body>,
-    /// Each node, then all nodes of its first part, then all of its second.
+    /// All nodes, each before those of its first part, and these before those of its second part.
     nodes: Vec<Node>,
 }
 
@@ -37,11 +37,11 @@ struct Tree {
 struct Body {
     at: DVec3,
     mass: f64,
-    /// Its number among the bodies that were given.
+    /// Its number in the input.
     number: usize,
 }
 
-/// Bodies close to each other: those from `first` to before `end`.
+/// Bodies close to each other: `first..end`.
 #[derive(Clone, Copy, Default)]
 struct Node {
     first: usize,
@@ -64,7 +64,7 @@ struct Moments {
 }
 
 impl Tree {
-    /// The tree of bodies at these places, of these masses.
+    /// Builds the tree of bodies at these positions with these masses.
     fn new(bodies: impl Iterator<Item = (DVec3, f64)>, angle: f64) -> Tree {
         let mut bodies: Vec<Body> =
             bodies.enumerate().map(|(number, (at, mass))| Body { at, mass, number }).collect();
@@ -76,8 +76,8 @@ impl Tree {
     }
 }
 
-/// The number of bodies that go to the first part, close to `best`. Each part gets an eighth at least, so the tree stays shallow. All groups
-/// and leaves but the last are full.
+/// The number of bodies in the first part, close to `best`. Each part gets at least an eighth, so that the tree stays shallow. All groups
+/// and leaves are full, except the last.
 fn split(count: usize, best: usize) -> usize {
     let unit = if count > GROUP { GROUP } else { LEAF };
     let units = count.div_ceil(unit);
@@ -85,7 +85,7 @@ fn split(count: usize, best: usize) -> usize {
     unit * ((best + unit / 2) / unit).clamp(least, units - least)
 }
 
-/// The number of nodes of a tree of so many bodies.
+/// The number of nodes of a tree of `count` bodies.
 fn nodes(count: usize) -> usize {
     let leaves = |count: usize| (2 * count.div_ceil(LEAF)).saturating_sub(1);
     let groups = count.div_ceil(GROUP).max(1);
@@ -93,7 +93,7 @@ fn nodes(count: usize) -> usize {
     (groups - 1) * (leaves(GROUP) + 1) + leaves(last)
 }
 
-/// Makes a node and all its parts. `number` and `first` are the places in the tree of the first node and the first body.
+/// Builds a node and all its parts. `number` and `first` are the indices of the first node and the first body in the tree.
 fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), reach: f64) {
     let Some((node, parts)) = all.split_first_mut() else { return };
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -101,7 +101,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
         (low, high) = (low.min(body.at), high.max(body.at));
     }
     let moments = if bodies.len() <= LEAF {
-        // The splits leave them in any order.
+        // The splits leave the bodies in any order.
         bodies.sort_unstable_by_key(|body| body.number);
         Moments::of(bodies.iter().map(|body| Moments { mass: body.mass, centre: body.at, second: [0.0; 6] }))
     } else {
@@ -132,7 +132,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
 }
 
 impl Moments {
-    /// The moments of several parts together. Without mass, the centre is the mean of theirs.
+    /// The combined moments of several parts. Without mass, the centre is the mean of their centres.
     fn of(parts: impl Iterator<Item = Moments> + Clone) -> Moments {
         let (mut mass, mut weighted, mut places, mut count) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
         for part in parts.clone() {

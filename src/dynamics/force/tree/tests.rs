@@ -39,14 +39,14 @@ fn potential(force: &Gravitation, model: &Model, state: &State) -> f64 {
     force.potential(&Moment { time: 0.0, state, model })
 }
 
-/// The root of the mean square of what forces are off, over that of the forces.
+/// The root mean square of the errors of forces, relative to that of the forces.
 fn off(loads: &Loads, exact: &Loads) -> f64 {
     let squares = |forces: &mut dyn Iterator<Item = DVec3>| forces.map(DVec3::length_squared).sum::<f64>();
     let off = squares(&mut loads.force.iter().zip(&exact.force).map(|(force, exact)| *force - *exact));
     (off / squares(&mut exact.force.iter().copied())).sqrt()
 }
 
-/// The first term that is left out is of third order in size over distance. So half the angle leaves an eighth of the error, or less where the
+/// The first neglected term is of third order in size over distance. So half the angle leaves an eighth of the error, or less if the
 /// errors of many nodes cancel.
 #[test]
 fn the_error_falls_with_the_third_power_of_the_angle() {
@@ -116,7 +116,8 @@ fn every_node_has_the_moments_of_its_bodies() {
     }
 }
 
-/// The forces of a tree are not quite opposite. Their errors have all directions, so the sum of all forces is small against them.
+/// The forces of a tree are not exactly opposite. Their errors point in all directions, so the sum of all forces is small compared to
+/// them.
 #[test]
 fn momentum_hardly_drifts() {
     let (model, state) = stars(1500);
@@ -127,7 +128,7 @@ fn momentum_hardly_drifts() {
     assert!(left > 1e-12 && left < 0.2 * off, "{left:e} {off:e}");
 }
 
-/// Masses from 0 to 1e12, many bodies at one place, many on a line, one far away.
+/// Masses from 0 to 1e12, many bodies at one position, many on a line, one far away.
 #[test]
 fn odd_clusters_are_summed_up_as_well() {
     let bodies = (0..800).map(|i| {
@@ -159,7 +160,7 @@ fn odd_clusters_are_summed_up_as_well() {
     assert!((tree / exact - 1.0).abs() < 1e-5, "{tree} {exact}");
 }
 
-/// Fixed bodies attract. They have no potential among themselves, even where several are at one place. Bodies that are away do not act.
+/// Fixed bodies attract others. They have no potential among themselves, even at the same position. Absent bodies do not act.
 #[test]
 fn fixed_bodies_and_those_that_are_away_are_as_with_all_pairs() {
     let bodies = (0..600).map(|i| {

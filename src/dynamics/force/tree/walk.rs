@@ -1,4 +1,4 @@
-//! The sums at the bodies of a tree. Groups of bodies walk through the tree of the sources together.
+//! The sums at the bodies of a tree. Groups of bodies walk together through the tree of the sources.
 
 use std::ops::Range;
 
@@ -14,10 +14,10 @@ const BATCH: usize = 64;
 const BLOCKS: usize = GROUP / LANES;
 
 impl Tree {
-    /// The sum over all bodies of `sources` at each body of this tree, in the order in which they were given. Without `sources`, the bodies of
-    /// this tree act on each other. `done` is told of each number of bodies that are done.
+    /// The sum over all bodies of `sources` at each body of this tree, in input order. Without `sources`, the bodies of this tree act on
+    /// each other. `done` is called with each number of completed bodies.
     ///
-    /// The order of a sum follows from the two trees alone, so the bits do not depend on the number of threads.
+    /// The order of a sum depends on the two trees alone, so the bits do not depend on the number of threads.
     pub(super) fn sums<K: Kernel>(
         &self,
         sources: Option<&Tree>,
@@ -42,7 +42,7 @@ impl Tree {
         as_given
     }
 
-    /// Calls `see` for each group within a node, with the room for its sums.
+    /// Calls `see` for each group within a node, with memory for its sums.
     fn each_group<S: Send>(
         &self,
         number: usize,
@@ -60,7 +60,7 @@ impl Tree {
     }
 }
 
-/// Bodies close to each other, and the sums at their places.
+/// Bodies close to each other, and the sums at their positions.
 struct Group<'a, K: Kernel> {
     bodies: &'a [Body],
     low: DVec3,
@@ -79,7 +79,7 @@ impl<K: Kernel> Group<'_, K> {
         }
         let mut at = [[[0.0; LANES]; 3]; BLOCKS];
         for k in 0..bodies.len().next_multiple_of(LANES) {
-            // The lanes behind the last body are not read.
+            // The lanes beyond the last body are not read.
             let place = bodies[k.min(bodies.len() - 1)].at.to_array();
             for (lanes, place) in at[k / LANES].iter_mut().zip(place) {
                 lanes[k % LANES] = place;
@@ -90,7 +90,7 @@ impl<K: Kernel> Group<'_, K> {
         Group { bodies, low, high, at, sums, softening, kernel: std::marker::PhantomData }
     }
 
-    /// Adds the action of a whole tree. `own` are the bodies of the group in that tree, if it is the same tree.
+    /// Adds the action of a whole tree. If the group belongs to the same tree, `own` is the range of its bodies; otherwise it is empty.
     fn walk(&mut self, tree: &Tree, own: &Range<usize>) {
         if !own.is_empty() {
             self.add_own();
@@ -129,7 +129,7 @@ impl<K: Kernel> Group<'_, K> {
         self.add_near(tree, &near[..runs]);
     }
 
-    /// Adds the action of nodes as wholes.
+    /// Adds the action of nodes that act as wholes.
     fn add_far(&mut self, nodes: &[Source]) {
         let softening = self.softening;
         for (at, sums) in self.blocks() {
@@ -153,14 +153,14 @@ impl<K: Kernel> Group<'_, K> {
         }
     }
 
-    /// Adds the action of the bodies of the group on each other.
+    /// Adds the action of the group's bodies on each other.
     fn add_own(&mut self) {
         let (bodies, softening) = (self.bodies, self.softening);
         for (block, (at, sums)) in self.blocks().enumerate() {
             for (number, body) in bodies.iter().enumerate() {
                 let (d, mut square) = way(at, body.at.into(), softening);
                 if number / LANES == block {
-                    // It does not act on itself.
+                    // A body does not act on itself.
                     square[number % LANES] = f64::INFINITY;
                 }
                 K::near(body.mass, d, square, sums);
@@ -180,7 +180,7 @@ impl<K: Kernel> Group<'_, K> {
     }
 }
 
-/// The vectors from a source to some places, and their softened squares.
+/// The vectors from a source to several positions, and their softened squares.
 #[inline(always)]
 fn way(at: &[Lanes; 3], source: [f64; 3], softening: f64) -> ([Lanes; 3], Lanes) {
     let (mut d, mut square) = ([[0.0; LANES]; 3], [softening; LANES]);
