@@ -1,17 +1,18 @@
-//! Anderson acceleration. Sweeps alone approach their limit slowly. The changes that the last few sweeps made show where this limit is.
+//! Anderson acceleration. Sweeps alone approach their limit slowly. The changes in the last few sweeps allow a better estimate of this
+//! limit.
 //!
 //! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
 
-/// It looks at so many of the last sweeps.
+/// The number of recent sweeps that it uses.
 const MEMORY: usize = 5;
 
-/// When the square of the change grows by more than this factor from one sweep to the next, the sweeps before are forgotten.
+/// If the square of the change grows by more than this factor from one sweep to the next, earlier sweeps are forgotten.
 const WORSE: f64 = 2.0;
 
-/// A difference counts as a combination of the others if less than this part of the largest square is new in it.
+/// A difference counts as a combination of the others if its independent part is below this fraction of the largest square.
 const TINY: f64 = 1e-14;
 
-/// What the last sweeps have done.
+/// The history of the last sweeps.
 pub(super) struct Anderson {
     /// The square root of the weight of each value.
     scale: Vec<f64>,
@@ -20,27 +21,27 @@ pub(super) struct Anderson {
     last: Sweep,
     /// The square of the length of the last change.
     length: f64,
-    /// Whether nothing is known of the last sweep.
+    /// Whether there is no last sweep yet.
     is_new: bool,
-    /// How each of the last sweeps differed from the one before, the oldest first.
+    /// The difference between each recent sweep and the one before, the oldest first.
     steps: Vec<Sweep>,
-    /// What is added to the values after the last sweep.
+    /// The correction to the values after the last sweep.
     further: Vec<f64>,
 }
 
-/// A sweep, or how one differs from another.
+/// A sweep, or the difference between two sweeps.
 #[derive(Default)]
 struct Sweep {
-    /// The values that it found.
+    /// The values after the sweep.
     found: Vec<f64>,
-    /// What it changed, with the weights.
+    /// The weighted change of the values.
     change: Vec<f64>,
-    /// The products of that with those of the older ones and with itself.
+    /// The products of this change with those of the older entries and with itself.
     products: Vec<f64>,
 }
 
 impl Anderson {
-    /// Begins with the values before the first sweep. Each has a weight, by which changes are compared.
+    /// Starts with the values before the first sweep. The weights define the size of a change.
     pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
         Anderson {
             scale: weights.iter().map(|weight| weight.sqrt()).collect(),
@@ -53,7 +54,7 @@ impl Anderson {
         }
     }
 
-    /// What to add to the values that a sweep has found, so that the next sweep begins nearer to the limit.
+    /// The correction to the values that a sweep has found. With it, the next sweep starts nearer to the limit.
     pub(super) fn go_further(&mut self, found: &[f64]) -> &[f64] {
         let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
         let change = found.iter().zip(&self.before).zip(&self.scale);
@@ -83,7 +84,7 @@ impl Anderson {
         self.steps.remove(0)
     }
 
-    /// Notes how the last sweep differs from the one before.
+    /// Stores the difference between the last sweep and the one before.
     fn note(&mut self, before: Sweep) {
         let Sweep { mut found, mut change, mut products } = before;
         found.iter_mut().zip(&self.last.found).for_each(|(before, now)| *before = now - *before);
@@ -93,8 +94,8 @@ impl Anderson {
         self.steps.push(Sweep { found, change, products });
     }
 
-    /// How much of each difference to take, so that their sum comes as near as possible to the last change. This is a problem of least squares;
-    /// its equations are solved by Cholesky's factorization.
+    /// The coefficients with which the sum of the differences comes nearest to the last change. This least-squares problem is solved by
+    /// Cholesky factorization of its normal equations.
     fn parts(&self) -> [f64; MEMORY] {
         let n = self.steps.len();
         let largest = self.steps.iter().zip(0..).fold(0.0_f64, |most, (step, i)| most.max(step.products[i]));
@@ -106,7 +107,7 @@ impl Anderson {
                 let left = self.steps[i].products[j] - known;
                 factor[i][j] = match i == j {
                     true if left > TINY * largest => left.sqrt(),
-                    // A difference that tells nothing new takes no part.
+                    // A dependent difference gets the coefficient 0.
                     true => f64::INFINITY,
                     false => left / factor[j][j],
                 };
@@ -122,7 +123,7 @@ impl Anderson {
     }
 }
 
-/// The sum of the products of all values: four sums, so that the processor can make them at once.
+/// The dot product. Four separate sums let the processor work in parallel.
 fn product(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_left), (b, b_left)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -145,8 +146,8 @@ fn overwrite(values: &mut Vec<f64>, new: impl Iterator<Item = f64>) {
 mod tests {
     use super::*;
 
-    /// Each sweep brings three values nearer to their limit, by the factors 0.99, 0.9 and −0.5. By sweeps alone, this would take two thousand of
-    /// them. Three differences are enough to find the limit.
+    /// Each sweep brings three values nearer to their limit, by the factors 0.99, 0.9 and −0.5. Sweeps alone would take two thousand
+    /// iterations. Three differences are enough to find the limit.
     #[test]
     fn a_linear_iteration_reaches_its_limit_in_a_few_sweeps() {
         let limit = [1.0, -2.0, 0.5];
@@ -167,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Where nothing changes any more, nothing is added.
+    /// If nothing changes any more, the correction is zero.
     #[test]
     fn what_is_at_its_limit_stays_there() {
         let mut anderson = Anderson::from(&[3.0], &[1.0]);

@@ -1,10 +1,10 @@
-//! A ball joint: two points stay together, and every turn is free.
+//! A ball joint: two points coincide, and all rotations are free.
 
 use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
-/// A ball-and-socket joint, also called spherical.
+/// A ball joint, also called spherical joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
     /// The two points.

@@ -1,4 +1,4 @@
-//! What a unit impulse along each row does to the bodies.
+//! The effect of a unit impulse along each row on the bodies.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::member::Member;
 use super::solver::Solver;
 use super::{Direction, Law};
 
-/// M⁻¹ Jᵀ, row by row, as far as the joints allow.
+/// M⁻¹ Jᵀ, row by row, under the reactions of the joints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     changes: Vec<Change>,
@@ -17,7 +17,7 @@ pub(super) struct Columns {
     weights: Vec<f64>,
 }
 
-/// What a unit impulse does to a member.
+/// The effect of a unit impulse on a member.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Change {
     pub(super) member: usize,
@@ -32,7 +32,7 @@ impl Columns {
         self.weights.clear();
     }
 
-    /// Adds the next row, with how much a unit impulse changes its own rate.
+    /// Adds the next row. `weight` is the change of its own rate by a unit impulse.
     pub(super) fn push(&mut self, changes: impl Iterator<Item = Change>, weight: f64) {
         let start = self.changes.len();
         self.changes
@@ -41,12 +41,12 @@ impl Columns {
         self.weights.push(weight);
     }
 
-    /// What a unit impulse along a row does.
+    /// The effects of a unit impulse along a row.
     pub(super) fn of(&self, row: usize) -> &[Change] {
         &self.changes[self.rows[row].clone()]
     }
 
-    /// How much a unit impulse along each row changes its own rate; 0 for a row of a joint itself.
+    /// The change of each row's own rate by a unit impulse; 0 for a row of a joint.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
@@ -62,7 +62,7 @@ impl Columns {
 }
 
 impl Solver {
-    /// Finds what a unit impulse along each row does, as the joints allow; nothing for a row of a joint itself.
+    /// Finds the effect of a unit impulse along each row, with the reactions of the joints. Rows of the joints themselves stay empty.
     pub(super) fn find_columns(&mut self) {
         let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
@@ -79,7 +79,7 @@ impl Solver {
         self.columns = columns;
     }
 
-    /// Adds what an impulse along a row does while joints hold: their reactions move other bodies as well.
+    /// Adds the effect of an impulse along a row while joints hold. Their reactions move other bodies as well.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let mut moved: Vec<Member> = self.members.clone();
@@ -102,7 +102,7 @@ impl Solver {
         columns.push(moved.iter().enumerate().map(change), weight);
     }
 
-    /// The same where no joint holds bodies: only those of the row itself move.
+    /// Adds the same if no joint holds bodies: only the bodies of the row move.
     fn push_free_column(&self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let directions = &self.jacobian[structure.directions_of(row)];

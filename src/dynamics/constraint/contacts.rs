@@ -1,4 +1,4 @@
-//! The contacts among the constraints: which there are, what they do, and the joints alone while bodies hit each other.
+//! The contacts among the constraints: adding, dropping and evaluating them, and the joints alone during impacts.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,18 +14,17 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Whether nothing holds bodies.
+    /// Whether there are no active constraints.
     pub(in crate::dynamics) fn is_idle(&self, model: &Model) -> bool {
         model.constraints().is_empty() && self.contacts.is_empty()
     }
 
-    /// The places where bodies stay in touch.
+    /// The lasting contacts.
     pub(in crate::dynamics) fn contacts(&self) -> &[Arc<Closed>] {
         &self.contacts
     }
 
-    /// Sets the places where bodies stay in touch. Returns whether they are others than before: what the rows do is to be
-    /// [decided](Self::decide) then.
+    /// Sets the lasting contacts. Returns whether they have changed; the modes of the rows must then be [decided](Self::decide).
     pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
         let is_same = |(old, new): (&Arc<Closed>, &Arc<Closed>)| old.is(new);
         let are_same =
@@ -37,21 +36,21 @@ impl Solver {
         !are_same
     }
 
-    /// One that takes some of the contacts over, with what has been noted so far.
+    /// A solver for some of the contacts, with the history so far.
     pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<Closed>>) -> Solver {
         let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
         let changes = self.changes.clone();
         Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
     }
 
-    /// Whether these are its contacts, and it is known what they do.
+    /// Whether it has exactly these contacts, and their modes are decided.
     pub(in crate::dynamics) fn has(&self, contacts: &[Arc<Closed>]) -> bool {
         self.structure.is_some()
             && self.contacts.len() == contacts.len()
             && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
     }
 
-    /// Takes over from parts what they have noted, and all their contacts. What these do is to be [decided](Self::decide) then.
+    /// Takes over the history and all contacts of other solvers. Their modes must then be [decided](Self::decide).
     pub(in crate::dynamics) fn unite(&mut self, parts: &[Solver]) {
         let mut contacts = Vec::new();
         for part in parts {
@@ -69,7 +68,7 @@ impl Solver {
         self.forget();
     }
 
-    /// Leaves the constraints of some bodies to somebody else.
+    /// Leaves the constraints of some bodies to another solver.
     pub(in crate::dynamics) fn leave(&mut self, bodies: &BTreeSet<usize>) {
         if self.away != *bodies {
             self.away.clone_from(bodies);
@@ -77,24 +76,24 @@ impl Solver {
         }
     }
 
-    /// Moves bodies the shortest way to where what holds them has no gap.
+    /// Closes the gaps of constraints by moving bodies the shortest distance.
     pub(in crate::dynamics) fn close_gaps(&mut self, model: &Model, t: f64, state: &mut State) {
         if !self.is_idle(model) {
-            // Some rows are measured from the beginning of a step.
+            // Some rows are measured relative to the start of a step.
             self.begin(model, t, state);
             self.is_ready = false;
             self.measure(t, state);
             let (before, gaps) = (self.worst(), state.clone());
             self.settle_places(t, state);
             self.measure(t, state);
-            // Where rows contradict each other, gaps stay.
+            // If rows contradict each other, gaps remain.
             if self.worst().is_nan() || self.worst() > before {
                 state.clone_from(&gaps);
             }
         }
     }
 
-    /// The same where all contacts are to hold, whatever they did.
+    /// Closes the gaps of all contacts, whatever their modes were.
     pub(in crate::dynamics) fn close_all(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -118,7 +117,7 @@ impl Solver {
         self.settle_places(t, state);
     }
 
-    /// For each row, the speed below which it counts as at rest, m/s.
+    /// The speed below which each row counts as at rest, m/s.
     pub(super) fn stills(&self, model: &Model) -> Vec<f64> {
         let mut stills = vec![0.0; self.rows.len()];
         let places = self.structure.iter().flat_map(|structure| &structure.places);
@@ -130,7 +129,7 @@ impl Solver {
         stills
     }
 
-    /// Whether something holds one of some bodies that can move.
+    /// Whether a constraint concerns one of these bodies that can move.
     pub(in crate::dynamics) fn concerns(&self, bodies: &[usize]) -> bool {
         let Some(structure) = &self.structure else { return true };
         let holds = |body: &usize| {
@@ -140,14 +139,14 @@ impl Solver {
         bodies.iter().any(holds)
     }
 
-    /// Sets out on a step of `span` seconds, after [`begin`](Self::begin). Whoever only looks at a state does not.
+    /// Starts a step of `span` seconds, after [`begin`](Self::begin). It is not called to evaluate a state only.
     pub(in crate::dynamics) fn set_out(&mut self, span: f64) {
         self.span = span;
         self.is_unsolved = false;
         self.head();
     }
 
-    /// Notes, after a step, where no forces of friction fit what is asked for, as in Painlevé's paradox.
+    /// Reports, after a step, that no friction forces fulfil the equations, as in Painlevé's paradox.
     pub(in crate::dynamics) fn blame_friction(&mut self, model: &Model, time: f64) {
         let Some(structure) = self.structure.as_ref().filter(|_| self.is_unsolved) else { return };
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
@@ -157,17 +156,17 @@ impl Solver {
         }
     }
 
-    /// Notes that the run cannot go on.
+    /// Notes that the run cannot continue.
     pub(in crate::dynamics) fn fail(&mut self, breakdown: Breakdown) {
         self.failure = self.failure.or(Some(breakdown));
     }
 
-    /// Whether the run cannot go on.
+    /// Whether the run cannot continue.
     pub(in crate::dynamics) fn has_failed(&self) -> bool {
         self.failure.is_some()
     }
 
-    /// Lets go of the contacts that do not push. Returns whether there were some; what the others do is to be decided anew then.
+    /// Drops the contacts that do not push. Returns whether there were any; the modes of the others must then be decided anew.
     pub(in crate::dynamics) fn drop_open_contacts(&mut self, model: &Model) -> bool {
         let joints = model.constraints().len();
         let is_held = |k: usize| {
@@ -184,7 +183,7 @@ impl Solver {
         true
     }
 
-    /// Solves A x = b for the rows that hold.
+    /// Solves A x = b for the active rows.
     #[inline]
     pub(super) fn solve(&mut self) {
         if self.factor.is_soft() {
@@ -195,7 +194,7 @@ impl Solver {
     }
 
     fn solve_softly(&mut self) {
-        // Soft rows give way a little; refining takes that out again.
+        // Soft rows yield a little. Iterative refinement removes this error.
         let right = self.unknown.clone();
         self.factor.solve(&mut self.unknown);
         for _ in 0..REFINEMENTS {
@@ -206,7 +205,7 @@ impl Solver {
         }
     }
 
-    /// Lets the joints alone hold from now on, at a state in which they do: what hits bodies moves them as these allow.
+    /// From now on, only the joints are kept, starting from a state that satisfies them. Impacts then respect the joints.
     pub(in crate::dynamics) fn hold_joints(&mut self, model: &Model, t: f64, state: &State) {
         self.is_ready = false;
         self.plan(model);
@@ -217,7 +216,7 @@ impl Solver {
         self.factorise(true);
     }
 
-    /// Takes out of the velocities what the joints do not allow, after [`hold_joints`](Self::hold_joints) at these places.
+    /// Removes velocities that violate the joints, after [`hold_joints`](Self::hold_joints) at these positions.
     pub(in crate::dynamics) fn obey_joints(&mut self, model: &Model, state: &mut State) {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -225,7 +224,7 @@ impl Solver {
         self.settle_velocities(model, state);
     }
 
-    /// The velocities and angular velocities of two bodies that impulses and their moments give them, as the joints allow, after
+    /// The velocities and angular velocities that impulses and their moments give to two bodies under the joints, after
     /// [`hold_joints`](Self::hold_joints).
     pub(in crate::dynamics) fn respond(
         &mut self,
@@ -257,7 +256,7 @@ impl Solver {
         free
     }
 
-    /// The places of contact and their forces at the moment that was evaluated last.
+    /// The points of contact and their forces at the last evaluation.
     pub(in crate::dynamics) fn contact_snapshots(&self, model: &Model) -> Vec<ContactSnapshot> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let joints = model.constraints().len();
@@ -275,7 +274,7 @@ impl Solver {
         all
     }
 
-    /// Why a run cannot go on, where constraint `index` cannot be kept.
+    /// The reason why a run cannot continue if constraint `index` is broken.
     pub(super) fn broken(&self, model: &Model, index: usize, time: f64, missing: f64) -> Breakdown {
         match index.checked_sub(model.constraints().len()) {
             None => Breakdown::Broken { constraint: index, time, missing },
@@ -286,5 +285,5 @@ impl Solver {
     }
 }
 
-/// So many times solutions are refined where rows are soft: each makes what is left smaller by about the part of softness.
+/// The number of refinements with soft rows. Each reduces the error by about the factor of softness.
 const REFINEMENTS: usize = 3;

@@ -1,4 +1,4 @@
-//! The coordinate that a hinge or a slider leaves free: an angle or a displacement.
+//! The free coordinate of a hinge or a slider: an angle or a displacement.
 
 use glam::DVec3;
 
@@ -23,11 +23,11 @@ pub struct Coordinate {
 pub(super) struct Free {
     /// Its value, rad (from −π to π) or m.
     pub(super) value: f64,
-    /// The part of its second derivative that does not come from accelerations of the bodies.
+    /// The part of its second derivative that does not depend on the accelerations of the bodies.
     bias: f64,
-    /// The size of the terms whose difference is the value.
+    /// The size of the terms whose difference is the value, for rounding errors.
     pub(super) scale: f64,
-    /// For each end: its body, and the derivatives of the value by the body's place and turn.
+    /// For each end: its body, and the derivatives of the value by the body's position and rotation.
     parts: [(Option<usize>, DVec3, DVec3); 2],
 }
 
@@ -38,8 +38,8 @@ impl Coordinate {
         self.zero.is_some()
     }
 
-    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure gives a body. `None` while one of them
-    /// is away.
+    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure returns the snapshot of a body. `None` while
+    /// a body is absent.
     pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
         let mut all = [Member::default(); 2];
         let ids = super::parts::bodies(&self.between);
@@ -54,7 +54,7 @@ impl Coordinate {
         Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
-    /// The coordinate, with both ends as they are now.
+    /// The coordinate for the current ends.
     pub(super) fn measure(&self, [a, b]: &[End<'_>; 2]) -> Free {
         let axis = a.orientation() * self.axis;
         match self.zero {
@@ -87,12 +87,12 @@ impl Coordinate {
         }
     }
 
-    /// The coordinate now, and at the beginning of the step.
+    /// The coordinate now, and at the start of the step.
     pub(super) fn measure_both(&self, members: &Members<'_>) -> [Free; 2] {
         [*members, members.at_origin()].map(|members| self.measure(&End::all(&self.between, &members)))
     }
 
-    /// The difference of two values; between angles, the shorter way round.
+    /// The difference of two values; for angles, in the shorter direction.
     pub(super) fn difference(&self, to: f64, from: f64) -> f64 {
         if self.is_angle() { libm::remainder(to - from, std::f64::consts::TAU) } else { to - from }
     }
@@ -105,7 +105,7 @@ impl Coordinate {
         rate(a, free.parts[0]) + rate(b, free.parts[1])
     }
 
-    /// For each end, its body, and the force and the torque on it by a generalised force of 1.
+    /// For each end, its body, and the force and torque on it under a generalised force of 1.
     pub(super) fn directions(free: &Free) -> [(Option<usize>, DVec3, DVec3); 2] {
         free.parts
     }
@@ -126,7 +126,7 @@ pub(super) struct CoordinateRow<'a> {
 }
 
 impl CoordinateRow<'_> {
-    /// Writes it.
+    /// Writes the equation.
     pub(super) fn write(self, equations: &mut Equations<'_>) {
         let (mut bias, mut scale) = (self.curvature, f64::MIN_POSITIVE);
         for (factor, free) in self.terms {

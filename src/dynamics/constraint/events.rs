@@ -1,4 +1,4 @@
-//! Events: how far a state is from the next moment at which a row changes its mode.
+//! Events: the distance of a state from the next change of a row's mode.
 
 use super::super::{Loads, Model, State};
 use super::Law;
@@ -7,21 +7,21 @@ use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
 
-/// An open stop may be passed by this part of its scale, and a speed by this part of the rates, before that is an event.
+/// An event needs more than this: an open stop that is passed by this fraction of its scale, or a speed of this fraction of the rates.
 pub(super) const PASSED: f64 = 1e-12;
 
-/// Multipliers may be on the wrong side by this part of the accelerations. It is more than what [`Solver::decide`] calls
-/// slight, so that each event changes something.
+/// The tolerance for multipliers of the wrong sign, as a fraction of the accelerations. It exceeds the tolerance of [`Solver::decide`],
+/// so that each event changes something.
 const PULLED: f64 = 1e-9;
 
 impl Solver {
-    /// Whether rows can change what they do.
+    /// Whether rows can change their modes.
     pub(in crate::dynamics) fn has_events(&self) -> bool {
         self.has_modes
     }
 
-    /// The distance of a state from the next event, in units of what is tolerated, and the row of that event. It is 1 where a
-    /// stop is just touched, and negative where the event is over. `loads` is room to work in.
+    /// The distance of a state from the next event, in units of the tolerance, and the row of that event. It is 1 if a stop is just
+    /// touched, and negative after the event. `loads` is working memory.
     pub(in crate::dynamics) fn margin(
         &mut self,
         model: &Model,
@@ -77,21 +77,21 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
-    /// To be called when the state whose margin was asked for last is the end of a piece. Only these states say how large rates and
-    /// accelerations are: in a step that was tried and was too long, they can be far too large.
+    /// Must be called if the state of the last [`margin`](Self::margin) ends a piece. Only these states determine the typical size of
+    /// rates and accelerations: a trial step that is too long can give far larger values.
     pub(in crate::dynamics) fn accept(&mut self) {
         let [rate, acceleration] = std::mem::take(&mut self.seen);
         self.largest_rate = self.largest_rate.max(rate);
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
     }
 
-    /// By how much forces change rates within a time, s.
+    /// The typical change of rates by forces within a time, s.
     pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
         let change = self.largest_acceleration * time;
         if change.is_finite() { change } else { 0.0 }
     }
 
-    /// The bodies of a row's constraint.
+    /// The bodies of the constraint to which a row belongs.
     pub(in crate::dynamics) fn bodies_of(&self, row: usize) -> Vec<usize> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let place = structure.place_of_row(row);
@@ -99,12 +99,12 @@ impl Solver {
             .map_or(Vec::new(), |place| place.bodies.iter().map(|&member| structure.bodies[member]).collect())
     }
 
-    /// Whether no forces of friction were found in the step that was made last.
+    /// Whether no friction forces were found in the last step.
     pub(in crate::dynamics) fn is_unsolved(&self) -> bool {
         self.is_unsolved
     }
 
-    /// The bodies of a contact for which nothing was right when it was decided last what it does.
+    /// The bodies of a contact for which no mode was right in the last decision.
     pub(in crate::dynamics) fn take_undecided(&mut self, model: &Model) -> Option<Vec<usize>> {
         let row = self.undecided.take()?;
         let joints = model.constraints().len();
@@ -112,7 +112,7 @@ impl Solver {
         (place.constraint >= joints).then(|| self.bodies_of(row))
     }
 
-    /// Notes that the run cannot go on, since a row changes its mode again and again.
+    /// Reports that the run cannot continue, because a row changes its mode again and again.
     pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
         let place = structure.place_of_row(row);

@@ -1,42 +1,42 @@
 //! The sparse factorisation A = L D Lᵀ of a symmetric matrix, row by row.
 //!
-//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. It is our
-//! own, not that of a crate, for two reasons. Some rows are left out while it runs: those that others imply, and those that do
-//! not hold at present. And the order of its sums must not depend on the processor.
+//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. Two reasons speak
+//! against a crate. Rows are left out at run time: those that others imply, and those that are inactive at present. And the order of the
+//! sums must not depend on the processor.
 
 use std::ops::Range;
 
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// A row whose pivot is below this part of its diagonal is implied by other rows. Such a pivot is rounding only.
+/// A row whose pivot is below this fraction of its diagonal is implied by other rows: such a pivot is only rounding.
 const IMPLIED: f64 = 1e-11;
 
-/// A matrix and its factors; both keep their patterns.
+/// A matrix and its factors. Both keep their sparsity patterns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {
     lines: Vec<Line>,
     /// The matrix: the entries on and above the diagonal, column by column.
     matrix: Vec<Entry>,
-    /// Where the couplings of each direction of the Jacobian begin in `couplings`; one more for the end.
+    /// The start of the couplings of each direction of the Jacobian in `couplings`, and the end as last entry.
     coupling_start: Vec<usize>,
     couplings: Vec<Coupling>,
-    /// The entries of L, row by row. Within a row, entries that others need come first.
+    /// The entries of L, row by row. Within a row, an entry precedes those that depend on it.
     crossings: Vec<Crossing>,
     /// L, column by column.
     lower: Vec<Entry>,
     /// 1/D; 0 for rows that are left out.
     inverse: Vec<f64>,
-    /// The soft rows; see [`SOFT`]. Each names the row that is softened by the same amount: the other tangent of its contact, so
-    /// that the directions of the tangents do not matter, or itself.
+    /// For each soft row (see [`SOFT`]), the row that is softened by the same amount: itself, or the other tangent of its contact, so
+    /// that the directions of the tangents do not matter.
     soft: Vec<Option<usize>>,
-    /// The weight of each row: a soft row with weight 2 gives way twice as much.
+    /// The weight of each row: a soft row with weight 2 yields twice as much.
     weights: Vec<f64>,
-    /// Room to work in. All entries are zero between two calls.
+    /// Working memory. All entries are zero between two calls.
     work: Vec<f64>,
 }
 
-/// Where the entries of a row are.
+/// The entries of a row.
 #[derive(Clone, Debug)]
 struct Line {
     /// The column of the matrix.
@@ -54,10 +54,10 @@ struct Entry {
     value: f64,
 }
 
-/// Two directions of one body, in the row of a column and in an earlier row. Their product is a part of an entry.
+/// Two directions of one body: one in the row of a column, one in an earlier row. Their product is added to an entry.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
-    /// The entry of the matrix to which it is added.
+    /// The entry of the matrix.
     entry: usize,
     /// The direction in the earlier row.
     other: usize,
@@ -67,21 +67,20 @@ struct Coupling {
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
     column: usize,
-    /// Where the column begins in `lower`.
+    /// The start of its column in `lower`.
     first: usize,
-    /// The entry's place in `lower`.
+    /// Its index in `lower`.
     at: usize,
 }
 
-/// The diagonal of a soft row is enlarged by this part of itself, or of the mean of its own and its partner's. So rows that imply
-/// each other can all take part, and share the load with the smallest sum of squares. Refining the solution takes out the rest of
-/// what this changes.
+/// The diagonal of a soft row is enlarged by this fraction of itself, or of the mean of its own and its partner's. So rows that imply
+/// each other can all take part, and share the load with the smallest sum of squares. Iterative refinement removes the remaining error.
 const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
 
 impl Factor {
-    /// Room for the matrix J M⁻¹ Jᵀ of a structure. Its columns hold the blocks of the neighbours in their order.
+    /// Memory for the matrix J M⁻¹ Jᵀ of a structure. Its columns hold the blocks of the neighbours in their order.
     pub(super) fn new(structure: &Structure) -> Factor {
         let mut factor = Factor::default();
         let mut couplings = vec![Vec::new(); structure.directions];
@@ -114,7 +113,7 @@ impl Factor {
         factor
     }
 
-    /// Finds the pattern of L: from each entry of the matrix, a row gets entries all the way up the elimination tree.
+    /// Finds the pattern of L: each entry of the matrix adds entries to its row for all ancestors in the elimination tree.
     fn plan(&mut self, columns: Vec<Range<usize>>) {
         let n = columns.len();
         // The elimination tree: the first later row in which a column of L has an entry.
@@ -183,11 +182,11 @@ impl Factor {
         self.matrix[self.lines[row].column.end - 1].value
     }
 
-    /// Factorises the matrix. `held` says which rows take part. With `choose`, rows that others imply are taken out of it.
+    /// Factorises the matrix. `held` selects the active rows. With `choose`, rows that others imply are removed from it.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
         let Factor { lines, matrix, crossings, lower, inverse, soft, weights, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
-            // A column ends with its entry on the diagonal.
+            // The last entry of a column is on the diagonal.
             let Some((diagonal, before)) = matrix[line.column.clone()].split_last() else { continue };
             for entry in before {
                 work[entry.row] = entry.value;
@@ -221,18 +220,18 @@ impl Factor {
         self.soft = soft;
     }
 
-    /// Sets the weights of soft rows. Those of all others become 1.
+    /// Sets the weights of soft rows. All other weights become 1.
     pub(super) fn weigh(&mut self, weights: impl IntoIterator<Item = (usize, f64)>) {
         self.weights.fill(1.0);
         weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
     }
 
-    /// Whether some row is soft, so that solutions have to be refined.
+    /// Whether any row is soft, so that solutions need refinement.
     pub(super) fn is_soft(&self) -> bool {
         self.soft.iter().any(Option::is_some)
     }
 
-    /// For each row, the sum of the sizes of its entries in the columns that count.
+    /// For each row, the sum of the absolute values of its entries in the selected columns.
     pub(super) fn row_sizes(&self, counts: impl Fn(usize) -> bool) -> Vec<f64> {
         let mut sizes = vec![0.0; self.lines.len()];
         for (k, line) in self.lines.iter().enumerate() {
@@ -265,7 +264,7 @@ impl Factor {
         }
     }
 
-    /// Solves A x = b for the rows that take part; the other entries of x are 0.
+    /// Solves A x = b for the active rows; the other entries of x are 0.
     #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         for (i, line) in self.lines.iter().enumerate() {

@@ -9,23 +9,23 @@ use super::{Equations, Law, Members};
 /// The limits and the motor of a joint that leaves one coordinate free.
 #[derive(Clone, Debug, Default)]
 pub struct Freedom {
-    /// The smallest and the largest value, rad or m. For an angle, they are less than a turn apart.
+    /// The smallest and the largest value, rad or m. For an angle, their difference is less than a full rotation.
     pub limits: Option<[f64; 2]>,
-    /// What drives it.
+    /// Its motor.
     pub motor: Option<Motor>,
 }
 
-/// What drives a joint.
+/// A motor of a joint.
 #[derive(Clone, Debug)]
 pub enum Motor {
-    /// It keeps a speed, unless that takes more than its largest torque or force.
+    /// Keeps a speed within the limit of its torque or force.
     Speed {
         /// The speed, rad/s or m/s.
         speed: f64,
         /// The largest torque, N m, or force, N; it is positive.
         limit: f64,
     },
-    /// It keeps a value that is given as a function of time, with any force that this takes.
+    /// Keeps a value that is a given function of time, with any force that this needs.
     Value(Arc<dyn Target>),
 }
 
@@ -41,7 +41,7 @@ impl Freedom {
         2 * usize::from(self.limits.is_some()) + usize::from(self.motor.is_some())
     }
 
-    /// What one of its equations may do.
+    /// The law of one of its equations.
     pub(super) fn law(&self, row: usize) -> Law {
         if self.limits.is_some() && row < 2 {
             return Law::Stop;
@@ -72,7 +72,7 @@ impl Freedom {
             row += 1;
         };
         if let Some([low, high]) = self.limits {
-            // Angles repeat after a turn: take the one nearest to the middle of the limits.
+            // Angles are periodic: take the value nearest to the middle of the limits.
             let middle = 0.5 * (low + high);
             let value = middle + coordinate.difference(now.value, middle);
             write(1.0, value - low, 0.0, 0.0);
@@ -80,7 +80,7 @@ impl Freedom {
         }
         match &self.motor {
             None => {}
-            // Relative to the beginning of the step, so that nobody has to count turns.
+            // Relative to the start of the step, so that full rotations need not be counted.
             Some(Motor::Speed { speed, .. }) => {
                 let moved = coordinate.difference(now.value, before.value);
                 let due = coordinate.difference(speed * members.elapsed(), 0.0);

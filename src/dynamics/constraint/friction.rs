@@ -1,6 +1,6 @@
-//! Coulomb friction: pairs of rows that hold as far as the normal force lets them.
+//! Coulomb friction: pairs of rows that hold as far as the normal force allows.
 //!
-//! A pair sticks, with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip. λₙ depends on what slides, so both
+//! A pair sticks with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip. λₙ depends on which pairs slide, so both
 //! are found together. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8.
 
 use glam::DVec2;
@@ -12,53 +12,53 @@ use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};
 
-/// What slides slower than so many times what friction changes in a step slides slowly.
+/// A slip counts as slow if it is below this multiple of its change by friction in a step.
 const SLOWLY: f64 = 2.0;
 
-/// The loads of places may be so many times more or less than their mean for friction to be shared accordingly.
+/// When contact points share friction by their loads, the loads count as at most this factor away from their mean.
 const UNLIKE: f64 = 10.0;
 
-/// Directions are about the same where the cosine of their angle is larger.
+/// Two directions are nearly equal if the cosine of their angle is larger than this.
 const ABOUT: f64 = 0.99;
 
-/// What is restless sticks below this part of the largest rate.
+/// A restless contact sticks below this fraction of the largest rate.
 const RESTING: f64 = 1e-5;
 
-/// A slip below this part of the largest rate has no direction of its own.
+/// Below this fraction of the largest rate, a slip has no usable direction.
 pub(super) const SLOW: f64 = 1e-9;
 
-/// Two rows that hold by friction.
+/// Two rows of friction.
 #[derive(Clone, Debug)]
 pub(super) struct Grip {
-    /// Its first row; the second one follows.
+    /// The first row; the second follows.
     pub(super) row: usize,
     /// The row whose multiplier bounds it.
     pub(super) normal: usize,
-    /// The largest ratio of the two.
+    /// The largest ratio of the friction to the multiplier of `normal`.
     pub(super) coefficient: f64,
-    /// Where it pushes while it slides: a unit vector in its two rows.
+    /// The direction in which it pushes while it slides: a unit vector in the plane of its two rows.
     pub(super) push: DVec2,
     /// The direction of the slip at the beginning of the step.
     pub(super) heading: DVec2,
-    /// Whether it has just begun to slide, and does not yet move.
+    /// Whether it has just begun to slide, and has no speed yet.
     pub(super) is_beginning: bool,
-    /// Whether friction can stop it within the step. Its direction is kept until then, or it would turn and not end.
+    /// Whether friction can stop it within the step. It then keeps its direction until it stops; otherwise the slip would turn around
+    /// endlessly.
     pub(super) is_slow: bool,
-    /// Whether the two bodies touch at other places as well.
+    /// Whether the two bodies also touch at other points.
     pub(super) is_shared: bool,
-    /// Whether it is caught at once, since no force fits its slip.
+    /// Whether it must stick at once, since no force fits its slip.
     pub(super) is_caught: bool,
-    /// Whether it has changed too often in the present step: it sticks then until the end, whatever friction that takes.
+    /// Whether it has changed too often in this step. It then sticks until the end of the step, with any friction that this needs.
     pub(super) is_restless: bool,
-    /// How much all pairs of rows change each other at most: the largest sum of the sizes of the entries of A between one of its rows
-    /// and all of friction.
+    /// The strongest coupling with all friction rows: for its two rows, the larger sum of the absolute values of their entries of A.
     pub(super) stiffness: f64,
-    /// By how much friction could change slips, m/s² or rad/s², when it was decided last.
+    /// The largest change of slips by friction at the last decision, m/s² or rad/s².
     pub(super) strength: f64,
 }
 
 impl Grip {
-    /// All of a structure, whose laws are known.
+    /// All pairs of a structure with known laws.
     pub(super) fn all(structure: &Structure, laws: &[Law]) -> Vec<Grip> {
         let mut grips = Vec::new();
         for place in &structure.places {
@@ -93,27 +93,27 @@ impl Grip {
         grips
     }
 
-    /// Whether it slides so slowly, in about the same direction as before, that friction would turn the slip around within a step of
-    /// `span` seconds. Where several places share a body, what rounding makes of the directions would then grow from step to step.
+    /// Whether the slip is so slow that friction would reverse it within a step of `span` seconds, and its direction is nearly the same
+    /// as before. If several points share a body, rounding errors of the directions would otherwise grow from step to step.
     fn keeps_heading(&self, slip: DVec2, span: f64) -> bool {
         self.is_shared
             && slip.length() < SLOWLY * self.strength * span
             && slip.dot(self.heading) > ABOUT * slip.length()
     }
 
-    /// Its part of a list with one value for each row.
+    /// Its two values in a list with one value for each row.
     pub(super) fn of(&self, values: &[f64]) -> DVec2 {
         DVec2::new(values[self.row], values[self.row + 1])
     }
 }
 
 impl Solver {
-    /// Whether some contact slides.
+    /// Whether any contact slides.
     pub(super) fn slides(&self) -> bool {
         self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Slid)
     }
 
-    /// Notes how contacts slide at the present velocities: friction pushes against it.
+    /// Updates the slips at the current velocities, and sets friction against them.
     pub(super) fn see_slips(&mut self) {
         if !self.slides() {
             return;
@@ -127,8 +127,8 @@ impl Solver {
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             let slip = grip.of(&rates);
             let speed = slip.length();
-            // Where a slip only begins or ends, it goes where it was found to go. Once it is over, that goes on until the step is
-            // made anew up to there, so that forces are smooth in it.
+            // A slip that begins or ends keeps the direction found before. Friction keeps this direction even after the slip ends, so
+            // that forces are smooth until the step is repeated up to that moment.
             let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
             if !grip.is_beginning && !grip.is_slow && !grip.keeps_heading(slip, self.span) {
                 grip.push = if goes_on { -slip / speed } else { -grip.heading };
@@ -137,7 +137,7 @@ impl Solver {
         self.slips = rates;
     }
 
-    /// Notes, at the beginning of a step, where contacts slide.
+    /// Stores the directions of sliding at the start of a step.
     pub(super) fn head(&mut self) {
         self.see_slips();
         let slow = SLOW * self.largest_rate;
@@ -159,8 +159,7 @@ impl Solver {
         }
     }
 
-    /// Sets what a pair of rows does first: it sticks where it does not slip, and slides where it does, as long as its normal row
-    /// holds.
+    /// Sets the first mode of a pair of rows: it sticks without slip and slides with slip, but only while its normal row holds.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
         let Grip { row, normal, is_restless, is_caught, .. } = self.grips[grip];
         let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
@@ -178,8 +177,8 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Whether contacts that hold still move by more than an event tolerates: that is to be taken out then, or what begins to slide would
-    /// go the wrong way.
+    /// Whether closed contacts still move by more than an event tolerates. This motion must then be removed, or sliding would begin in
+    /// the wrong direction.
     pub(super) fn still_moves(&self, rates: &[f64]) -> bool {
         let moves = |row: usize, speed: f64, part: f64| {
             self.modes[row] == Mode::Held && speed > part * self.largest_rate
@@ -189,9 +188,9 @@ impl Solver {
             || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
     }
 
-    /// Lets a contact stick at once that slides, but whose normal row is wrong whatever it does: that is Painlevé's paradox. Friction grows
-    /// without end then, until the slip is over, as in an impact without restitution. Returns whether there is such a contact. Source:
-    /// D. E. Stewart, SIAM Review 42 (2000) 3.
+    /// Makes a sliding contact stick at once if no mode of its normal row is right: Painlevé's paradox. Friction then grows without bound
+    /// until the slip ends, as in an impact without restitution. Returns whether there is such a contact. Source: D. E. Stewart, SIAM
+    /// Review 42 (2000) 3.
     pub(super) fn catch(&mut self, wrong: usize) -> bool {
         let is_wrong = |grip: &&mut Grip| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
         let grip = self.grips.iter_mut().find(is_wrong);
@@ -203,8 +202,8 @@ impl Solver {
         Some(&self.grips[at])
     }
 
-    /// By how much what a pair of rows does is wrong, at its first row: it sticks and would need more friction than there is, or it
-    /// begins to slide and is pushed along.
+    /// The error of the present mode of a pair, asked by its first row. A sticking pair may need more friction than allowed; a pair that
+    /// begins to slide may be pushed along its slip.
     pub(super) fn grip_is_wrong(&self, row: usize, accelerations: &[f64]) -> f64 {
         let Some(grip) = self.grip_at(row).filter(|grip| !grip.is_restless) else { return 0.0 };
         match self.modes[row] {
@@ -217,7 +216,7 @@ impl Solver {
         }
     }
 
-    /// Lets a pair of rows that sticks slide, and the other way round.
+    /// Switches a pair of rows between sticking and sliding.
     pub(super) fn change_grip(&mut self, row: usize) {
         let force = match self.grip_at(row) {
             Some(grip) => grip.of(&self.unknown),
@@ -232,8 +231,7 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Lets places where bodies press harder take more of what friction has to hold: all reach their limits together. The normal forces
-    /// are those that were found last.
+    /// Distributes friction by the last normal forces: points with larger loads take more of it, so that all reach their limits together.
     pub(super) fn share_load(&mut self) {
         let loads: Vec<f64> = self.grips.iter().map(|grip| self.unknown[grip.normal].max(0.0)).collect();
         let sum: f64 = loads.iter().sum();
@@ -243,7 +241,7 @@ impl Solver {
         self.factor.weigh(weights);
     }
 
-    /// Notes how much pairs of rows change each other.
+    /// Updates the couplings between pairs of rows.
     pub(super) fn see_stiffness(&mut self) {
         let sizes = self.factor.row_sizes(|row| matches!(self.laws[row], Law::Friction { .. }));
         for grip in &mut self.grips {
@@ -251,7 +249,7 @@ impl Solver {
         }
     }
 
-    /// Notes how strong friction is.
+    /// Updates the strength of friction.
     pub(super) fn see_strength(&mut self) {
         for i in 0..self.grips.len() {
             let Grip { row, normal, coefficient, .. } = self.grips[i];
@@ -262,9 +260,9 @@ impl Solver {
         }
     }
 
-    /// Changes all pairs of rows that do not slip yet, by what they push and how they accelerate: those stick for which the friction
-    /// is enough, and the others begin to slide where they are pulled. Returns whether something has changed. Source: P. Alart &
-    /// A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353, for the criterion.
+    /// Updates all pairs without slip, from their forces and accelerations. Pairs with enough friction stick; the others begin to slide
+    /// in the direction of their load. Returns whether anything has changed. Source: P. Alart & A. Curnier, Comput. Methods Appl. Mech.
+    /// Eng. 92 (1991) 353, for the criterion.
     pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.grips.len() {
@@ -277,7 +275,7 @@ impl Solver {
             let most = coefficient * self.unknown[normal].max(0.0);
             let grip = &mut self.grips[i];
             let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;
-            // What is at the limit stays what it is.
+            // A pair at its limit keeps its mode.
             let left = (most - pulled.length()) * weight;
             let is_enough = if self.modes[row] == Mode::Slid { left > slight } else { left >= -slight };
             let mode = if is_enough { Mode::Held } else { Mode::Slid };

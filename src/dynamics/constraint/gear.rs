@@ -1,16 +1,16 @@
-//! A gear: two joints move together.
+//! A gear: the coordinates of two joints are proportional.
 
 use super::super::Anchor;
 use super::coordinate::{Coordinate, CoordinateRow};
 use super::member::End;
 use super::{Constraint, Equations, Members};
 
-/// Couples the coordinates of two joints: the angle of a hinge or the displacement of a slider, at a fixed ratio.
+/// Couples the coordinates of two joints at a fixed ratio: the angle of a hinge or the displacement of a slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gear {
     /// The coordinates of the two joints.
     pub joints: [Coordinate; 2],
-    /// How much the second moves when the first moves by 1; it is not 0.
+    /// The change of the second coordinate per unit of the first; not 0.
     pub ratio: f64,
 }
 
@@ -30,7 +30,7 @@ impl Constraint for Gear {
         1
     }
 
-    /// c = Δq₂ − r Δq₁, with the changes of both since the beginning of the step. So nobody has to count turns.
+    /// c = Δq₂ − r Δq₁, with both changes since the start of the step, so that full rotations need not be counted.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let measure = |members: &Members<'_>| {
             let [a, b, c, d] = End::all(&self.anchors(), members);

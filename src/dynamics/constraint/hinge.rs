@@ -1,4 +1,4 @@
-//! A hinge: two points stay together, and one axis stays common to both bodies.
+//! A hinge: two points coincide, and one axis is common to both bodies.
 
 use glam::{DQuat, DVec3};
 
@@ -6,22 +6,22 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A hinge, also called a revolute joint. Its angle is that of the second end against the first.
+/// A hinge, also called revolute joint. Its angle is that of the second end relative to the first.
 #[derive(Clone, Debug)]
 pub struct Hinge {
     /// The two points.
     pub between: [Anchor; 2],
-    /// The axis, a unit vector, in the axes of each end; those of a point of the world are the world's.
+    /// The axis, a unit vector, in the axes of each end; a point of the world has the world's axes.
     axis: [DVec3; 2],
-    /// The rotation that takes the axes of the first end to those of the second where the angle is 0.
+    /// The rotation from the axes of the first end to those of the second at angle 0.
     turned: DQuat,
     /// Its limits and its motor.
     pub freedom: Freedom,
 }
 
 impl Hinge {
-    /// A hinge that turns freely. `axis` is a unit vector in the axes of the first end; `turned` takes these axes to those of the
-    /// second end where the angle is 0.
+    /// A hinge without limits or motor. `axis` is a unit vector in the axes of the first end. `turned` is the rotation from these axes to
+    /// those of the second end at angle 0.
     #[must_use]
     pub fn new(between: [Anchor; 2], axis: DVec3, turned: DQuat) -> Hinge {
         Hinge { between, axis: [axis, turned * axis], turned, freedom: Freedom::default() }
@@ -39,7 +39,7 @@ impl Hinge {
         self.axis[0]
     }
 
-    /// The rotation that takes the axes of the first end to those of the second where the angle is 0.
+    /// The rotation from the axes of the first end to those of the second at angle 0.
     #[must_use]
     pub fn turned(&self) -> DQuat {
         self.turned

@@ -1,7 +1,6 @@
-//! Sweeps over contacts where no joint holds bodies: one island of bodies that touch each other after another.
+//! Sweeps over contacts without joints, island by island. An island is a set of bodies that touch each other.
 //!
-//! What bodies of one island do to each other does not concern another one, so each is swept only until it has settled. Rows lie one behind another in
-//! memory, in the order in which they are swept.
+//! Islands are independent, so each is swept only until it has settled. Its rows are stored in the order of the sweep.
 
 use std::ops::Range;
 
@@ -13,32 +12,32 @@ use super::anderson::Anderson;
 use super::solver::Solver;
 use super::sweep::SWEEPS;
 
-/// A row of a contact, as sweeps need it.
+/// A row of a contact in the form that sweeps need.
 struct Line {
     /// The number of the row in the solver.
     row: usize,
     /// Its terms.
     terms: Range<usize>,
-    /// How much a unit impulse changes its rate.
+    /// The change of its rate by a unit impulse.
     weight: f64,
-    /// The part of its rate that does not come from velocities that change, and the rate that is wanted.
+    /// The constant part of its rate minus the wanted rate.
     bias: f64,
     goal: f64,
     /// The least impulse.
     least: f64,
 }
 
-/// A velocity, of a place or of a turn, that a row changes.
+/// A velocity or an angular velocity that a row changes.
 struct Term {
-    /// Its number among all velocities.
+    /// Its index among all velocities.
     velocity: usize,
-    /// How much of it is in the rate of the row.
+    /// Its coefficients in the rate of the row.
     along: DVec3,
-    /// What a unit impulse does to it.
+    /// Its change by a unit impulse.
     change: DVec3,
 }
 
-/// Two rows of friction, which follow each other.
+/// Two consecutive rows of friction.
 struct Pair {
     first: usize,
     normal: usize,
@@ -46,7 +45,7 @@ struct Pair {
     weight: f64,
 }
 
-/// Rows that concern each other through bodies that move.
+/// The rows that are coupled through moving bodies.
 #[derive(Default)]
 struct Island {
     lines: Vec<Line>,
@@ -72,7 +71,7 @@ impl Line {
 }
 
 impl Island {
-    /// One sweep over all normals, and then over all friction. Gives the largest change of a rate.
+    /// One sweep over all normals, and then over all friction. Returns the largest change of a rate.
     fn sweep(&mut self, velocities: &mut [DVec3]) -> f64 {
         let mut change = 0.0_f64;
         for &normal in &self.normals {
@@ -109,7 +108,7 @@ impl Island {
         change
     }
 
-    /// How much a unit impulse of one row changes the rate of another one of the same members.
+    /// The change of another row's rate by a unit impulse of this row; both have the same members.
     fn coupling(&self, line: &Line, other: &Line) -> f64 {
         let of = |term: &Term| {
             let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);
@@ -118,7 +117,7 @@ impl Island {
         self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
     }
 
-    /// Makes sweeps, accelerated by Anderson's method, until one changes no rate by more than `tolerance`.
+    /// Sweeps with Anderson acceleration until no rate changes by more than `tolerance`.
     fn settle(&mut self, tolerance: f64, velocities: &mut [DVec3]) {
         let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
         let mut anderson = Anderson::from(&self.impulses, &weights);
@@ -138,8 +137,8 @@ impl Island {
 }
 
 impl Solver {
-    /// Finds the impulses in `unknown`, which begin as they are, and changes the velocities of the members by them. Contacts let their
-    /// rates fall to `goals` and no further; friction counts only if it is said.
+    /// Finds the impulses in `unknown`, starting from its values, and applies them to the velocities of the members. Contacts let their
+    /// rates fall down to `goals`. Friction is optional.
     pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, tolerance: f64) {
         let mut velocities: Vec<DVec3> =
             self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();
@@ -154,7 +153,7 @@ impl Solver {
         }
     }
 
-    /// The contacts as islands. Bodies that do not move belong to none.
+    /// Groups the contacts into islands. Fixed bodies belong to no island.
     fn islands(&self, goals: &[f64], with_friction: bool) -> Vec<Island> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let mut sets = Sets::new(self.members.len());
@@ -192,7 +191,7 @@ impl Solver {
                 if with_friction {
                     let first = normal + grip.row - place.row;
                     let [u, w] = [&island.lines[first], &island.lines[first + 1]];
-                    // The two rows change each other little: their tangents are at right angles.
+                    // The two rows are weakly coupled, since their tangents are perpendicular.
                     let weight = u.weight.max(w.weight);
                     let weight = if weight > 0.0 { weight + island.coupling(u, w) } else { 0.0 };
                     island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
@@ -202,7 +201,7 @@ impl Solver {
         islands
     }
 
-    /// A row, with its terms. Velocities of bodies that do not move count as bias.
+    /// A row with its terms. Velocities of fixed bodies count as bias.
     fn line(&self, row: usize, goal: f64, terms: &mut Vec<Term>) -> Line {
         let mut bias = self.rows[row].rate;
         let first = terms.len();

@@ -7,7 +7,7 @@ use super::member::Member;
 use super::structure::Structure;
 use super::{Direction, Row};
 
-/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to the accelerations that stand in their place.
+/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to accelerations in their place.
 pub(super) fn move_members(
     structure: &Structure,
     jacobian: &[Direction],
@@ -21,7 +21,7 @@ pub(super) fn move_members(
     });
 }
 
-/// Calls `act` with each direction of the Jacobian, its member and the multiplier of its row, unless that is 0.
+/// Calls `act` with each direction of the Jacobian, its member and the multiplier of its row, unless the multiplier is 0.
 pub(super) fn for_each_direction(
     structure: &Structure,
     jacobian: &[Direction],
@@ -58,7 +58,7 @@ pub(super) fn rates(
     largest
 }
 
-/// Writes J v for the velocities of the members, or J a where accelerations stand in their place.
+/// Writes J v for the velocities of the members, or J a if these hold accelerations.
 pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &[Member], out: &mut [f64]) {
     for (row, out) in out.iter_mut().enumerate() {
         *out = product(structure, jacobian, members, row).0;
@@ -77,7 +77,7 @@ pub(super) fn product(
     for direction in &jacobian[structure.directions_of(row)] {
         let member = &members[direction.member];
         let moving = direction.linear.dot(member.velocity);
-        // A rod between centres of mass turns nothing, and such rods are many.
+        // A rod between centres of mass exerts no torque, and such rods are common.
         let turning = if direction.angular == DVec3::ZERO {
             0.0
         } else {
@@ -89,14 +89,15 @@ pub(super) fn product(
     (sum, size)
 }
 
-/// Books the work of the impulses Λ of rows that move with time: Λ J v, since J v + ∂c/∂t = 0.
+/// Books the work of the impulses Λ of rows that move with time: Λ J v, where J v = −∂c/∂t.
 pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &mut State) {
     for (rate, impulse) in rates.zip(impulses) {
         state.accounts.motors -= impulse * rate;
     }
 }
 
-/// Gives the bodies the impulses Jᵀ Λ. What guides a body bears the impulse on it, and so does its work, with the opposite sign.
+/// Applies the impulses Jᵀ Λ to the bodies. The guide of a body with a given motion absorbs the impulse and its work, with the opposite
+/// sign.
 pub(super) fn push(
     structure: &Structure,
     jacobian: &[Direction],

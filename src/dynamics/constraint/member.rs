@@ -1,4 +1,4 @@
-//! Bodies and ends, as constraints see them.
+//! Bodies and ends in the form that constraints need.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -13,15 +13,15 @@ pub struct Member {
     pub location: DVec3,
     /// Its velocity, m/s.
     pub velocity: DVec3,
-    /// The rotation that takes its own axes to the world's.
+    /// The rotation from its own axes to the world's.
     pub orientation: DQuat,
     /// Its angular velocity, world axes, rad/s.
     pub angular_velocity: DVec3,
     /// Its angular momentum about its centre of mass, world axes, kg m²/s.
     pub(super) angular_momentum: DVec3,
-    /// 1/m, 1/kg; 0 for a body that no force moves.
+    /// 1/m, 1/kg; 0 for a body that forces do not move.
     pub(super) inverse_mass: f64,
-    /// R I⁻¹ Rᵀ, 1/(kg m²); 0 for a body that no torque turns.
+    /// R I⁻¹ Rᵀ, 1/(kg m²); 0 for a body that torques do not rotate.
     pub(super) inverse_inertia: DMat3,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Nature {
     /// I⁻¹ in its principal axes.
     inverse_inertia: DVec3,
     is_isotropic: bool,
-    /// The rotation from its own axes to its principal axes. `None` where they are the same.
+    /// The rotation from its own axes to its principal axes. `None` if they are the same.
     turned: Option<DQuat>,
 }
 
@@ -51,7 +51,7 @@ impl Nature {
 }
 
 impl Member {
-    /// A body whose state is not known yet.
+    /// A body with an unknown state.
     pub(super) fn new(nature: &Nature) -> Member {
         let inverse_mass = nature.inverse_mass;
         let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
@@ -67,7 +67,7 @@ impl Member {
         member
     }
 
-    /// Updates place and motion from a state. Returns whether the place has changed.
+    /// Updates position and motion from a state. Returns whether the position or orientation has changed.
     #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;
@@ -82,7 +82,7 @@ impl Member {
         self.orientation = orientation;
         self.angular_momentum = angular_momentum;
         if nature.is_isotropic {
-            // The inertia is the same in any orientation.
+            // The inertia is the same for all orientations.
             self.angular_velocity = nature.inverse_inertia.x * angular_momentum;
             return has_moved;
         }
@@ -104,7 +104,7 @@ impl Member {
         }
     }
 
-    /// I⁻¹ times a vector. The vector is often zero: that of a point-like end always is.
+    /// I⁻¹ times a vector. The vector is often zero, and always for an end at the centre of mass.
     pub(super) fn turn(&self, vector: DVec3) -> DVec3 {
         if vector == DVec3::ZERO { vector } else { self.inverse_inertia * vector }
     }
@@ -113,11 +113,11 @@ impl Member {
 /// An end of a constraint at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End<'a> {
-    /// The number of its body among those of the constraint. `None` for a point of the world.
+    /// The index of its body among those of the constraint. `None` for a point of the world.
     pub(super) body: Option<usize>,
-    /// Its body. For a point of the world, a body that rests at the origin.
+    /// Its body. A point of the world has a body at rest at the origin.
     pub(super) member: &'a Member,
-    /// r: the way to it from the centre of mass, m.
+    /// r: the vector from the centre of mass to it, m.
     pub(super) arm: DVec3,
     /// Whether it is a point of a body away from the centre of mass.
     pub(super) is_off_centre: bool,
@@ -140,7 +140,7 @@ impl<'a> End<'a> {
     pub(super) fn all<const N: usize>(anchors: &[Anchor; N], members: &'a Members<'_>) -> [End<'a>; N] {
         let world = End { body: None, member: &WORLD, arm: DVec3::ZERO, is_off_centre: false };
         let (mut ends, mut bodies) = ([world; N], 0);
-        // A loop, and not `from_fn`: its closure would be called for each end, which rods feel.
+        // A loop instead of `from_fn`: calling a closure for each end slows rods down.
         for (i, &anchor) in anchors.iter().enumerate() {
             ends[i] = match anchor {
                 Anchor::Point(arm) => End { arm, ..world },
@@ -158,12 +158,12 @@ impl<'a> End<'a> {
         ends
     }
 
-    /// Where it is, m.
+    /// Its position, m.
     pub(super) fn location(&self) -> DVec3 {
         self.member.location + self.arm
     }
 
-    /// The rotation that takes the axes of the body to the world's.
+    /// The rotation from the body's axes to the world's.
     pub(super) fn orientation(&self) -> DQuat {
         self.member.orientation
     }

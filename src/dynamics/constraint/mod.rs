@@ -1,8 +1,8 @@
-//! Constraints: their interface, one file for each kind, and the solver of all of them.
+//! Constraints: their interface, one file for each kind, and one solver for all.
 //!
-//! A constraint is a list of equations c(x, q) = 0, its rows. With the Jacobian J = ∂c/∂(x, φ), where φ are turns about the
-//! world's axes, the forces that keep them are Jᵀ λ. Source: E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical
-//! Integration*, 2nd ed., VII.1; the joints: D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
+//! A constraint is a list of equations c(x, q) = 0, its rows. Its forces are Jᵀ λ with the Jacobian J = ∂c/∂(x, φ), where φ are rotations
+//! about the world axes. Source: E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical Integration*, 2nd ed., VII.1; the joints: D.
+//! Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
 mod anderson;
 mod ball;
@@ -61,12 +61,12 @@ use super::{Anchor, BodyId};
 
 /// A constraint holds bodies together.
 ///
-/// A new kind is one type with this trait. The solver knows no kinds.
+/// A new kind is one type with this trait. The solver does not know the kinds.
 pub trait Constraint: std::fmt::Debug + Send + Sync {
-    /// Its ends. Its force and torque are measured on the last one.
+    /// Its ends. Its force and torque are measured on the last end.
     fn ends(&self) -> Vec<Anchor>;
 
-    /// The bodies that it concerns, each once, in the order of the ends.
+    /// Its bodies, each once, in the order of the ends.
     fn bodies(&self) -> Vec<BodyId> {
         parts::bodies(&self.ends())
     }
@@ -74,7 +74,7 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// The number of its equations.
     fn rows(&self) -> usize;
 
-    /// How one of its equations is kept.
+    /// The law of one of its equations.
     fn law(&self, _row: usize) -> Law {
         Law::Tie
     }
@@ -88,16 +88,15 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
 pub enum Law {
     /// c = 0, with any force.
     Tie,
-    /// c ≥ 0. It pushes where c would become negative. It never pulls.
+    /// c ≥ 0. It pushes to keep c from becoming negative. It never pulls.
     Stop,
-    /// Coulomb's friction along two tangents, by two rows of this law, one behind the other. Together, their multipliers are at
-    /// most `coefficient` times that of the first row of the constraint. Where this is enough, both keep c' = 0; else they push
-    /// with all of it.
+    /// Coulomb friction along two tangents, by two consecutive rows of this law. Their combined multiplier is at most `coefficient` times
+    /// that of the first row of the constraint. If this is enough, both keep c' = 0; otherwise they push with the maximum.
     Friction {
-        /// Coulomb's coefficient, or, of turns, the coefficient of rolling friction, m; it is positive.
+        /// Coulomb's coefficient; for rotations, the coefficient of rolling friction, m. It is positive.
         coefficient: f64,
     },
-    /// c' = 0, unless that takes a multiplier outside of −`limit` … `limit`.
+    /// c' = 0, as far as a multiplier from −`limit` to `limit` allows.
     Drive {
         /// The largest multiplier; it is positive.
         limit: f64,
@@ -107,7 +106,7 @@ pub enum Law {
 /// One equation of a constraint at one moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
-    /// c, in metres or without unit; it is 0 where the equation holds.
+    /// c, in metres or dimensionless; 0 if the equation holds.
     pub violation: f64,
     /// ∂c/∂t, the part of c' that does not depend on velocities.
     pub rate: f64,
@@ -142,10 +141,10 @@ pub struct Members<'a> {
     all: &'a [Member],
     of: &'a [usize],
     time: f64,
-    /// All members at the beginning of the step.
+    /// All members at the start of the step.
     origin: &'a [Member],
     begun: f64,
-    /// Whether a step is being aimed at its end: see [`Solver::aim`].
+    /// Whether the end of a step is being aimed at: see [`Solver::aim`].
     is_aiming: bool,
 }
 
@@ -156,20 +155,19 @@ impl Members<'_> {
         self.time
     }
 
-    /// The time since the beginning of the step, s.
+    /// The time since the start of the step, s.
     #[must_use]
     pub fn elapsed(&self) -> f64 {
         self.time - self.begun
     }
 
-    /// The same bodies at the beginning of the step.
+    /// The same bodies at the start of the step.
     #[must_use]
     pub fn at_origin(&self) -> Self {
         Self { all: self.origin, time: self.begun, ..*self }
     }
 
-    /// While a step is being aimed: the first two bodies at its beginning, with the velocities with which they set out. `None` at
-    /// all other times.
+    /// While a step is being aimed: the first two bodies at its start, with their initial velocities. `None` at all other times.
     pub(in crate::dynamics) fn aimed(&self) -> Option<[Member; 2]> {
         let set_off = |i: usize| {
             let (now, then) = (&self[i], &self.at_origin()[i]);
@@ -196,7 +194,7 @@ pub struct Equations<'a> {
     /// The rows of all constraints.
     rows: &'a mut [Row],
     jacobian: &'a mut [Direction],
-    /// The first row and the first direction of the constraint that is measured, and the number of its bodies.
+    /// The first row and the first direction of the current constraint, and the number of its bodies.
     row: usize,
     direction: usize,
     bodies: usize,
@@ -206,7 +204,7 @@ impl Equations<'_> {
     /// Writes a row with all directions zero.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
-        // By index: most rows have one or two bodies, and the compiler unrolls the loop of an iterator for many.
+        // By index: most rows have one or two bodies, and the compiler unrolls an iterator's loop for many.
         let mut i = self.direction + row * self.bodies;
         let end = i + self.bodies;
         while i != end {
@@ -242,7 +240,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds to the direction of one body in a row. A point of the world has no body, and nothing is added.
+    /// Adds to the direction of one body in a row. A point of the world has no body, so this adds nothing.
     pub(in crate::dynamics) fn direction(
         &mut self,
         row: usize,

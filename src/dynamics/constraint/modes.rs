@@ -1,9 +1,9 @@
-//! Rows that do not always hold: which of them do at present, and which push as hard as they may.
+//! The modes of rows that do not always hold: whether a row holds, is open, or pushes with its limit.
 //!
-//! A stop with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0; a drive either keeps its speed with
-//! |λ| ≤ its limit, or pushes with its limit. Both are found as the solution of a linear complementarity problem, of velocities
-//! at an impact and then of accelerations, by changing one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics
-//! with Unilateral Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
+//! A stop with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0. A drive either keeps its speed with |λ| ≤ its limit, or
+//! pushes with its limit. Both are linear complementarity problems: first for velocities at an impact, then for accelerations. They are
+//! solved by changing one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996),
+//! chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
 
 use super::super::{Loads, Model, State};
 use super::events::PASSED;
@@ -12,30 +12,30 @@ use super::member::Member;
 use super::solver::Solver;
 use super::{Law, Row};
 
-/// What a row does.
+/// The mode of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
     /// It keeps c = 0.
     Held,
     /// It does nothing.
     Open,
-    /// It pushes with its limit, with this sign.
+    /// It pushes with its limit, and with this sign.
     Pushed(f64),
-    /// It pushes with all the friction that there is.
+    /// It slides: it pushes with the full friction.
     Slid,
 }
 
-/// A stop is touched where c is below this part of its scale.
+/// A stop is touched if c is below this fraction of its scale.
 pub(super) const TOUCHED: f64 = 1e-9;
 
-/// So many contacts that slide can be caught at once.
+/// The largest number of sliding contacts that can be made to stick at once.
 const CAUGHT: usize = 4;
 
-/// What is below this part of the terms that it is a sum of has come from rounding.
+/// A sum below this fraction of its terms counts as a rounding error.
 pub(super) const SLIGHT: f64 = 1e-10;
 
 impl Mode {
-    /// That of a row of which nothing is known yet.
+    /// The initial mode of a row.
     pub(super) fn first(law: &Law) -> Mode {
         match law {
             Law::Tie => Mode::Held,
@@ -43,10 +43,10 @@ impl Mode {
         }
     }
 
-    /// By how much a row does not hold.
+    /// The violation of a row in this mode.
     pub(super) fn missing(self, law: Law, row: &Row) -> f64 {
         match (law, self) {
-            // Friction that cannot hold slips a little.
+            // Friction at its limit is allowed to slip.
             (Law::Friction { .. }, _) => 0.0,
             (_, Mode::Held) => row.violation.abs(),
             (Law::Stop, _) => (-row.violation).max(0.0),
@@ -56,15 +56,14 @@ impl Mode {
 }
 
 impl Solver {
-    /// Brings bodies to where the constraints hold, after they have been changed by hand at time `t`, and decides what each row
-    /// does from then on.
+    /// Moves bodies to satisfy the constraints after a manual change at time `t`, and decides the mode of each row.
     pub(in crate::dynamics) fn start(&mut self, model: &Model, t: f64, state: &mut State, loads: &mut Loads) {
         self.begin(model, t, state);
         if !self.has_modes {
             self.settle(model, t, state);
             return;
         }
-        // Stops that are passed lead the places back, and leave the velocities alone.
+        // Stops that are passed correct the positions only, not the velocities.
         for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
             if *law == Law::Stop && row.violation < 0.0 {
                 *mode = Mode::Held;
@@ -78,8 +77,8 @@ impl Solver {
         self.decide(model, t, state, loads);
     }
 
-    /// Decides what each row does from now on: takes the impulses of stops that are hit, and finds the rows that go on holding.
-    /// `loads` is room to work in.
+    /// Decides the mode of each row from now on: applies the impulses of stops that are hit, and finds the rows that keep holding.
+    /// `loads` is working memory.
     pub(in crate::dynamics) fn decide(
         &mut self,
         model: &Model,
@@ -97,7 +96,7 @@ impl Solver {
             .map(|(law, row)| *law == Law::Stop && row.violation <= TOUCHED * row.scale)
             .collect();
         let size = self.hit(model, state, &touched);
-        // The velocities are new.
+        // The velocities have changed.
         self.measure(t, state);
         let mut rates = vec![0.0; self.rows.len()];
         if let Some(structure) = &self.structure {
@@ -109,8 +108,8 @@ impl Solver {
         let mut can_hold = vec![false; self.rows.len()];
         let stills = self.stills(model);
         for i in 0..self.rows.len() {
-            // What falls as far as a stop may be passed gets a rate of √(2 c'' c): such a rate is none, or two stops that both
-            // hold would be hit in turn without end.
+            // A fall over the tolerated depth c of a stop gives a rate of √(2 c'' c). This rate counts as zero; otherwise two stops that
+            // both hold would be hit in turn endlessly.
             let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
             let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
@@ -119,7 +118,7 @@ impl Solver {
                 Law::Stop => (Mode::Open, false),
                 Law::Drive { .. } if is_still => (Mode::Held, true),
                 Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
-                // Its normal row decides first.
+                // The mode of its normal row decides first.
                 Law::Friction { .. } => (Mode::Open, false),
             };
         }
@@ -153,7 +152,7 @@ impl Solver {
         self.see_strength();
     }
 
-    /// c'' of each row, as the present modes make it. `members` are the bodies, which this uses up.
+    /// c'' of each row in the present modes. `members` are the bodies; their velocities are overwritten.
     fn see_accelerations(
         &mut self,
         model: &Model,
@@ -170,7 +169,7 @@ impl Solver {
         accelerations
     }
 
-    /// Takes the impulses of stops that are hit: those push, and after it nothing goes further into them. Gives the size of the
+    /// Applies the impulses of stops that are hit: these push, and afterwards no body moves further into them. Returns the size of the
     /// rates.
     fn hit(&mut self, model: &Model, state: &mut State, touched: &[bool]) -> f64 {
         let n = self.rows.len();
@@ -221,7 +220,7 @@ impl Solver {
         let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
         jacobian::push(structure, jacobian, unknown, model, state);
         jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
-        // The work of the impulses is ½ Λ (c' before + c' after), beside what guides and motors have given.
+        // The impulses do the work ½ Λ (c' before + c' after), including that of guides and motors.
         let mut taken = 0.0;
         let mut at_contacts = 0.0;
         for i in 0..n {
@@ -233,7 +232,7 @@ impl Solver {
         size
     }
 
-    /// Stops what moves along the rows that hold, by impulses. Their work is booked.
+    /// Stops the motion along the rows that hold, by impulses, and books their work.
     fn halt(&mut self, model: &Model, state: &mut State, rates: &[f64]) {
         for (value, rate) in self.unknown.iter_mut().zip(rates) {
             *value = -rate;
@@ -246,8 +245,7 @@ impl Solver {
         state.accounts.impacts += work;
     }
 
-    /// Finds which of the rows that can hold go on doing so, by their accelerations. Gives a row that is wrong whatever it does, if there
-    /// is one.
+    /// Decides from the accelerations which rows keep holding. Returns a row for which no mode is right, if there is one.
     fn go_on(
         &mut self,
         model: &Model,
@@ -268,7 +266,7 @@ impl Solver {
         }
         let mut held_before = Vec::new();
         for round in 0..rounds(n) {
-            // Where only directions of friction have changed, the factors are still right.
+            // If only directions of friction have changed, the factors are still valid.
             if held_before != self.modes {
                 self.hold();
                 held_before.clone_from(&self.modes);
@@ -312,18 +310,18 @@ impl Solver {
     }
 }
 
-/// So many rounds change all contacts together that stick or begin to slide; after them, one by one. Large problems get fewer.
+/// The number of rounds that change all contacts that stick or begin to slide together; after them, one changes at a time. Large problems
+/// get fewer.
 fn together(n: usize) -> usize {
     (3_000 / n.max(1)).clamp(30, 300)
 }
 
-/// As many changes as a problem of `n` rows may need.
+/// The largest number of changes in a problem of `n` rows.
 fn rounds(n: usize) -> usize {
     together(n) + 50 + 2 * n
 }
 
-/// The row that is most wrong, if some is by more than what is slight; after many rounds the first one, which ends every
-/// circle.
+/// The row with the largest error above `slight`. After many rounds, it is the first row with such an error, which breaks all cycles.
 fn worst(n: usize, round: usize, slight: f64, wrong: impl Fn(usize) -> f64) -> Option<usize> {
     let all = (0..n).map(|i| (i, wrong(i))).filter(|(_, wrong)| *wrong > slight);
     if round > 50 + 2 * n {

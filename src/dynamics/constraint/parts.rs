@@ -1,4 +1,4 @@
-//! The equations of which joints are composed.
+//! The equations from which joints are composed.
 
 use glam::DVec3;
 
@@ -17,14 +17,13 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
     bodies
 }
 
-/// The vector d from one end to another. With u = d / |d|, its length has the second derivative
-/// u·d'' + (|d'|² − (u·d')²) / |d|.
+/// The vector d from one end to the other. With u = d / |d|, the second derivative of its length is u·d'' + (|d'|² − (u·d')²) / |d|.
 pub(super) struct Way<'a> {
     /// |d|, m.
     pub(super) length: f64,
-    /// The part of |d|'' that does not come from accelerations of the bodies, m/s².
+    /// The part of |d|'' that does not depend on the accelerations of the bodies, m/s².
     pub(super) bias: f64,
-    /// The size of the coordinates whose difference it is, m.
+    /// The size of the coordinates whose difference is d, m.
     pub(super) scale: f64,
     u: DVec3,
     ends: &'a [End<'a>; 2],
@@ -63,15 +62,15 @@ impl<'a> Way<'a> {
         (apart * inverse, inverse)
     }
 
-    /// The same where |d| is tiny: 1/|d| is limited.
+    /// The same for a tiny |d|: 1/|d| is limited.
     #[cold]
     fn short(apart: DVec3, length: f64, shortest: f64) -> (DVec3, f64) {
-        // Two ends at the same point have no direction: any will do.
+        // Two ends at the same point have no direction; any direction will do.
         let u = if length > 0.0 { apart * length.recip() } else { DVec3::Y };
         (u, shortest.recip())
     }
 
-    /// Adds `factor` times the directions of its length to a row.
+    /// Adds `factor` times the derivative of the length to the directions of a row.
     pub(super) fn write(&self, factor: f64, row: usize, equations: &mut Equations<'_>) {
         for (body, linear, angular) in self.directions(factor) {
             equations.direction(row, body, linear, angular);
@@ -96,7 +95,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Three rows: two points are the same.
+/// Three rows: two points coincide.
 pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let (apart, bias) = (to - from, b.motion().1 - a.motion().1);
@@ -108,7 +107,7 @@ pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Eq
     }
 }
 
-/// One row: the vectors `u` and `w` are perpendicular. `u` turns with the first end, `w` with the second. Both are unit vectors in
+/// One row: the vectors `u` and `w` are perpendicular. `u` rotates with the first end, `w` with the second. Both are unit vectors in
 /// world axes.
 pub(super) fn perpendicular(
     [a, b]: &[End<'_>; 2],
@@ -125,8 +124,8 @@ pub(super) fn perpendicular(
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
 }
 
-/// Three rows: the second end does not turn relative to the first. `turned` takes the axes of the first end to those of the
-/// second.
+/// Three rows: the second end does not rotate relative to the first. `turned` is the rotation from the axes of the first end to those of
+/// the second.
 pub(super) fn same_turn(
     ends: &[End<'_>; 2],
     turned: glam::DQuat,
@@ -141,7 +140,7 @@ pub(super) fn same_turn(
     }
 }
 
-/// One row: the vector from the first end to the second is perpendicular to `u`, which turns with the first.
+/// One row: the vector from the first end to the second is perpendicular to `u`, which rotates with the first.
 pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];
@@ -156,7 +155,7 @@ pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mu
     equations.direction(row, b.body, u, b.arm.cross(u));
 }
 
-/// Two unit vectors that are perpendicular to a unit vector and to each other.
+/// Two unit vectors that are perpendicular to `axis`, a unit vector, and to each other.
 pub(super) fn across(axis: DVec3) -> [DVec3; 2] {
     let (u, w) = axis.any_orthonormal_pair();
     [u, w]

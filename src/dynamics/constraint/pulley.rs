@@ -4,22 +4,22 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass and friction that runs from one end over two points to the other end. It can be slack. An end cannot come
-/// nearer to its point than a hundredth of the rope's length.
+/// A massless, frictionless rope that runs from one end over two points to the other end. It can be slack. An end stays at least a
+/// hundredth of the rope's length away from its point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulley {
     /// The two ends of the rope.
     pub between: [Anchor; 2],
-    /// The points over which it runs: first that of the first end.
+    /// The points over which it runs, in the order of the ends.
     pub over: [Anchor; 2],
-    /// How much rope the first end gets for each metre of the second; it is positive.
+    /// The length that the first part gains for each metre of the second; it is positive.
     pub ratio: f64,
-    /// ℓ: the length of the first part, and `ratio` times that of the second, m.
+    /// ℓ: the length of the first part plus `ratio` times that of the second, m.
     pub length: f64,
 }
 
 impl Pulley {
-    /// The least distance of an end from its point, as a part of the rope's length.
+    /// The least distance of an end from its point, as a fraction of the rope's length.
     pub const NEAREST: f64 = 0.01;
 
     fn anchors(&self) -> [Anchor; 4] {
@@ -40,7 +40,7 @@ impl Constraint for Pulley {
         Law::Stop
     }
 
-    /// c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ lead from the points to the ends; and |d| − ε ≥ 0 for both.
+    /// c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ are the vectors from the points to the ends; and |d| − ε ≥ 0 for both.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let [a, b, c, d] = End::all(&self.anchors(), members);
         let [first, second] = [[a, b], [c, d]];

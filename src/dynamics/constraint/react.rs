@@ -1,4 +1,4 @@
-//! The forces that keep the constraints, where forces are evaluated.
+//! The constraint forces at an evaluation of forces.
 
 use super::super::{Loads, Model, State};
 use super::Law;
@@ -7,7 +7,7 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Adds the forces and torques that keep the constraints to the loads.
+    /// Adds the constraint forces and torques to the loads.
     pub(in crate::dynamics) fn react(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
         if self.is_idle(model) {
             return;
@@ -28,7 +28,7 @@ impl Solver {
         }
         let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
         for (multiplier, row) in unknown.iter().zip(rows) {
-            // The power λ J v, since J v + ∂c/∂t = 0.
+            // The power is λ J v, where J v = −∂c/∂t.
             loads.power.motors -= multiplier * row.rate;
         }
         for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
@@ -38,7 +38,7 @@ impl Solver {
         });
     }
 
-    /// Finds the multipliers at a state that has been measured and factorised. The members' velocities are overwritten by their
+    /// Finds the multipliers at a state that has been measured and factorised. It overwrites the members' velocities with their
     /// accelerations without constraints.
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
         self.see_free_accelerations(t, state, loads);
@@ -56,7 +56,7 @@ impl Solver {
         }
     }
 
-    /// Overwrites the members' velocities by their accelerations without constraints.
+    /// Overwrites the members' velocities with their accelerations without constraints.
     fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
         let Solver { structure: Some(structure), members, motions, .. } = self else { return };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
@@ -71,8 +71,8 @@ impl Solver {
         }
     }
 
-    /// Finds the multipliers as [`react`](Self::react) does, adds nothing but what drives push, and gives c'' of each row
-    /// with them, and the largest size of its terms.
+    /// Finds the multipliers as [`react`](Self::react) does, but adds only the forces of drives. Returns c'' of each row, and the largest
+    /// size of its terms.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,
@@ -122,8 +122,7 @@ impl Solver {
         });
     }
 
-    /// Adds the forces of motors that push with their limit, and of friction where contacts slide. Splitting methods treat both
-    /// like any other force.
+    /// Adds the forces of motors at their limits, and of friction at sliding contacts. Splitting methods treat both like any other force.
     pub(in crate::dynamics) fn drive(&mut self, t: f64, state: &State, loads: &mut Loads) {
         let slides = self.slides();
         if !slides && !self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {

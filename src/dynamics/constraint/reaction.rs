@@ -1,4 +1,4 @@
-//! What constraints do to the bodies: their forces and torques.
+//! The forces and torques that constraints exert on bodies.
 
 use glam::DVec3;
 
@@ -7,18 +7,18 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::{Law, Member};
 
-/// The force and the torque of a constraint on its second end, in world axes; those on the first are opposite. They are zero while
-/// a body of the constraint is away. Redundant equations carry nothing: the others bear the load.
+/// The force and the torque of a constraint on its second end, in world axes; those on the first are opposite. They are zero while a body
+/// of the constraint is absent. Redundant equations carry no load; the others carry it all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// The force on the second end, N.
     pub force: DVec3,
-    /// The torque on it about the point where that end is, N m.
+    /// The torque on it about the point of that end, N m.
     pub torque: DVec3,
 }
 
 impl Reaction {
-    /// The same force and torque about another point. `way` leads from there to the present one.
+    /// The same force and torque about another point. `way` is the vector from there to the present point.
     fn about(self, way: DVec3) -> Reaction {
         Reaction { torque: self.torque + way.cross(self.force), ..self }
     }
@@ -30,14 +30,14 @@ impl Reaction {
 }
 
 impl Solver {
-    /// What all constraints do at the moment at which forces were evaluated last, in the order in which they were added.
+    /// The reactions of all constraints at the last evaluation of forces, in the order in which constraints were added.
     pub(in crate::dynamics) fn reactions(&self, model: &Model) -> Vec<Reaction> {
         let joints = model.constraints().len();
         let mut all = vec![Reaction::default(); joints];
         let Some(structure) = &self.structure else { return all };
         for place in structure.places.iter().filter(|place| place.constraint < joints) {
             let width = place.bodies.len();
-            // On each of the bodies, about its centre.
+            // For each body, about its centre of mass.
             let mut on = vec![Reaction::default(); width];
             for row in place.row..place.row + place.rows {
                 let multiplier = match (self.laws[row], self.modes[row]) {
@@ -61,7 +61,7 @@ impl Solver {
                     let Some(body) = place.bodies.iter().position(is_it) else { continue };
                     on[body].about(-(member(body).orientation * at))
                 }
-                // The world bears the reaction to all of them.
+                // The world takes the reaction to all of them.
                 Anchor::Point(point) => {
                     let mut sum = Reaction::default();
                     for (body, on) in on.into_iter().enumerate() {

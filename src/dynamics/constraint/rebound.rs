@@ -1,11 +1,11 @@
-//! Impacts of bodies that time-stepping advances, all those of a part of a step at once.
+//! Impacts in time-stepping: all impacts within one part of a step are solved together.
 //!
-//! By Poisson's law, bodies first stop each other. Then each contact gives the impulse of that once more, times its restitution. For two bodies, this is
-//! Newton's law; for many it never gains energy, as Newton's can. Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid
-//! multibody systems*, Nonlinear Dynamics 7 (1995) 471.
+//! Poisson's law has two phases. First, bodies stop each other. Then each contact repeats its impulse, times its restitution. For two
+//! bodies, this is Newton's law. For many bodies it never gains energy, while Newton's law can. Source: C. Glocker & F. Pfeiffer,
+//! *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471.
 //!
-//! A contact that closes within the part gets its impulse at the beginning of the part, which is too early. The places of its bodies are corrected
-//! afterwards, as if they had kept their old velocities until they touched.
+//! A contact that closes within the part gets its impulse at the start of the part, which is too early. The positions of its bodies are
+//! corrected afterwards, as if they had kept their old velocities until they touched.
 
 use std::collections::BTreeMap;
 
@@ -16,29 +16,29 @@ use super::solver::Solver;
 use super::structure::Place;
 use super::sweep::Purpose;
 
-/// What impacts have done.
+/// The result of impacts.
 #[derive(Default)]
 pub(in crate::dynamics) struct Struck {
-    /// What has rebounded, in the order of time.
+    /// The impacts, in the order of time.
     pub(in crate::dynamics) impacts: Vec<Impact>,
-    /// How far the impulses move bodies before they touch, m.
+    /// The displacement of each body by impulses that acted before the bodies touched, m.
     pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
 }
 
 /// A contact at which two bodies rebound.
 struct Rebound {
     contact: usize,
-    /// Its first row, that of the normal, and how many rows it has.
+    /// Its first row, that of the normal, and its number of rows.
     row: usize,
     rows: usize,
-    /// How long it takes until they touch, s.
+    /// The time until the bodies touch, s.
     time: f64,
 }
 
 impl Solver {
-    /// Finds the impulses of all contacts that close within a part of a step, from `time` on for `part` seconds, after
-    /// [`prepare_sweeps`](Self::prepare_sweeps). The rates of stops may fall to `goals`. The goal of a contact that rebounds becomes 0: its bodies come no
-    /// nearer for the rest of the part.
+    /// Finds the impulses of all contacts that close within `part` seconds from `time` on, after
+    /// [`prepare_sweeps`](Self::prepare_sweeps). The rates of stops may fall to `goals`. The goal of a contact that rebounds becomes 0:
+    /// its bodies approach no further in this part.
     pub(in crate::dynamics) fn strike_all(
         &mut self,
         model: &Model,
@@ -74,13 +74,13 @@ impl Solver {
         Struck { impacts, early }
     }
 
-    /// The least impulse of a stop.
+    /// The smallest impulse of a stop.
     pub(super) fn least(&self, row: usize) -> f64 {
         self.least.get(row).copied().unwrap_or(0.0)
     }
 
-    /// The contacts that close within a part of a step (s) and are fast enough for a rebound. A rebound that the loads would undo within about
-    /// one more part does not count, unless the restitution is 1.
+    /// The contacts that close within a part of a step (s), fast enough to rebound. A rebound that the loads would undo within about one
+    /// more part does not count, unless the restitution is 1.
     fn rebounds(
         &self,
         (model, loads): (&Model, &Loads),
@@ -106,14 +106,14 @@ impl Solver {
         bodies.filter(|&body| model.inverse_mass()[body] != 0.0)
     }
 
-    /// How far (m) the impulses move the bodies that rebound before they touch.
+    /// The displacement of rebounding bodies by impulses that acted before they touched, m.
     fn early(
         &self,
         rebounds: &[Rebound],
         impulses: &[f64],
         (before, after): (&BTreeMap<usize, DVec3>, &State),
     ) -> Vec<(usize, DVec3)> {
-        // A body that rebounds from several others does so at the mean of the times, by the impulses.
+        // A body with several rebounds uses the mean of their times, weighted by the impulses.
         let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for rebound in rebounds {
             for body in self.contacts[rebound.contact].bodies {
@@ -130,8 +130,8 @@ impl Solver {
         before.iter().map(early).collect()
     }
 
-    /// An impact of a part of a step that begins at a time, s, with the velocities of the bodies before it, and the rates of all rows before and
-    /// after it.
+    /// An impact in the part of a step that starts at `time`, s, with the velocities of the bodies before it, and the rates of all rows
+    /// before and after it.
     fn impact(
         &self,
         rebound: &Rebound,

@@ -1,25 +1,25 @@
-//! Friction that begins and ceases to slide again and again within a step.
+//! Friction that starts and stops sliding again and again within a step.
 //!
-//! Two bodies that touch at several places can share friction among these in many ways. Where all places are at their limits, one
-//! after another would slide and stick without end. After a few changes they stick until the step is over, even beyond the limit.
+//! Two bodies that touch at several points can share friction among these in many ways. If all points are at their limits, one after
+//! another would slide and stick endlessly. After a few changes they stick until the end of the step, even beyond the limit.
 
 use super::super::Model;
 use super::solver::Solver;
 use super::structure::Structure;
 
-/// So many times friction between two bodies may change what it does in a step. Where it needs to be at its limit in several places
-/// that imply each other, it would change without end.
+/// The largest number of mode changes of friction between two bodies in a step. If several points that imply each other need to be at
+/// their limits, they would change endlessly.
 pub(super) const RESTLESS: u32 = 4;
 
 impl Solver {
-    /// Told at the beginning of a step: what was restless in the one before may change once.
+    /// Called at the start of a step: contacts that were restless in the last step may change only once.
     pub(in crate::dynamics) fn calm(&mut self) {
         self.changes.retain(|_, changes| *changes > RESTLESS);
         self.changes.values_mut().for_each(|changes| *changes = RESTLESS);
         self.grips.iter_mut().for_each(|grip| grip.is_restless = false);
     }
 
-    /// Notes that a row changes what it does.
+    /// Notes that a row changes its mode.
     pub(in crate::dynamics) fn note_change(&mut self, model: &Model, row: usize) {
         let Some(structure) = self.structure.take() else { return };
         let place = structure.place_of_row(row);
@@ -31,12 +31,12 @@ impl Solver {
         self.structure = Some(structure);
     }
 
-    /// Whether what holds two bodies at each other has changed again and again in the present step.
+    /// Whether the contacts between two bodies have changed too often in this step.
     pub(in crate::dynamics) fn changes_too_often(&self, bodies: [usize; 2]) -> bool {
         self.changes.get(&bodies).is_some_and(|changes| *changes > RESTLESS + 2)
     }
 
-    /// Notes which pairs of rows are restless.
+    /// Updates which pairs of rows are restless.
     pub(super) fn see_restless(&mut self, model: &Model, structure: &Structure) {
         if self.changes.is_empty() {
             return;

@@ -1,10 +1,10 @@
-//! A rod: two points keep their distance.
+//! A rod: the distance of two points is constant.
 
 use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
-/// A rod without mass, with a ball joint at each end.
+/// A massless rod with a ball joint at each end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rod {
     /// The two points.
@@ -22,7 +22,7 @@ impl Constraint for Rod {
         1
     }
 
-    /// c = |d| − ℓ, where d leads from one end to the other.
+    /// c = |d| − ℓ, where d is the vector from one end to the other.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

@@ -1,10 +1,10 @@
-//! A rope: the distance of two points does not grow beyond its length.
+//! A rope: the distance of two points is at most its length.
 
 use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A rope without mass. When it becomes taut, it stops the ends from moving apart, and does not spring back.
+/// A massless rope. When it becomes taut, it stops the ends from moving apart, without rebound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rope {
     /// The two points.
@@ -26,7 +26,7 @@ impl Constraint for Rope {
         Law::Stop
     }
 
-    /// c = ℓ − |d| ≥ 0, where d leads from one end to the other.
+    /// c = ℓ − |d| ≥ 0, where d is the vector from one end to the other.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

@@ -1,4 +1,4 @@
-//! Moves bodies that are within each other apart.
+//! Separates overlapping bodies.
 
 use glam::{DQuat, DVec3};
 
@@ -7,15 +7,15 @@ use super::solver::Solver;
 use super::sweep::Purpose;
 use super::{Law, Row};
 
-/// Overlaps below this part of the smaller body are left alone.
+/// Overlaps below this fraction of the smaller body are ignored.
 const SHALLOW: f64 = 1e-9;
 
-/// Sweeps that move bodies apart end when they move them by less than this part of the largest overlap.
+/// Sweeps end when they move bodies by less than this fraction of the largest overlap.
 const APART: f64 = 1e-5;
 
 impl Solver {
-    /// Whether bodies are within each other by more than is left alone. Measures that, after
-    /// [`prepare_sweeps`](Self::prepare_sweeps) a little earlier.
+    /// Whether bodies overlap by more than the ignored depth. Measures the overlaps at a state; [`prepare_sweeps`](Self::prepare_sweeps)
+    /// must have run a little earlier.
     pub(in crate::dynamics) fn are_within(&mut self, t: f64, state: &State) -> bool {
         self.measure(t, state);
         let smallest = self.contacts.iter().map(|contact| contact.size).reduce(f64::min);
@@ -24,7 +24,7 @@ impl Solver {
         self.rows.iter().zip(&self.laws).any(is_within)
     }
 
-    /// Moves bodies out of each other that [are within](Self::are_within) each other.
+    /// Separates bodies that [overlap](Self::are_within).
     pub(in crate::dynamics) fn separate(&mut self, state: &mut State) {
         self.factorise(true);
         self.find_columns();

@@ -1,4 +1,4 @@
-//! A servo: a spring and a damper that pull a joint towards a value that is given as a function of time.
+//! A servo: a spring and a damper pull a joint towards a given function of time.
 
 use std::sync::Arc;
 
@@ -6,12 +6,12 @@ use super::super::{Force, Loads, Moment, WorkAccount};
 use super::member::{End, Member};
 use super::{Coordinate, Members, Target, parts};
 
-/// A motor that gives way: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q').
+/// A compliant motor: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q').
 #[derive(Clone, Debug)]
 pub struct Servo {
-    /// What it drives.
+    /// The driven coordinate.
     pub coordinate: Coordinate,
-    /// q₀: the wanted value.
+    /// q₀: the target value.
     pub target: Arc<dyn Target>,
     /// k, N m/rad or N/m.
     pub stiffness: f64,

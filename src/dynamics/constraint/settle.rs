@@ -1,4 +1,4 @@
-//! The way to where the constraints hold: the impulses of SHAKE and RATTLE, and the projections after a step.
+//! Projection onto the constraints: the impulses of SHAKE and RATTLE, and the corrections after a step.
 
 use glam::{DQuat, DVec3};
 
@@ -7,21 +7,21 @@ use super::super::{Model, State};
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
 use super::solver::{FAILURE, Solver};
 
-/// By how much an equation may fail to hold, as a part of its scale: a few roundings.
+/// The tolerance of an equation, as a fraction of its scale: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
 
-/// Iterations contract by the square of the angle of a step at least; more would mean that they do not converge.
+/// Iterations contract at least by the square of the rotation angle in a step. If they need more, they do not converge.
 const ITERATIONS: usize = 60;
 
-/// What an iteration leaves nearly as it is stays.
+/// Iteration stops if the error remains above this fraction of the last one.
 const STAYS: f64 = 0.95;
 
-/// An iteration that makes what is missing so many times larger finds nothing.
+/// An iteration diverges if the error grows by more than this factor.
 const DIVERGED: f64 = 10.0;
 
 impl Solver {
-    /// Changes the velocities at the beginning of a step such that free bodies are where the constraints hold after it: the
-    /// impulses of SHAKE and RATTLE. The step has begun with [`begin`](Self::begin) at these places.
+    /// Changes the velocities at the start of a step such that freely moving bodies satisfy the constraints at its end: the impulses of
+    /// SHAKE and RATTLE. [`begin`](Self::begin) has been called at these positions.
     pub(in crate::dynamics) fn aim(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -49,7 +49,7 @@ impl Solver {
             self.measure(t + dt, &trial);
             let worst = self.worst();
             let is_enough = worst < FAILURE && worst > 0.5 * before;
-            // Friction in several places need not agree.
+            // Friction at several points need not be consistent.
             let stays = self.factor.is_soft() && worst > STAYS * before;
             if worst <= ROUNDING || is_enough || stays {
                 break;
@@ -68,16 +68,16 @@ impl Solver {
         }
         self.trial = trial;
         if !self.factor.is_soft() {
-            // Contacts that imply each other need not agree with friction; settling keeps their places.
+            // Contacts that imply each other may be inconsistent with friction. Settling corrects their positions.
             self.blame(model, t + dt);
         }
         self.is_aiming = false;
-        // Some rows are measured in another way while a step is aimed.
+        // Some rows are measured differently while a step is being aimed.
         self.measured = f64::NAN;
     }
 
-    /// Moves the bodies the shortest way to where all constraints hold, as M measures it, and takes out of their velocities what
-    /// leads away from there.
+    /// Moves the bodies the shortest distance, in the metric of M, to satisfy all constraints. Removes the components of their velocities
+    /// that would violate them.
     pub(in crate::dynamics) fn settle(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -91,7 +91,7 @@ impl Solver {
 
     pub(super) fn settle_places(&mut self, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
-        // The last stage of many methods is at the end of the step, and near enough.
+        // The last stage of many methods is at the end of the step, so its factors are near enough.
         self.is_factorised = self.factorised.to_bits() == t.to_bits();
         for _ in 0..ITERATIONS {
             self.measure_places(t, state);
@@ -107,7 +107,7 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation;
             }
-            // Where rows nearly imply each other, but do not agree, giving way a little keeps bodies where they are.
+            // If rows nearly imply each other but disagree, softness keeps bodies from moving far.
             self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
@@ -132,7 +132,7 @@ impl Solver {
             let scale = rates(structure, jacobian, members, rows, unknown);
             let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
             let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
-            // A NaN ends it as well.
+            // A NaN also ends the loop.
             if !(worst > ROUNDING * scale && worst < 0.5 * before) {
                 return;
             }

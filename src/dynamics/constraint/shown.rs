@@ -1,4 +1,4 @@
-//! The contact forces that frames show of bodies that time-stepping advances.
+//! The contact forces in frames for bodies advanced by time-stepping.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The forces between bodies at rest are found in so many rounds of sweeps. Each round begins with the forces of the one before.
+/// The number of rounds of sweeps for the forces between resting bodies. Each round starts with the forces of the last one.
 const ROUNDS: usize = 10;
 
 impl Solver {
-    /// The forces at places where bodies rest on each other. `loads` are the other forces on them.
+    /// The forces at contacts between resting bodies. `loads` are the other forces on them.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
         contacts: Vec<Arc<Closed>>,
@@ -21,8 +21,8 @@ impl Solver {
         (t, state): (f64, &State),
         loads: &Loads,
     ) -> Vec<ContactSnapshot> {
-        // In one second, the loads give the bodies these velocities. The impulses that stop them, in newton seconds, are as large as the
-        // forces in newtons.
+        // In one second, the loads give the bodies these velocities. So the impulses that stop them, in newton seconds, equal the forces
+        // in newtons.
         let mut given = state.clone();
         for &i in contacts.iter().flat_map(|contact| &contact.bodies) {
             given.velocity[i] = model.inverse_mass()[i] * loads.force[i];
@@ -40,7 +40,7 @@ impl Solver {
         solver.contact_snapshots(model)
     }
 
-    /// The forces at contacts that were found in the last part of a step.
+    /// The contact forces found in the last part of a step.
     pub(in crate::dynamics) fn last_forces(
         &self,
         contacts: Vec<Arc<Closed>>,

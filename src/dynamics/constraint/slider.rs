@@ -1,4 +1,4 @@
-//! A slider: one body moves along an axis of the other, and does not turn against it.
+//! A slider: one body moves along an axis of the other, and does not rotate relative to it.
 
 use glam::{DQuat, DVec3};
 
@@ -6,14 +6,14 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A slider, also called a prismatic joint. Its coordinate is the displacement of the second end from the first, along the axis.
+/// A slider, also called prismatic joint. Its coordinate is the displacement of the second end from the first along the axis.
 #[derive(Clone, Debug)]
 pub struct Slider {
     /// The two points; the second stays on the axis through the first.
     pub between: [Anchor; 2],
-    /// The axis, a unit vector, in the axes of the first end; those of a point of the world are the world's.
+    /// The axis, a unit vector, in the axes of the first end; a point of the world has the world's axes.
     pub axis: DVec3,
-    /// The rotation that takes the axes of the first end to those of the second end.
+    /// The rotation from the axes of the first end to those of the second.
     pub turned: DQuat,
     /// Its limits and its motor.
     pub freedom: Freedom,

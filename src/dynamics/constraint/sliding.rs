@@ -1,4 +1,4 @@
-//! The forces where contacts slide. Friction there is μ times the normal force, and the normal force depends on friction: both are found
+//! The forces at sliding contacts. Friction is μ times the normal force, and the normal force depends on friction, so both are found
 //! together.
 
 use super::friction::Grip;
@@ -6,8 +6,8 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Solves A λ = b in `unknown` for the rows that hold, where contacts slide. Their friction is μ n, and friction changes the normal
-    /// forces n in turn: n = c + K n, with c the normal forces without friction. A small dense system gives n. Returns whether there is a
+    /// Solves A λ = b in `unknown` for the active rows with sliding contacts. Their friction is μ n, and changes the normal forces n in
+    /// turn: n = c + K n, where c are the normal forces without friction. A small dense system gives n. Returns whether there is a
     /// solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
@@ -22,7 +22,7 @@ impl Solver {
         }
         self.solve();
         let base = self.unknown.clone();
-        // λ for a normal force of 1 at each contact that slides.
+        // λ for a normal force of 1 at each sliding contact.
         let mut columns = Vec::with_capacity(normals.len());
         for pushed in &pushes {
             let mut push = vec![0.0; base.len()];
@@ -50,8 +50,8 @@ impl Solver {
     }
 }
 
-/// Solves a dense system by elimination with partial pivoting, row by row in `matrix`; `right` becomes the solution. Returns whether
-/// there is one.
+/// Solves a dense system by Gaussian elimination with partial pivoting. `matrix` is stored row by row; `right` becomes the solution.
+/// Returns whether there is one.
 fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
     let n = right.len();
     for k in 0..n {

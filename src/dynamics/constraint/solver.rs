@@ -1,8 +1,8 @@
-//! All constraints together: the forces that keep them, and the way back to where they hold.
+//! The solver of all constraints: their forces, and the projection onto them.
 //!
-//! With A = J M⁻¹ Jᵀ, the multipliers λ of A λ = −(J a + J̇ v) make accelerations that fit, those of A Λ = −J v impulses that
-//! make velocities fit, and those of A Λ = −c shifts M⁻¹ Jᵀ Λ that make places fit. Source: E. Hairer, C. Lubich & G. Wanner,
-//! *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
+//! With A = J M⁻¹ Jᵀ, the solver finds multipliers at three levels. The forces λ with A λ = −(J a + J̇ v) correct accelerations. The
+//! impulses Λ with A Λ = −J v correct velocities. With A Λ = −c, the shifts M⁻¹ Jᵀ Λ correct positions. Source: E. Hairer, C. Lubich & G.
+//! Wanner, *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -18,102 +18,101 @@ use super::structure::{Place, Structure};
 use super::warm::Warm;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
-/// An equation that is off by more than this part of its scale after all that was tried is a failure.
+/// A constraint fails if its error still exceeds this fraction of its scale after all corrections.
 pub(super) const FAILURE: f64 = 1e-9;
 
-/// The constraints of a world at work. It holds room to work in, and what belongs to the present step; it can be thrown away at
-/// any time.
+/// The working state of the solver: memory, and data of the present step. It can be discarded at any time.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
-    /// The places where bodies stay in touch, which hold beside the constraints of the model.
+    /// The lasting contacts, in addition to the constraints of the model.
     pub(super) contacts: Vec<Arc<Closed>>,
-    /// Bodies whose constraints somebody else keeps at present.
+    /// Bodies whose constraints another solver keeps at present.
     pub(super) away: BTreeSet<usize>,
-    /// The constraints of the model, and then the contacts.
+    /// The constraints of the model, then the contacts.
     pub(super) all: Vec<Arc<dyn Constraint>>,
-    /// The first row of each of them; none where bodies of it are away.
+    /// The first row of each constraint; `None` while a body of it is absent.
     pub(super) first_row: Vec<Option<usize>>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
     pub(super) natures: Vec<Nature>,
-    /// The members at the beginning of the step, and when that is, s.
+    /// The members at the start of the step, and its time, s.
     pub(super) origin: Vec<Member>,
     pub(super) begun: f64,
-    /// How long the present step is, s.
+    /// The length of the present step, s.
     pub(super) span: f64,
-    /// Whether forces of friction have not been found in the present step.
+    /// Whether no friction forces were found in the present step.
     pub(super) is_unsolved: bool,
-    /// Whether a step is aimed at its end.
+    /// Whether the end of a step is being aimed at.
     pub(super) is_aiming: bool,
-    /// The motions of members that are given.
+    /// The given motions of members.
     pub(super) motions: Vec<Option<Arc<dyn Motion>>>,
     pub(super) rows: Vec<Row>,
     pub(super) jacobian: Vec<Direction>,
-    /// The Jacobian at the beginning of the step, for methods that kick along it.
+    /// The Jacobian at the start of the step, for methods that kick along it.
     pub(super) first: Vec<Direction>,
-    /// ∂c/∂t of the rows then.
+    /// ∂c/∂t of the rows at the start of the step.
     pub(super) first_rates: Vec<f64>,
-    /// What each row may do, and what it does at present.
+    /// The law of each row, and its present mode.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
-    /// The pairs of rows that hold by friction.
+    /// The pairs of friction rows.
     pub(super) grips: Vec<Grip>,
-    /// How many times the contacts of two bodies have changed their modes in the present step.
+    /// The number of mode changes between two bodies in the present step.
     pub(super) changes: BTreeMap<[usize; 2], u32>,
-    /// J v of all rows, where contacts slide.
+    /// J v of all rows, if contacts slide.
     pub(super) slips: Vec<f64>,
-    /// Whether some row may do anything but hold.
+    /// Whether any row has modes other than `Held`.
     pub(super) has_modes: bool,
-    /// The largest sizes of the terms of c' and c'' so far: what is slight against them has come from rounding.
+    /// The largest terms of c' and c'' so far. Values far below them count as rounding errors.
     pub(super) largest_rate: f64,
     pub(super) largest_acceleration: f64,
-    /// The same at the state whose margin was asked for last.
+    /// The same at the state of the last margin.
     pub(super) seen: [f64; 2],
-    /// Which rows take part in this step: those that hold, but for those that others imply.
+    /// The active rows of this step: those that hold, except those that others imply.
     pub(super) held: Vec<bool>,
-    /// What is solved for.
+    /// The unknowns of the linear systems.
     pub(super) unknown: Vec<f64>,
-    /// The least impulses of stops, where they are not 0.
+    /// The smallest impulses of stops, if they are not 0.
     pub(super) least: Vec<f64>,
-    /// What impulses along the rows do, where they are found by sweeps.
+    /// The effects of impulses along the rows, for sweeps.
     pub(super) columns: Columns,
-    /// The forces that sweeps have found last.
+    /// The forces that the last sweeps found.
     pub(super) warm: Warm,
     /// The largest change of a rate by forces in the last part of a step.
     pub(super) forced: f64,
-    /// Whether all forces are found by sweeps, since there are no joints.
+    /// Whether sweeps find all forces, since there are no joints.
     pub(super) is_loose: bool,
-    /// A row for which nothing that it may do was right, when this was decided last.
+    /// A row for which no mode was right in the last decision.
     pub(super) undecided: Option<usize>,
     pub(super) trial: State,
-    /// Whether rows and factors are those of the state that comes next.
+    /// Whether rows and factors belong to the next state.
     pub(super) is_ready: bool,
-    /// Whether there are factors near enough for the step that is being settled, and of what time they are, s.
+    /// Whether there are factors near enough for the step that is being settled, and their time, s.
     pub(super) is_factorised: bool,
     pub(super) factorised: f64,
-    /// When rows and Jacobian were measured.
+    /// The time of the last measurement of rows and Jacobian.
     pub(super) measured: f64,
     pub(super) failure: Option<Breakdown>,
 }
 
 impl Solver {
-    /// Told when bodies or constraints have changed.
+    /// Called when bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;
-        // Nothing of what held may act or be booked any more.
+        // The old rows must not act or be booked any more.
         self.has_modes = false;
         self.modes.clear();
         self.grips.clear();
     }
 
-    /// What went wrong since somebody asked last.
+    /// The failure since the last call, if any.
     pub(in crate::dynamics) fn take_failure(&mut self) -> Option<Breakdown> {
         self.failure.take()
     }
 
-    /// Begins a step at a state in which the constraints hold: decides which equations take part, since others imply the rest.
-    /// The same ones take part in the whole step, so that its right-hand side is smooth.
+    /// Starts a step at a state in which the constraints hold, and decides which equations are active, since others imply the rest. They
+    /// stay the same for the whole step, so that its right-hand side is smooth.
     pub(in crate::dynamics) fn begin(&mut self, model: &Model, t: f64, state: &State) {
         if self.is_idle(model) {
             return;
@@ -122,13 +121,13 @@ impl Solver {
         self.measure(t, state);
         self.origin.clone_from(&self.members);
         self.begun = t;
-        // Some rows are measured from the beginning of the step.
+        // Some rows are measured relative to the start of the step.
         self.measured = f64::NAN;
         self.hold();
         self.is_ready = true;
     }
 
-    /// Decides which of the rows take part that hold: those that others imply do not.
+    /// Decides which of the held rows are active: those that others imply are not.
     pub(super) fn hold(&mut self) {
         for (held, mode) in self.held.iter_mut().zip(&self.modes) {
             *held = *mode == Mode::Held;
@@ -136,7 +135,7 @@ impl Solver {
         self.factorise(true);
     }
 
-    /// By how much equations do not hold at most, also those that others imply.
+    /// The largest violation of all equations, including implied ones.
     pub(in crate::dynamics) fn violation(&mut self, model: &Model, t: f64, state: &State) -> f64 {
         self.is_ready = false;
         self.plan(model);
@@ -145,22 +144,22 @@ impl Solver {
         missing.fold(0.0, f64::max)
     }
 
-    /// By how much a row does not hold.
+    /// The violation of a row.
     fn missing(&self, row: usize) -> f64 {
         self.modes[row].missing(self.laws[row], &self.rows[row])
     }
 
-    /// J M⁻¹ Jᵀ of one row, as it was factorised last.
+    /// The diagonal entry of J M⁻¹ Jᵀ for a row, as last factorised.
     pub(super) fn weight(&self, row: usize) -> f64 {
         self.factor.diagonal(row)
     }
 
-    /// Notes the equation that is off by most, if that is too much.
+    /// Reports the equation with the largest error, if it is too large.
     pub(super) fn blame(&mut self, model: &Model, time: f64) {
         let Some(structure) = &self.structure else { return };
         let mut failed = None;
         for place in &structure.places {
-            // An open stop may be passed in a step that is tried.
+            // A trial step may pass an open stop.
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
                 let is_kept = missing <= FAILURE * self.rows[row].scale;
@@ -175,7 +174,7 @@ impl Solver {
         }
     }
 
-    /// Finds the structure, where it is not known.
+    /// Finds the structure, if it is unknown.
     #[inline]
     pub(super) fn plan(&mut self, model: &Model) {
         if self.structure.is_none() {
@@ -185,7 +184,7 @@ impl Solver {
 
     #[cold]
     fn make_structure(&mut self, model: &Model) {
-        // Where nothing holds for sure, nothing is factorised.
+        // Without rows that always hold, nothing is factorised.
         let can_move = |body: usize| !self.is_loose && model.inverse_mass()[body] != 0.0;
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
@@ -239,7 +238,7 @@ impl Solver {
         self.measure_members(t);
     }
 
-    /// Measures all equations at a state, or only how it moves where they have been measured at these places and this time last.
+    /// Measures all equations at a state. If the last measurement was at these positions and this time, only the velocities are updated.
     pub(super) fn measure_places(&mut self, t: f64, state: &State) {
         let mut has_moved = t.to_bits() != self.measured.to_bits();
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
@@ -267,7 +266,7 @@ impl Solver {
         self.measured = t;
     }
 
-    /// The largest violation as a part of its scale; a NaN counts as endless.
+    /// The largest violation as a fraction of its scale; a NaN counts as infinite.
     pub(super) fn worst(&self) -> f64 {
         let off = |row: &Row| row.violation.abs() / row.scale.max(f64::MIN_POSITIVE);
         let held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
@@ -282,7 +281,7 @@ impl Solver {
         })
     }
 
-    /// Factorises J M⁻¹ Jᵀ of what was measured last.
+    /// Factorises J M⁻¹ Jᵀ of the last measurement.
     pub(super) fn factorise(&mut self, choose: bool) {
         self.factor.assemble(&self.jacobian, &self.members);
         self.factor.compute(&mut self.held, choose);

@@ -1,4 +1,4 @@
-//! Which constraints share a body, and the order in which they are eliminated.
+//! The graph of constraints that share bodies, and the order of their elimination.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Constraint, Direction};
 
-/// Where the rows and directions of all constraints are. This does not change with time.
+/// The layout of the rows and directions of all constraints. It does not change with time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Structure {
     /// The constraints, in the order of their elimination.
@@ -17,7 +17,7 @@ pub(super) struct Structure {
     pub(super) rows: usize,
     /// The number of directions of all constraints: rows times bodies.
     pub(super) directions: usize,
-    /// Where the directions of each row begin; one more for the end.
+    /// The start of each row's directions, and the end as last entry.
     pub(super) row_start: Vec<usize>,
     /// For each constraint, the earlier ones that share a movable body with it, and itself at the end.
     pub(super) neighbours: Vec<Vec<Neighbour>>,
@@ -26,20 +26,20 @@ pub(super) struct Structure {
 /// The rows and directions of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
-    /// Its number in the world.
+    /// Its index in the world.
     pub(super) constraint: usize,
     /// Its first row.
     pub(super) row: usize,
-    /// How many rows it has.
+    /// Its number of rows.
     pub(super) rows: usize,
     /// Its first direction.
     pub(super) direction: usize,
-    /// Its bodies, as places in [`Structure::bodies`].
+    /// Its bodies, as indices into [`Structure::bodies`].
     pub(super) bodies: Vec<usize>,
 }
 
 impl Place {
-    /// Its directions. They know their bodies, and are zero.
+    /// Its directions with their bodies; all are zero.
     pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
         let rows = std::iter::repeat_n(&self.bodies, self.rows);
         rows.flatten().map(|&member| Direction { member, ..Direction::default() })
@@ -49,26 +49,26 @@ impl Place {
 /// A constraint that shares bodies with another.
 #[derive(Clone, Debug)]
 pub(super) struct Neighbour {
-    /// Its place.
+    /// Its index in the elimination order.
     pub(super) place: usize,
-    /// The bodies that both have: the number of each in the neighbour, and in the constraint itself.
+    /// The bodies of both: their index in the neighbour, and in the constraint itself.
     pub(super) shared: Vec<(usize, usize)>,
 }
 
 impl Structure {
-    /// The places of the directions of a row.
+    /// The indices of a row's directions.
     #[inline(always)]
     pub(super) fn directions_of(&self, row: usize) -> Range<usize> {
         self.row_start[row]..self.row_start[row + 1]
     }
 
-    /// The place of the constraint that a row belongs to.
+    /// The constraint to which a row belongs.
     pub(super) fn place_of_row(&self, row: usize) -> Option<&Place> {
         let after = self.places.partition_point(|place| place.row <= row);
         self.places[..after].last().filter(|place| row < place.row + place.rows)
     }
 
-    /// The structure of the constraints whose bodies are all there. A body that no force can move does not connect constraints.
+    /// The structure of the constraints whose bodies are all present. A body that no force can move does not couple constraints.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
         is_there: impl Fn(usize) -> bool,
@@ -130,8 +130,8 @@ impl Structure {
     }
 }
 
-/// The nodes of a graph in the order of least degree. So the factors of chains and trees are as sparse as the matrix.
-/// Source: A. George & J. W. H. Liu, *The evolution of the minimum degree ordering algorithm*, SIAM Review 31 (1989) 1.
+/// The nodes of a graph in order of minimum degree. With it, the factors of chains and trees are as sparse as the matrix. Source: A.
+/// George & J. W. H. Liu, *The evolution of the minimum degree ordering algorithm*, SIAM Review 31 (1989) 1.
 fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
     let mut queue: BTreeSet<(usize, usize)> =
         graph.iter().enumerate().map(|(node, neighbours)| (neighbours.len(), node)).collect();
@@ -153,7 +153,7 @@ fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// A chain is eliminated from its ends, so that no elimination connects more than two.
+    /// A chain is eliminated from its ends, so that no elimination connects more than two nodes.
     #[test]
     fn a_chain_and_a_star_are_eliminated_without_new_edges() {
         let chain = |n: usize| -> Vec<BTreeSet<usize>> {

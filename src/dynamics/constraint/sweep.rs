@@ -1,6 +1,6 @@
-//! Impulses at all contacts, limits and motors at once, by projected Gauss–Seidel sweeps; joints hold exactly meanwhile.
+//! Impulses of all contacts, limits and motors by projected Gauss–Seidel sweeps. Joints hold exactly throughout.
 //!
-//! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235, for the sweeps.
+//! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
 use glam::DVec2;
 
@@ -11,39 +11,39 @@ use super::jacobian::push;
 use super::solver::Solver;
 use super::{Direction, Law, Row};
 
-/// So many sweeps are made at most.
+/// The largest number of sweeps.
 pub(super) const SWEEPS: usize = 100;
 
-/// Sweeps end when they change rates by less than this part of the largest one.
+/// Sweeps end when they change rates by less than this fraction of the largest one.
 const SETTLED: f64 = 1e-7;
 
-/// The same at impacts. The forces that follow see to what is left.
+/// The same fraction at impacts. The forces that follow correct the rest.
 const STRUCK: f64 = 1e-5;
 
-/// What the impulses are for.
+/// The purpose of the impulses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Purpose {
-    /// An impact: what comes nearer stops. Its work counts as lost at impacts.
+    /// An impact: approaching bodies stop. The work counts as lost at impacts.
     Impact,
-    /// Half of what forces do in twice this time, s: the velocities are those in the middle of it.
+    /// Half of the effect of forces during twice this time, s. The velocities are those in the middle of that time.
     Forces(f64),
 }
 
 impl Solver {
-    /// From now on, all forces are found by sweeps.
+    /// From now on, sweeps find all forces.
     pub(in crate::dynamics) fn find_by_sweeps(&mut self, model: &Model) {
         self.is_loose = model.constraints().is_empty();
     }
 
-    /// Measures all equations at a state, and takes out of the velocities what the joints do not allow. What follows relies on it.
+    /// Measures all equations at a state, and removes velocities that violate the joints. The sweeps rely on both.
     pub(in crate::dynamics) fn prepare_sweeps(&mut self, model: &Model, t: f64, state: &mut State) {
         self.hold_joints(model, t, state);
         self.settle_velocities(model, state);
         self.find_columns();
     }
 
-    /// Gives the bodies the impulses that contacts, limits and motors exert, after [`prepare_sweeps`](Self::prepare_sweeps) at these
-    /// places. Stops let their rates fall to `goals` and no further; friction slows slips down to them.
+    /// Applies the impulses of contacts, limits and motors to the bodies, after [`prepare_sweeps`](Self::prepare_sweeps) at these
+    /// positions. Stops let their rates fall down to `goals`; friction slows slips down to them.
     pub(in crate::dynamics) fn push_all(
         &mut self,
         model: &Model,
@@ -79,7 +79,8 @@ impl Solver {
         self.unknown = impulses;
     }
 
-    /// c' of each row at a state at the places that have been measured last. What joints do not allow is taken out of the velocities.
+    /// c' of each row for the velocities of a state, at the positions of the last measurement. Velocities that violate the joints are
+    /// removed.
     pub(in crate::dynamics) fn rates_of(&mut self, model: &Model, state: &mut State) -> Vec<f64> {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -88,8 +89,9 @@ impl Solver {
         self.rates_now()
     }
 
-    /// The rates that are wanted in the middle of a time, from those at its end, `goals`: the means of these and the present ones. So nothing is
-    /// wanted that cannot be: bodies could stop. What comes nearer faster than its goal has begun to do so within the time; it stops at once.
+    /// The target rates in the middle of a time interval: the means of the present rates and of `goals`, those at its end. So each target
+    /// can be reached, since bodies could stop. A contact that closes faster than its goal began to do so within the interval; it stops
+    /// at once.
     pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
         let middle = |(row, &goal): (usize, &f64)| {
             let middle = 0.5 * (goal + self.rate_of(row));
@@ -98,7 +100,7 @@ impl Solver {
         goals.iter().enumerate().map(middle).collect()
     }
 
-    /// The gaps of all rows as they have been measured last, m. Gaps of contacts below `closed` times the smaller body count as none.
+    /// The gaps of all rows at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller body count as zero.
     pub(in crate::dynamics) fn gaps(&self, closed: f64) -> Vec<f64> {
         let gap = |(row, law): (&Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
         let mut gaps: Vec<f64> = self.rows.iter().zip(&self.laws).map(gap).collect();
@@ -111,7 +113,7 @@ impl Solver {
         gaps
     }
 
-    /// The contacts that pushed last, by their numbers. `joints` is the number of constraints before them.
+    /// The indices of the contacts that pushed last. `joints` is the number of constraints before them.
     pub(in crate::dynamics) fn pushing_contacts(&self, joints: usize) -> impl Iterator<Item = usize> {
         let places = self.structure.iter().flat_map(|structure| &structure.places);
         let pushing = places.filter(|place| self.unknown[place.row] > 0.0);
@@ -125,7 +127,7 @@ impl Solver {
 
     fn rate_of(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
-        // As in `product`, but nobody needs to know how large the terms are.
+        // As in `product`, but without the size of the terms.
         let mut rate = self.rows[row].rate;
         for direction in &self.jacobian[structure.directions_of(row)] {
             let member = &self.members[direction.member];
@@ -134,7 +136,7 @@ impl Solver {
         rate
     }
 
-    /// Finds the impulses in `unknown`, and changes the velocities of the members by them.
+    /// Finds the impulses in `unknown`, and applies them to the velocities of the members.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
         self.unknown.fill(0.0);
         if let Purpose::Forces(time) = purpose {
@@ -144,7 +146,7 @@ impl Solver {
         if purpose != Purpose::Impact {
             self.forced = fastest;
         }
-        // Rates far below those that forces change in a part of a step need not be exact.
+        // Rates need no accuracy far below the change by forces in a part of a step.
         let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
         let tolerance = part * fastest.max(self.forced);
         if self.joints() == 0 {
@@ -163,7 +165,7 @@ impl Solver {
         }
     }
 
-    /// Makes sweeps, accelerated by Anderson's method, until one changes no rate by more than `tolerance`.
+    /// Sweeps with Anderson acceleration until no rate changes by more than `tolerance`.
     pub(super) fn sweep_until(&mut self, tolerance: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
         for left in (0..SWEEPS).rev() {
@@ -177,7 +179,7 @@ impl Solver {
         }
     }
 
-    /// Begins with the forces that were found last at the same places: what lies still needs no more sweeps then.
+    /// Starts with the last forces at the same contacts. Bodies at rest then need no more sweeps.
     pub(super) fn start_warm(&mut self, time: f64) {
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
@@ -207,7 +209,7 @@ impl Solver {
         self.first_row.len() - self.contacts.len()
     }
 
-    /// One sweep over limits, motors and the normals of contacts. Gives the largest change of a rate.
+    /// One sweep over limits, motors and the normals of contacts. Returns the largest change of a rate.
     pub(super) fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
         let mut change = 0.0_f64;
         for (row, &goal) in goals.iter().enumerate() {
@@ -239,7 +241,7 @@ impl Solver {
         if most == 0.0 && before == DVec2::ZERO {
             return 0.0;
         }
-        // The two rows change each other little: their tangents are at right angles.
+        // The two rows are weakly coupled, since their tangents are perpendicular.
         let weight = self.columns.weights()[row].max(self.columns.weights()[row + 1]);
         if weight <= 0.0 {
             return 0.0;
@@ -253,7 +255,7 @@ impl Solver {
         (next - before).length() * weight
     }
 
-    /// How much a unit impulse along a row changes the rate of the next one.
+    /// The change of the next row's rate by a unit impulse along this row.
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];

@@ -1,10 +1,10 @@
-//! The forces at contacts as they were found last, with which the next sweeps begin.
+//! The last contact forces, from which the next sweeps start.
 
 use std::collections::BTreeMap;
 
 use super::super::contact::Closed;
 
-/// The forces at the places where bodies touch, N.
+/// The forces at contacts, N.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Warm(BTreeMap<[usize; 2], Vec<(Closed, Vec<f64>)>>);
 
@@ -20,7 +20,7 @@ impl Warm {
         known.push((contact.clone(), forces.collect()));
     }
 
-    /// The forces at the same place of the same bodies.
+    /// The forces at the same contact of the same bodies.
     pub(super) fn find(&self, contact: &Closed) -> Option<&[f64]> {
         let known = self.0.get(&contact.bodies)?.iter();
         let mut same = known.filter(|(other, _)| other.is(contact));
