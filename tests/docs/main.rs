@@ -3,8 +3,9 @@
 
 mod help;
 mod page;
-mod readme;
+mod pages;
 mod reference;
 #[path = "../support/mod.rs"]
 mod support;
-mod tutorial;
+#[cfg(feature = "tests-with-tools")]
+mod with_tools;

@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
 
 mod diagnostics;
-mod editor;
 mod explanations;
 mod include;
 mod mistakes;
@@ -10,3 +9,5 @@ mod schema;
 #[path = "../support/mod.rs"]
 mod support;
 mod trust;
+#[cfg(feature = "tests-with-tools")]
+mod with_tools;

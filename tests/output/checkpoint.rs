@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::support::{contents, jabuka, stderr};
+use crate::support::{contents, jabuka, signal, stderr};
 
 /// Balls, boxes and a pendulum; some come while others go, and moments between frames are seen.
 const PILE: &str = "
@@ -140,7 +140,7 @@ fn two_processes_at_once_do_not_harm_each_other() {
         assert!(first.try_wait().unwrap().is_none(), "the first run has ended");
         sleep(Duration::from_micros(200));
     }
-    signal("STOP", &first);
+    signal("STOP", first.id());
     assert!(place.start(&two).wait().unwrap().success());
     assert!(expected == contents(&two));
     first.kill().unwrap();
@@ -150,12 +150,6 @@ fn two_processes_at_once_do_not_harm_each_other() {
     assert!(stderr(&output).contains("it went on from t = "), "{}", stderr(&output));
     assert!(expected == contents(&one));
     assert!(["part", "checkpoint"].iter().all(|ending| place.files(ending).is_empty()));
-}
-
-/// Sends a signal to a process.
-fn signal(name: &str, process: &Child) {
-    let number = process.id().to_string();
-    assert!(Command::new("kill").args(["-s", name, &number]).status().unwrap().success());
 }
 
 #[test]

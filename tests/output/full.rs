@@ -1,6 +1,7 @@
 //! A disk that takes no more: nothing is left half-written, and each command says what is there.
 
 use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -44,7 +45,13 @@ fn a_folder_that_ran_out_of_space_is_called_so_by_every_command() {
     assert!(stderr(&output).starts_with("error[cannot-write]: "), "{}", stderr(&output));
 
     let run = |arguments: &[&str]| jabuka().current_dir(folder.path()).args(arguments).output().unwrap();
-    for arguments in [&["render", "out/scene"][..], &["batch", "out/scene", "--engine", "slurm"]] {
+    // A POV-Ray that tells its version and is not asked for more.
+    let povray = folder.path().join("povray");
+    fs::write(&povray, "#!/bin/sh\necho 'POV-Ray 3.7.0.10'\n").unwrap();
+    fs::set_permissions(&povray, fs::Permissions::from_mode(0o755)).unwrap();
+    for arguments in
+        [&["render", "out/scene", "--povray", "./povray"][..], &["batch", "out/scene", "--engine", "slurm"]]
+    {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
         assert!(stderr(&output).starts_with("error[incomplete-scripts]: "), "{}", stderr(&output));

@@ -11,10 +11,10 @@ mod edited;
 mod folder;
 mod frames;
 mod full;
-mod gltf;
 mod kill;
 mod memory;
 mod meshes;
+mod models;
 mod recording;
 mod sameness;
 mod shutter;
@@ -22,3 +22,5 @@ mod templates;
 mod trails;
 mod up_to_date;
 mod views;
+#[cfg(feature = "tests-with-tools")]
+mod with_tools;

@@ -38,4 +38,5 @@ mod sides;
 #[path = "../support/mod.rs"]
 mod support;
 mod surroundings;
+mod trust;
 mod turning;

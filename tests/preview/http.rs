@@ -37,15 +37,8 @@ pub(crate) fn get(port: u16, path: &str) -> Answer {
     ask(port, "GET", path, &format!("Host: 127.0.0.1:{port}\r\n"), "")
 }
 
-/// Asks, and reads what is answered in pieces, without keeping it: how many bytes there were.
-pub(crate) fn count(port: u16, path: &str) -> u64 {
-    let (mut stream, head) = begun(port, "GET", path, &format!("Host: 127.0.0.1:{port}\r\n"), "");
-    assert_eq!(head.status, 200);
-    head.body.len() as u64 + std::io::copy(&mut stream, &mut std::io::sink()).unwrap()
-}
-
 /// Sends a request, and reads the head of the answer, and what has come with it.
-fn begun(port: u16, method: &str, path: &str, headers: &str, body: &str) -> (TcpStream, Answer) {
+pub(crate) fn begun(port: u16, method: &str, path: &str, headers: &str, body: &str) -> (TcpStream, Answer) {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
     // By the older protocol, an answer ends with the connection, and comes in one piece.
     let length = body.len();

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 
 use crate::http::get;
-use crate::support::{jabuka, root, scene};
+use crate::support::{self, jabuka, root, scene};
 
 /// A folder with a scene, and what it needs; `jabuka` works there, so that nothing is written elsewhere.
 pub(crate) struct Scene {
     folder: tempfile::TempDir,
-    name: String,
+    pub(crate) name: String,
     arguments: Vec<String>,
 }
 
@@ -90,38 +90,9 @@ impl Scene {
         assert!(server.address.starts_with("http://127.0.0.1:"), "{:?}: {}", address, server.said());
         server
     }
-
-    /// Whether a test of a script holds while the scene is previewed.
-    pub(crate) fn shows(self, script: &str, test: &str) {
-        self.served().shows(script, test);
-    }
 }
 
 impl Server {
-    /// Runs a test of a script in a browser, which must succeed, and returns what it prints.
-    pub(crate) fn shows(&self, script: &str, test: &str) -> String {
-        self.shows_at(&self.address, script, test)
-    }
-
-    /// The same with another address in place of its own.
-    pub(crate) fn shows_at(&self, address: &str, script: &str, test: &str) -> String {
-        let output = Command::new(root().join("tests/preview/browser"))
-            .args([script, test, address])
-            .arg(self.scene.path())
-            .env("JABUKA", env!("CARGO_BIN_EXE_jabuka"))
-            .current_dir(self.scene.folder())
-            .output()
-            .unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.success(),
-            "{test} of {}: {said}\nthe server said: {}",
-            self.scene.name,
-            self.said()
-        );
-        String::from_utf8(output.stdout).unwrap()
-    }
-
     /// Waits until the first run of the scene has begun.
     pub(crate) fn wait_for_the_run(&self) {
         while get(self.port(), &format!("/api/runs/1?token={}", self.token())).status != 200 {
@@ -152,8 +123,7 @@ impl Server {
 
     /// Sends it a signal, by its name, and waits for its end.
     pub(crate) fn ended_by(mut self, signal: &str) -> ExitStatus {
-        let process = self.process().to_string();
-        assert!(Command::new("kill").args([&format!("-{signal}"), &process]).status().unwrap().success());
+        support::signal(signal, self.process());
         self.child.wait().unwrap()
     }
 }

@@ -54,6 +54,12 @@ pub(crate) fn compile(scene: &Path, folder: &Path, arguments: &[&str]) -> Output
     output
 }
 
+/// Sends a signal to a process. Shells have `kill`; not every machine has a program of that name.
+pub(crate) fn signal(name: &str, process: u32) {
+    let kill = format!("kill -s {name} {process}");
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
 /// All files of a folder: names and bytes, in the order of the names.
 pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(folder)

@@ -21,7 +21,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 fn taplo(folder: &Path) -> Command {
-    let mut command = Command::new(root().join("tests/language/editor/taplo"));
+    let mut command = Command::new(root().join("tests/language/with_tools/editor/taplo"));
     command.current_dir(folder);
     command
 }

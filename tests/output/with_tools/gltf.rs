@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::{self, jabuka, root, shorter, stderr, stdout};
+use crate::support::{jabuka, root, shorter, stderr, stdout};
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::dynamics::Shape;
@@ -59,7 +59,7 @@ struct SeenBody {
 
 /// Looks at files, which must be good.
 fn look(files: &[PathBuf]) -> Vec<Seen> {
-    let output = Command::new(root().join("tests/output/gltf/look")).args(files).output().unwrap();
+    let output = Command::new(root().join("tests/output/with_tools/gltf/look")).args(files).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let seen: Vec<Seen> = stdout(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(seen.len(), files.len());
@@ -434,7 +434,7 @@ fn odd_scenes_are_valid_too() {
 fn some_frames_are_those_at_their_times() {
     let folder = tempfile::tempdir().unwrap();
     let [model, again, rows] = ["run.glb", "again.glb", "run.csv"].map(|name| folder.path().join(name));
-    let scene = support::scene("projectile");
+    let scene = crate::support::scene("projectile");
     let frames = ["--frames", "10,20-22"];
     let said = export(&scene, &model, &frames);
     assert!(said.contains(": 1 body, 4 frames, "), "{said}");
@@ -445,31 +445,6 @@ fn some_frames_are_those_at_their_times() {
     let seen = look(&[model]);
     assert_eq!(seen[0].times, [0.2f32, 0.4, 0.42, 0.44].map(f64::from));
     assert_same_motion("projectile", &seen[0], &table(&rows));
-}
-
-#[test]
-fn what_is_neither_table_nor_model_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["run.gltf", "run", "run.toml"] {
-        let path = folder.path().join(name);
-        let scene = support::scene("parabola");
-        let output = jabuka().arg("export").arg(scene).arg("-o").arg(&path).output().unwrap();
-        assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
-        assert!(stderr(&output).contains("is a table, `.csv`, or a model, `.glb`"), "{}", stderr(&output));
-        assert!(!path.exists());
-    }
-}
-
-#[test]
-fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
-    let folder = tempfile::tempdir().unwrap();
-    let [scene, file] = ["far.toml", "far.glb"].map(|name| folder.path().join(name));
-    fs::write(&scene, "[body.probe]\nshape.sphere.radius = 1\nlocation = [1e39, 0, 0]\n").unwrap();
-    let output = jabuka().arg("export").arg(&scene).arg("-o").arg(&file).output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    let said = stderr(&output);
-    assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
 }
 
 /// Springs and joints of all kinds, of which one rope is slack.

@@ -2,8 +2,7 @@
 
 use std::fs;
 
-use crate::http::count;
-use crate::in_the_browser;
+use crate::http::begun;
 use crate::server::{Scene, Server};
 
 const BODIES: u64 = 10_000;
@@ -27,6 +26,13 @@ fn peak(server: &Server) -> u64 {
     let status = fs::read_to_string(format!("/proc/{}/status", server.process())).unwrap();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
     line.trim().strip_suffix(" kB").unwrap().parse::<u64>().unwrap() * 1024
+}
+
+/// Asks, and reads what is answered in pieces, without keeping it: how many bytes there were.
+fn count(port: u16, path: &str) -> u64 {
+    let (mut stream, head) = begun(port, "GET", path, &format!("Host: 127.0.0.1:{port}\r\n"), "");
+    assert_eq!(head.status, 200);
+    head.body.len() as u64 + std::io::copy(&mut stream, &mut std::io::sink()).unwrap()
 }
 
 #[test]

@@ -5,7 +5,6 @@ use std::fs;
 
 use serde::Deserialize;
 
-use crate::in_the_browser;
 use crate::server::Scene;
 use crate::support::stderr;
 

@@ -1,6 +1,5 @@
 //! Another method, in place of the scene's or beside it.
 
-use crate::in_the_browser;
 use crate::server::Scene;
 
 /// A ball that falls so fast that methods part.

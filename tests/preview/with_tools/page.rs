@@ -1,6 +1,5 @@
 //! What is drawn, how the film is played, and that all of it is in reach.
 
-use crate::in_the_browser;
 use crate::server::Scene;
 use crate::support;
 

@@ -2,7 +2,6 @@
 
 use std::fs;
 
-use crate::in_the_browser;
 use crate::server::Scene;
 
 in_the_browser! { Scene::gallery("parabola"), "live.mjs":

@@ -1,0 +1,4 @@
+//! Pages whose commands render pictures and films.
+
+mod readme;
+mod tutorial;

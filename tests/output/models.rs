@@ -1,0 +1,30 @@
+//! Exports that are refused.
+
+use std::fs;
+
+use crate::support::{jabuka, scene, stderr, stdout};
+
+#[test]
+fn what_is_neither_table_nor_model_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["run.gltf", "run", "run.toml"] {
+        let path = folder.path().join(name);
+        let scene = scene("parabola");
+        let output = jabuka().arg("export").arg(scene).arg("-o").arg(&path).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+        assert!(stderr(&output).contains("is a table, `.csv`, or a model, `.glb`"), "{}", stderr(&output));
+        assert!(!path.exists());
+    }
+}
+
+#[test]
+fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, file] = ["far.toml", "far.glb"].map(|name| folder.path().join(name));
+    fs::write(&scene, "[body.probe]\nshape.sphere.radius = 1\nlocation = [1e39, 0, 0]\n").unwrap();
+    let output = jabuka().arg("export").arg(&scene).arg("-o").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let said = stderr(&output);
+    assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
+}

@@ -1,0 +1,78 @@
+//! The page in a real browser.
+//!
+//! Tests that are written in JavaScript are run by `browser`, each in a browser of its own, against a server of its own.
+
+use std::process::Command;
+
+use crate::server::{Scene, Server};
+use crate::support::root;
+
+/// Tests of a script that have the same scene.
+macro_rules! in_the_browser {
+    ($scene:expr, $script:literal: $($(#[$about:meta])* $test:ident),+ $(,)?) => {
+        $(
+            $(#[$about])*
+            #[test]
+            fn $test() {
+                $scene.shows($script, stringify!($test));
+            }
+        )+
+    };
+}
+mod bodies;
+mod large;
+mod methods;
+mod page;
+mod readme;
+mod rendering;
+mod saving;
+mod strangers;
+
+impl Scene {
+    /// Whether a test of a script holds while the scene is previewed.
+    pub(super) fn shows(self, script: &str, test: &str) {
+        self.served().shows(script, test);
+    }
+}
+
+impl Server {
+    /// Runs a test of a script in a browser, which must succeed, and returns what it prints.
+    pub(super) fn shows(&self, script: &str, test: &str) -> String {
+        self.shows_at(&self.address, script, test)
+    }
+
+    /// The same with another address in place of its own.
+    pub(super) fn shows_at(&self, address: &str, script: &str, test: &str) -> String {
+        let output = Command::new(root().join("tests/preview/browser"))
+            .args([script, test, address])
+            .arg(self.scene.path())
+            .env("JABUKA", env!("CARGO_BIN_EXE_jabuka"))
+            .current_dir(self.scene.folder())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.success(),
+            "{test} of {}: {said}\nthe server said: {}",
+            self.scene.name,
+            self.said()
+        );
+        String::from_utf8(output.stdout).unwrap()
+    }
+}
+
+/// A test that nobody runs would not be missed.
+#[test]
+fn every_test_in_a_script_is_run() {
+    let folder = root().join("tests/preview");
+    let below = |folder| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files: Vec<_> = below(folder.clone()).chain(below(folder.join("with_tools"))).collect();
+    let texts = |kind: &str| {
+        let of_kind = files.iter().filter(|file| file.extension().is_some_and(|found| found == kind));
+        of_kind.map(|file| std::fs::read_to_string(file).unwrap()).collect::<Vec<_>>().concat()
+    };
+    let (scripts, tests) = (texts("mjs"), texts("rs"));
+    let names = scripts.split("\n  async ").skip(1).map(|rest| rest.split('(').next().unwrap());
+    let unknown: Vec<&str> = names.filter(|name| !tests.contains(name)).collect();
+    assert_eq!(unknown, [""; 0]);
+}
