@@ -1,7 +1,7 @@
 //! The checkpoint of a run that is being simulated, in a file beside that of its pages.
 //!
-//! A run that is killed leaves both, and the next process that needs that run goes on from there. Pages are only ever added behind
-//! those of the checkpoint, and a checkpoint appears whole or not at all.
+//! A killed run leaves both, and the next process that needs the run goes on from there. New pages are only added after those
+//! of the checkpoint, and a checkpoint appears whole or not at all.
 //!
 //! | what | bytes |
 //! | --- | --- |
@@ -33,7 +33,7 @@ pub(super) fn beside(part: &Path) -> PathBuf {
     part.with_extension(STOPPED)
 }
 
-/// Puts a checkpoint in the place of the one before.
+/// Replaces the previous checkpoint.
 pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint) -> io::Result<()> {
     let Checkpoint { index, simulation } = checkpoint;
     let mut bytes = [&FORMAT[..], &key].concat();
@@ -46,7 +46,7 @@ pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint
     bytes.extend(digest);
     let temporary = part.with_extension(SAVING);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, beside(part))).inspect_err(|_| {
-        // The next run sweeps up a file that stays.
+        // The next run removes a file that stays.
         let _: io::Result<()> = fs::remove_file(&temporary);
     })
 }
@@ -103,16 +103,16 @@ pub(super) fn find(folder: &Path, key: Key) -> Option<Stopped> {
     farthest
 }
 
-/// Opens the pages of a run that was stopped; none if another process has them, or they are gone.
+/// Opens the pages of a stopped run; none if another process has them, or they are gone.
 pub(super) fn lock(part: &Path) -> Option<File> {
     let file = OpenOptions::new().read(true).write(true).open(part).ok()?;
     file.try_lock().ok()?;
-    // Whoever had it locked before may have removed or renamed it since it was opened.
+    // The previous owner of the lock may have removed or renamed the file since it was opened.
     let is_same = fs::metadata(part).ok()?.ino() == file.metadata().ok()?.ino();
     is_same.then_some(file)
 }
 
-/// Removes the pages of a run and its checkpoint. What stays is swept by the next run.
+/// Removes the pages of a run and its checkpoint. The next run removes leftovers.
 pub(super) fn remove(part: &Path) {
     let _: io::Result<()> = fs::remove_file(beside(part));
     let _: io::Result<()> = fs::remove_file(part);

@@ -7,20 +7,20 @@ use sha2::{Digest, Sha256};
 use crate::scene::{ForceKind, Scene};
 use crate::simulate::Moments;
 
-/// The digest by which a run is known.
+/// The digest that identifies a run.
 pub(super) type Key = [u8; 32];
 
-/// The digest of all that the recording of a run depends on: what moves bodies, the moments that are recorded, and the program
-/// itself. Looks, cameras, labels and names are not among it.
+/// The digest of everything on which the recording of a run depends: the causes of motion, the recorded moments, and the
+/// program itself. Looks, cameras, labels and names are not included.
 pub(super) fn of(scene: &Scene, moments: &Moments) -> Key {
     let mut text = Text(Sha256::new());
-    // It cannot fail: a digest takes all.
+    // It cannot fail: a digest accepts all bytes.
     let _: fmt::Result = write_all(&mut text, scene, moments);
     text.0.finalize().into()
 }
 
 fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Result {
-    // Numbers are written so that each has a text of its own.
+    // Different numbers have different texts.
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
     let simulation = &scene.simulation;
     let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
@@ -32,7 +32,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     for body in &scene.bodies {
         writeln!(text, "{:?} {:?} {:?}", body.start, body.presence, body.motion)?;
         if contacts.is_some() {
-            // Only where bodies touch, their shapes move them.
+            // Shapes affect the motion only where bodies touch.
             writeln!(text, "{:?} {:?}", body.shape, body.collider)?;
         }
     }
@@ -51,7 +51,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     Ok(())
 }
 
-/// Whether a run is worth keeping: given motion alone is evaluated faster than it is read.
+/// Whether a run is worth keeping. Given motion alone is evaluated faster than it is read.
 pub(super) fn is_worth_keeping(scene: &Scene) -> bool {
     scene.bodies.iter().any(|body| !body.start.fixed && body.motion.is_none())
 }
@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// An address would be another one in each process.
+    /// An address would differ between processes.
     #[test]
     fn no_address_is_in_what_is_digested() {
         let scene = Scene::parse(

@@ -26,7 +26,7 @@ const FORMAT: &[u8; 8] = b"jabuka 1";
 pub(super) const ENTRY: usize = 48;
 /// The bytes at the end.
 const TAIL: usize = 48;
-/// No page is larger, bytes: one has a single moment of all bodies, or about 1 MB.
+/// The largest page, bytes. A page has a single moment of all bodies, or about 1 MB.
 const LARGEST: u64 = 4 << 30;
 
 /// The place of a page in a file.
@@ -38,7 +38,7 @@ pub(super) struct At {
 }
 
 impl At {
-    /// The page, if it is what was written.
+    /// The page, if its bytes are those that were written.
     pub(super) fn read(&self, file: &File) -> io::Result<Arc<[u8]>> {
         let size = usize::try_from(self.bytes.min(LARGEST)).map_err(|_| damaged())?;
         let mut bytes = vec![0; size];
@@ -83,7 +83,7 @@ pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
     bytes
 }
 
-/// Opens the run of a key, and notes that it is used now.
+/// Opens the run of a key, and records that it is used now.
 pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recording> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
@@ -108,7 +108,7 @@ pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recordin
     let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
     let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
     let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
-    // If the time cannot be noted, the run counts as older than it is.
+    // If the time cannot be set, the run counts as older than it is.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
     Recording::with_index(counts, index, Box::new(Kept { file, pages }))
 }

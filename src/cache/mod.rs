@@ -1,7 +1,7 @@
-//! Runs that are kept between commands, so that a change of a color or a camera simulates nothing.
+//! Keeps runs between commands, so that a change of a color or a camera needs no new simulation.
 //!
-//! A kept run is a file in the user's cache folder, named by the digest of all that moves bodies. Nothing depends on it: a
-//! file that is damaged, or gone, or of another version, is made again.
+//! A kept run is a file in the user's cache folder, named by the digest of everything that moves bodies. No result depends on
+//! it: a file that is damaged, missing or of another version is made again.
 //!
 //! | what | where |
 //! | --- | --- |
@@ -28,17 +28,17 @@ pub use spill::Spill;
 
 /// Runs that were simulated faster than this are not kept.
 const QUICK: Duration = Duration::from_millis(200);
-/// The most that is kept unless the user says otherwise, bytes.
+/// The default limit of the cache, bytes.
 const USUAL_LIMIT: u64 = 2_000_000_000;
-/// How the names of kept runs end.
+/// The ending of the names of kept runs.
 const KEPT: &str = "run";
-/// How the names of those end that are being written.
+/// The ending of their names while they are being written.
 const PART: &str = "part";
-/// How the names of checkpoints end, beside the pages that were written up to there.
+/// The ending of the names of checkpoints, which are beside the pages.
 const STOPPED: &str = "checkpoint";
-/// How the names of checkpoints end that are being written.
+/// The ending of the names of checkpoints while they are being written.
 const SAVING: &str = "saving";
-/// A run that takes long is saved so often, unless the user says otherwise.
+/// The default interval at which a long run is saved.
 const USUAL_INTERVAL: Duration = Duration::from_secs(30);
 
 /// A folder that keeps runs, with its limits.
@@ -46,11 +46,11 @@ const USUAL_INTERVAL: Duration = Duration::from_secs(30);
 pub struct Cache {
     /// None: nothing is kept.
     folder: Option<PathBuf>,
-    /// The most that is kept, bytes.
+    /// The largest size of all kept runs, bytes.
     limit: u64,
     /// Runs that took less time than this are not kept.
     quick: Duration,
-    /// How often a run is saved that takes long.
+    /// The interval at which a long run is saved.
     interval: Duration,
 }
 
@@ -59,14 +59,14 @@ pub struct Cache {
 pub struct Holding {
     /// The number of runs.
     pub runs: usize,
-    /// The number of runs that were stopped, and can go on.
+    /// The number of stopped runs that can go on.
     pub stopped: usize,
     /// Their size, bytes.
     pub bytes: u64,
 }
 
 impl Cache {
-    /// One that keeps nothing.
+    /// A cache that keeps nothing.
     #[must_use]
     pub fn none() -> Cache {
         Cache { folder: None, limit: 0, quick: QUICK, interval: USUAL_INTERVAL }
@@ -78,13 +78,13 @@ impl Cache {
         Cache { folder: Some(folder), limit, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
-    /// The same, but runs are kept however fast they were simulated.
+    /// The same cache, but it keeps runs however fast they were simulated.
     #[must_use]
     pub fn keeping_all(self) -> Cache {
         Cache { quick: Duration::ZERO, ..self }
     }
 
-    /// The same, but runs that take longer than this are saved so often, to go on from there if they are stopped.
+    /// The same cache, but with this interval between saves of a long run. A stopped run goes on from its last save.
     #[must_use]
     pub fn saving_every(self, interval: Duration) -> Cache {
         Cache { interval, ..self }
@@ -128,8 +128,8 @@ impl Cache {
         self.folder.as_deref()
     }
 
-    /// A run of a scene: the one that is kept, or else a new one. The interactions of pairs are counted meanwhile, and `seen` is
-    /// told of every frame.
+    /// A run of a scene: the kept one, or else a new one. Counts the interactions of pairs meanwhile, and calls `seen` for
+    /// every frame.
     ///
     /// # Errors
     /// If the run becomes non-finite, or there is no room for its recording.
@@ -145,8 +145,8 @@ impl Cache {
         Ok(recorded)
     }
 
-    /// Like [`run`](Self::run), but of a run that breaks down, the frames before are given: see [`Recorded::breakdown`]. Such a
-    /// run is not kept.
+    /// Like [`run`](Self::run), but if the run breaks down, it gives the frames before: see [`Recorded::breakdown`]. Such a run
+    /// is not kept.
     ///
     /// # Errors
     /// If there is no frame before the breakdown, or there is no room for the recording.
@@ -180,7 +180,7 @@ impl Cache {
                 Err(breakdown) => return recorder.finish_early(breakdown),
             }
             if spill.has_name() && saved.elapsed() >= self.interval {
-                // A run that cannot be saved goes on without.
+                // A run that cannot be saved goes on unsaved.
                 let _: io::Result<bool> = save(&spill, &mut recorder);
                 saved = Instant::now();
             }
@@ -190,7 +190,7 @@ impl Cache {
         Ok(recorded)
     }
 
-    /// A run of the scene that was stopped, at its last checkpoint; `seen` is told of every frame up to there.
+    /// A stopped run of the scene, at its last checkpoint. Calls `seen` for every frame up to there.
     fn resume<'a>(
         &self,
         scene: &'a Scene,
@@ -205,23 +205,23 @@ impl Cache {
         Some((spill, recorder))
     }
 
-    /// The run of a scene that is kept, if it is. What is damaged may only show when it is read.
+    /// The kept run of a scene, if there is one. Damage may only show when it is read.
     #[must_use]
     pub fn find(&self, scene: &Scene, moments: &Moments) -> Option<Recording> {
         let path = self.path(scene, moments)?;
         let key = digest::of(scene, moments);
         let opened = file::open(&path, key, Counts::of(scene));
         if opened.is_err() {
-            // If it is not there, there is nothing to remove.
+            // If the file does not exist, there is nothing to remove.
             let _: io::Result<()> = fs::remove_file(&path);
         }
         opened.ok()
     }
 
-    /// Removes the run of a scene: it is damaged.
+    /// Removes the damaged run of a scene.
     pub fn forget(&self, scene: &Scene, moments: &Moments) {
         if let Some(path) = self.path(scene, moments) {
-            // Somebody else may have removed it.
+            // Another process may have removed it.
             let _: io::Result<()> = fs::remove_file(path);
         }
     }
@@ -237,14 +237,14 @@ impl Cache {
         }
     }
 
-    /// Keeps a run that took so long to simulate, if that is worth it; then removes those that were not used for longest, until
-    /// the rest is within the limit. A run that cannot be kept is not: that is no error.
+    /// Keeps a run that took this long to simulate, if it is worth keeping. Then removes the least recently used runs, until
+    /// the rest is within the limit. Failing to keep a run is no error.
     pub fn keep(&self, spill: &Spill, recording: &Recording, took: Duration) {
         let Some(folder) = &self.folder else { return };
         let kept = took >= self.quick
             && recording.index().and_then(|index| spill.keep(&index)).is_ok_and(|kept| kept);
         if kept {
-            // It will be tried again after the next run.
+            // The next run tries again.
             let _: io::Result<()> = self.tidy(folder);
         }
     }
@@ -260,7 +260,7 @@ impl Cache {
         Ok(Holding { runs: kept.len(), stopped: stopped.len(), bytes })
     }
 
-    /// Removes all that is kept, and says what that was.
+    /// Removes all kept runs, and returns what they were.
     ///
     /// # Errors
     /// If a file cannot be removed.
@@ -294,7 +294,7 @@ impl Cache {
     }
 }
 
-/// Simulates a scene, and keeps nothing: what the recording takes beyond a megabyte goes to a file without a name.
+/// Simulates a scene without keeping the run. The part of the recording beyond a megabyte goes to a nameless file.
 ///
 /// # Errors
 /// If the run becomes non-finite, or there is no room for its recording.
@@ -312,7 +312,7 @@ struct Kept {
 impl Kept {
     fn remove(&self) -> io::Result<()> {
         if self.path.extension().is_some_and(|extension| extension == PART) {
-            // Only with the lock, since a process may go on with it.
+            // Only under the lock, since a process may be continuing this run.
             let locked = checkpoint::lock(&self.path);
             locked.iter().for_each(|_| checkpoint::remove(&self.path));
             return Ok(());
@@ -321,13 +321,13 @@ impl Kept {
     }
 }
 
-/// Saves a run for the case that it is stopped; whether that was possible.
+/// Saves a run in case it is stopped. Returns whether that was possible.
 fn save(spill: &Spill, recorder: &mut Recorder<'_>) -> io::Result<bool> {
     let Some(checkpoint) = recorder.checkpoint()? else { return Ok(false) };
     spill.save(&checkpoint)
 }
 
-/// The runs of a folder that were stopped and can go on: the files of their pages. Whoever simulates one has it locked.
+/// The stopped runs of a folder that can go on: the files of their pages. The file of a run that is being simulated is locked.
 fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
     let of_checkpoint = |found: Kept| {
         let path = found.path.with_extension(PART);
@@ -338,7 +338,7 @@ fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
     Ok(files(folder, STOPPED)?.into_iter().filter_map(of_checkpoint).collect())
 }
 
-/// The files of a folder whose names end so; none if there is no folder.
+/// The files of a folder whose names have this ending; none if there is no folder.
 fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
     let entries = match fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -360,7 +360,7 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
     Ok(files)
 }
 
-/// Removes what runs have left that were killed and cannot go on: nobody has locked it.
+/// Removes the files of killed runs that cannot go on. Nobody has locked these files.
 fn sweep(folder: &Path) -> io::Result<()> {
     for part in files(folder, PART)? {
         let is_left = fs::File::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());

@@ -17,7 +17,7 @@ use crate::simulate::{Checkpoint, Store};
 
 /// A run stays in memory up to this size, bytes.
 const IN_MEMORY: usize = 1 << 20;
-/// A disk is full when it has no more room than this, bytes: to find out by filling it would hurt others.
+/// A disk with no more free room than this counts as full, bytes. Filling it completely would hurt other programs.
 const RESERVE: u64 = 32 << 20;
 
 /// Keeps the pages of one run. A clone is the same store.
@@ -34,13 +34,13 @@ struct Shared {
 struct Inner {
     pages: Vec<Page>,
     in_memory: usize,
-    /// The files, of which the last is written to. There is a second one where the first has no more room.
+    /// The files; pages go to the last one. If a file has no more room, another one follows.
     files: Vec<Part>,
 }
 
 enum Page {
     InMemory(Arc<[u8]>),
-    /// In the file of this number.
+    /// In the file with this number.
     InFile(usize, At),
 }
 
@@ -53,7 +53,7 @@ struct Part {
 }
 
 impl Spill {
-    /// Pages whose file has no name, and goes with the process, however that ends.
+    /// Pages in a nameless file, which disappears with the process, however that ends.
     #[must_use]
     pub fn unnamed() -> Spill {
         Spill(Arc::new(Shared { to_keep: None, inner: Mutex::default() }))
@@ -63,7 +63,7 @@ impl Spill {
         Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner: Mutex::default() }))
     }
 
-    /// The pages of a run that was stopped, and from where it goes on.
+    /// The pages of a stopped run, and the point at which it goes on.
     pub(super) fn resume(folder: PathBuf, key: Key) -> Option<(Spill, Checkpoint)> {
         let Stopped { part: path, file, pages, checkpoint } = checkpoint::find(&folder, key)?;
         let end = pages.iter().map(|at| at.offset + at.bytes).max().unwrap_or(0);
@@ -78,7 +78,7 @@ impl Spill {
         self.0.to_keep.is_some()
     }
 
-    /// Saves a run for the case that it is stopped. False if the folder has no room for it.
+    /// Saves a run in case it is stopped. False if the folder has no room for it.
     pub(super) fn save(&self, checkpoint: &Checkpoint) -> io::Result<bool> {
         let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
         let inner = &mut *self.inner();
@@ -97,11 +97,11 @@ impl Spill {
         let part = &mut inner.files[0];
         let end = file::end(&pages, index, part.end);
         part.file.write_all_at(&end, part.end)?;
-        // A stopped run may have written pages behind its checkpoint, which make the file longer.
+        // A stopped run may have written pages after its checkpoint, which make the file longer.
         part.file.set_len(part.end + end.len() as u64)?;
         fs::rename(&path, folder.join(file::name(*key)))?;
         part.path = None;
-        // If it stays, it is swept by the next run.
+        // If it stays, the next run removes it.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         Ok(true)
     }
@@ -110,7 +110,7 @@ impl Spill {
         self.0.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Opens the next file to write to: in the folder of the cache, and if that has no more room, without a name.
+    /// Opens the next file to write to: in the cache folder, or nameless if that has no more room.
     fn open_next(&self, files: usize) -> Option<io::Result<Part>> {
         match (&self.0.to_keep, files) {
             (Some((folder, key)), 0) => Some(Part::named(folder, *key).or_else(|_| Part::unnamed())),
@@ -121,7 +121,8 @@ impl Spill {
 }
 
 impl Inner {
-    /// Puts all pages into the file with a name: its path, and where they are. None if there is no such file, or they are in several.
+    /// Puts all pages into the named file. Returns its path and the positions of the pages. None if there is no such file, or
+    /// the pages are in several files.
     fn settle(&mut self, folder: &Path, key: Key) -> io::Result<Option<(PathBuf, Vec<At>)>> {
         if self.files.is_empty() {
             self.files.push(Part::named(folder, key)?);
@@ -192,7 +193,7 @@ impl Part {
         Ok(Part { file, path: Some(path), end: begin.len() as u64 })
     }
 
-    /// A file without a name.
+    /// A nameless file.
     fn unnamed() -> io::Result<Part> {
         Ok(Part { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
     }

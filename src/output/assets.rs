@@ -9,11 +9,11 @@ use super::{Folder, OutputError, Tally};
 use crate::emit::ASSETS;
 use crate::scene::Asset;
 
-/// Copies the assets of a scene to where its scripts find them. Copies of others that are there stay: nothing tells
-/// them from files of somebody else's.
+/// Copies the assets of a scene to where its scripts find them. Copies of other assets stay, since nothing tells them from a
+/// user's own files.
 ///
 /// # Errors
-/// If an asset cannot be read or its copy not be written, or a folder on the way is a link.
+/// If an asset cannot be read, its copy cannot be written, or a folder on the way is a link.
 pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
     let copy = |asset: &Asset| {
         let name = format!("{ASSETS}/{}", asset.name);
@@ -40,7 +40,7 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
     assets.iter().map(copy).collect()
 }
 
-/// Makes the folders that a file stands in, below a folder that is there. No link is followed.
+/// Creates the parent folders of a file below an existing folder. Follows no link.
 fn make_folders(folder: &Path, file: &Path) -> Result<(), OutputError> {
     let mut path: PathBuf = folder.to_owned();
     for part in file.parent().into_iter().flat_map(Path::components) {

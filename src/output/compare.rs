@@ -1,4 +1,4 @@
-//! Scripts held against those of a folder: a snapshot test for everyone.
+//! Compares scripts with those in a folder: a snapshot test for everyone.
 
 use std::collections::HashSet;
 use std::fs;
@@ -41,13 +41,13 @@ pub enum Kind {
 pub struct Line {
     /// Its number in its script, from 1.
     pub number: usize,
-    /// Whether the line is the scene's; otherwise it is the folder's.
+    /// Whether the line is from the scene's script; otherwise it is from the folder's.
     pub new: bool,
     /// The line.
     pub text: String,
 }
 
-/// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is told of every script.
+/// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is called for every script.
 ///
 /// # Errors
 /// If the folder cannot be read, the run becomes non-finite, or a script cannot be made.
@@ -119,8 +119,7 @@ fn difference(path: &Path, new: &str) -> Result<Option<Kind>, OutputError> {
 }
 
 impl Difference {
-    /// The difference as people read it: the frame, and each line as it was and as it would be. Of very many lines,
-    /// the first are shown.
+    /// The difference for people: the frame, and each line before and after. Of very many lines, only the first are shown.
     pub fn to_text(&self) -> String {
         const MOST_LINES: usize = 20;
         let Difference { frame, name, kind } = self;

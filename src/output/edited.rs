@@ -1,4 +1,4 @@
-//! Files of a folder that somebody has edited since jabuka wrote them: they are set aside before they are written anew.
+//! Sets aside files that somebody has edited since jabuka wrote them, before they are written anew.
 
 use std::fs;
 use std::io;
@@ -21,8 +21,8 @@ pub(super) struct SetAside {
 }
 
 impl Folder {
-    /// Sets aside the edited ones of some files, which are going to be written anew or removed: those that differ from what
-    /// jabuka has written, as its manifest says.
+    /// Sets aside the edited ones among files that are about to be rewritten or removed. A file counts as edited if it differs
+    /// from its entry in the manifest.
     ///
     /// # Errors
     /// If a file cannot be read or renamed.
@@ -40,8 +40,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Removes what was set aside for nothing, since the file was written again with the same bytes. If files that are not
-    /// written anew belong to the same scene, they get their names back.
+    /// Removes copies that were set aside needlessly, because the file was written again with the same bytes. With `same_scene`,
+    /// files that were not written anew get their names back.
     ///
     /// # Errors
     /// If a file cannot be removed or renamed.
@@ -93,7 +93,7 @@ fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(error),
-        // A link is replaced, and what it leads to stays as it is.
+        // A link is replaced; its target stays unchanged.
         Ok(metadata) if !metadata.is_file() => Ok(false),
         Ok(metadata) if metadata.len() != entry.bytes => Ok(true),
         Ok(_) => Ok(Tally::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
@@ -102,7 +102,7 @@ fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
 
 /// Renames a file of a folder: `frame_0002.pov` to `frame_0002.edited.pov`, or to the next name that is free.
 fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
-    // Scripts would read what stands among the assets, so edited ones go to a folder beside these.
+    // Scripts would read files among the assets, so edited ones go to a folder beside the assets.
     let in_assets = name.strip_prefix(ASSETS).and_then(|name| name.strip_prefix('/'));
     let now = match in_assets {
         Some(name) => format!("{ASSETS}.edited/{name}"),
@@ -118,7 +118,7 @@ fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
     Ok(SetAside { name: name.to_owned(), now })
 }
 
-/// A name with something put in front of its ending.
+/// A name with an addition in front of its ending.
 fn between(name: &str, inserted: &str) -> String {
     match name.rsplit_once('.') {
         Some((stem, ending)) => format!("{stem}{inserted}.{ending}"),
@@ -126,7 +126,7 @@ fn between(name: &str, inserted: &str) -> String {
     }
 }
 
-/// A name of no file in a folder: the given one, or one with a number, as `submit-2.old`.
+/// A name that no file in the folder has: the given one, or that one with a number, as in `submit-2.old`.
 pub(crate) fn free_name(folder: &Path, name: &str) -> String {
     let is_free = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
     let numbered = (2_u64..).map(|number| between(name, &format!("-{number}")));
@@ -150,7 +150,7 @@ mod tests {
         let entries =
             ["frame_0002.pov", "frame_0003.pov", "gone.pov", "assets/a.png"].map(|name| entry(name, b"ours"));
         for name in ["frame_0002.pov", "assets/a.png"] {
-            // As long as what jabuka wrote, and other bytes.
+            // The same length as jabuka's file, with other bytes.
             fs::write(at(name), "mine").unwrap();
         }
         fs::write(at("frame_0003.pov"), "ours").unwrap();

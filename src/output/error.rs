@@ -12,7 +12,7 @@ use crate::simulate::{Broken, Diverged, SimulateError, Stalled, Stuck, Undefined
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
 pub enum OutputError {
-    /// The folder holds files, and none of them says that jabuka made it.
+    /// The folder contains files, but nothing marks it as jabuka's.
     NotOurs(PathBuf),
     /// There is a file where a folder should be.
     NotAFolder(PathBuf),

@@ -11,8 +11,8 @@ use super::edited::SetAside;
 use super::manifest::{self, MANIFEST};
 use crate::emit::{COMMON, INI, MASTER, is_trail_file};
 
-/// The lock stays in the folder: removing it would race with another process that has just opened it. What locks is
-/// not the file but a lock on it, which ends with the process, however that ends.
+/// The lock file stays in the folder: removing it would race with another process that has just opened it. The lock belongs to
+/// the open file, so it ends with the process, however that ends.
 const LOCK: &str = ".jabuka-lock";
 
 /// An output folder that this process alone writes to.
@@ -24,16 +24,16 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Opens a folder for writing: makes it if need be, makes sure that it is ours, locks it, and sweeps away what a
-    /// killed run has left half-written.
+    /// Opens a folder for writing: creates it if needed, checks that it is jabuka's, locks it, and removes files that a killed
+    /// run left half-written.
     ///
     /// # Errors
-    /// If the folder is somebody else's, is being written to, or cannot be used.
+    /// If the folder belongs to something else, another process writes to it, or it cannot be used.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
         Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
     }
 
-    /// Like [`Folder::open`], for a folder that something else than a manifest marks as ours.
+    /// Like [`Folder::open`], for a folder that something other than a manifest marks as jabuka's.
     pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
         let io_error = |error| OutputError::Io(path.to_owned(), error);
         match fs::metadata(path) {
@@ -61,7 +61,7 @@ impl Folder {
     /// Puts a file into the folder, whole or not at all.
     ///
     /// # Errors
-    /// If it cannot be written; then a file of that name is as it was before.
+    /// If it cannot be written; then an existing file of that name is unchanged.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         self.write_with(name, |file| file.write_all(bytes))
     }
@@ -76,7 +76,7 @@ impl Folder {
         self.try_write_with(name, |file| fill(file).map_err(|error| OutputError::Io(path, error)))
     }
 
-    /// Like [`Folder::write_with`], where also the making of a piece can fail.
+    /// Like [`Folder::write_with`], where making a piece can also fail.
     pub(super) fn try_write_with(
         &self,
         name: &str,
@@ -84,7 +84,7 @@ impl Folder {
     ) -> Result<(), OutputError> {
         let path = self.path.join(name);
         let io_error = |error| OutputError::Io(path.clone(), error);
-        // Also the file of a folder in the folder is made here, where the next run looks for what a kill has left.
+        // Temporary files for subfolders are made here as well, where the next run looks for leftovers.
         let temporary = self.path.join(format!(".jabuka-{}.tmp", name.replace('/', "-")));
         let fill_and_rename = || {
             // `create_new` follows no link.
@@ -95,12 +95,12 @@ impl Folder {
             fs::rename(&temporary, &path).map_err(io_error)
         };
         fill_and_rename().inspect_err(|_| {
-            // If even this fails, the next run sweeps it away.
+            // If even this fails, the next run removes it.
             let _ = fs::remove_file(&temporary);
         })
     }
 
-    /// The numbers and names of some scripts in the folder, in their order: of frames for which `of` holds.
+    /// The numbers and names of the scripts in the folder whose frames satisfy `of`, in their order.
     pub(super) fn scripts(&self, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
         scripts_of(&self.path, of)
     }
@@ -140,8 +140,8 @@ impl Folder {
     }
 }
 
-/// The numbers and names of the scripts in a folder, in their order: of each frame first the sharp one, then that of
-/// the image with motion blur.
+/// The numbers and names of the scripts in a folder, in their order: for each frame first the sharp one, then the one with
+/// motion blur.
 pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
     scripts_of(path, |_| true)
 }
@@ -179,7 +179,7 @@ pub(super) fn script_number(name: &str) -> Option<usize> {
     plain.then(|| digits.parse().ok())?
 }
 
-/// Whether a file of this name in a folder of scripts is a script or belongs to them.
+/// Whether a file of this name in a folder of scripts is a script or belongs to the scripts.
 pub(crate) fn is_own_name(name: &str) -> bool {
     [MANIFEST, MASTER, INI, COMMON].contains(&name) || script_number(name).is_some() || is_trail_file(name)
 }
@@ -188,7 +188,7 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }
 
-/// Whether a folder is empty but for what a killed run may leave, or is marked as ours.
+/// Whether a folder is marked as jabuka's, or contains only leftovers of a killed run.
 fn is_ours(path: &Path, marked: &dyn Fn(&Path) -> bool) -> io::Result<bool> {
     for entry in fs::read_dir(path)? {
         let name = entry?.file_name();
@@ -206,7 +206,7 @@ fn lock(folder: &Path) -> Result<File, OutputError> {
     }
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
     let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
-    // A program that is just being started has copies of all open files until it runs, also of a lock that was let go.
+    // A child process has copies of all open files until it executes its program, including a lock that was already released.
     for _ in 0..20 {
         match file.try_lock() {
             Ok(()) => return Ok(file),

@@ -20,7 +20,7 @@ enum Records {
 }
 
 impl Ledger {
-    /// Room for so many scripts.
+    /// Makes room for this many scripts.
     pub(super) fn new(scripts: usize) -> io::Result<Ledger> {
         let is_small = scripts <= IN_MEMORY;
         let records = if is_small {
@@ -31,7 +31,7 @@ impl Ledger {
         Ok(Ledger(Mutex::new(records)))
     }
 
-    /// Notes a script.
+    /// Records a script.
     pub(super) fn put(&self, number: usize, bytes: u64, sha256: [u8; 32]) -> io::Result<()> {
         let mut record = [0; 40];
         record[..8].copy_from_slice(&bytes.to_le_bytes());

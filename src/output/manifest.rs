@@ -1,4 +1,4 @@
-//! The manifest: what an output folder holds, and of which scene.
+//! The manifest: the contents of an output folder, and their scene.
 
 use std::fs;
 use std::io::{self, Write};
@@ -19,7 +19,7 @@ pub const MANIFEST: &str = "manifest.json";
 /// The name of jabuka in a manifest.
 const GENERATOR: &str = "jabuka";
 
-/// The largest manifest that is read: more than a million frames need.
+/// The largest manifest that is read, bytes: enough for more than a million frames.
 const MAX_BYTES: u64 = 512 << 20;
 
 /// The contents of an output folder, and the scene that they belong to.
@@ -30,8 +30,8 @@ const MAX_BYTES: u64 = 512 << 20;
 pub struct Manifest {
     /// The data of the folder as a whole.
     pub head: Head,
-    /// The files: first those of the sequence as a whole, then the scripts in the order of their frames. While some are
-    /// being written, those that stay as they are.
+    /// The files: first those of the whole sequence, then the scripts in the order of their frames. While some are being
+    /// written, only the files that stay as they are.
     pub files: Vec<Entry>,
 }
 
@@ -68,7 +68,7 @@ impl Manifest {
 pub struct Entry {
     /// The number of the frame, for a script.
     pub frame: Option<usize>,
-    /// Its name; of a file in a folder of the folder, its path with `/`.
+    /// Its name; for a file in a subfolder, its path with `/`.
     pub name: String,
     /// Its length in bytes.
     pub bytes: u64,
@@ -142,7 +142,7 @@ impl Warning {
         Warning { code: code.name().to_owned(), message, help }
     }
 
-    /// The warning, to be said again; `None` where its kind is none that there is.
+    /// The warning, to be reported again; `None` for an unknown code.
     fn diagnostic(&self) -> Option<Diagnostic> {
         let code = RUN_WARNINGS.into_iter().find(|code| code.name() == self.code)?;
         let warning = Diagnostic::warning(code, self.message.clone());
@@ -165,22 +165,22 @@ pub enum State {
     Complete,
 }
 
-/// The head of a manifest: all but its list of files. What it has learnt to say since the first version is optional, so
-/// that manifests of old can be read.
+/// The head of a manifest: everything but its list of files. Fields added since the first version are optional, so that old
+/// manifests can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
     /// The program that wrote it.
     pub(super) generator: String,
     /// The version of that program.
     pub version: String,
-    /// A digest of its sources: another one may write other scripts of the same scene.
+    /// A digest of its sources: a program from other sources may write other scripts of the same scene.
     #[serde(default)]
     pub build: String,
     /// The progress of the folder.
     pub state: State,
     /// The name of the scene.
     pub scene: String,
-    /// The view that sees the scene; absent for the main camera.
+    /// The view that shows the scene; absent for the main camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// The values of the scene that were replaced: `simulation.step=0.001`.
@@ -188,7 +188,7 @@ pub struct Head {
     pub set: Vec<String>,
     /// The digest of the texts that the scene was read from.
     pub digest: String,
-    /// The number of the scene's frames, of which the folder may hold some.
+    /// The number of the scene's frames; the folder may hold only some of them.
     pub frames: usize,
     /// Frames per second.
     pub frame_rate: f64,
@@ -207,16 +207,16 @@ pub struct Head {
     /// The time for which the shutter is open, s, if images have motion blur and there are `shutter_` scripts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutter: Option<f64>,
-    /// And the number of moments in each of those scripts.
+    /// The number of moments in each of those scripts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
-    /// The energy error, as a part of the largest kinetic energy.
+    /// The energy error, relative to the largest kinetic energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
     /// The warnings of the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
-    /// While writing: the frames that are being written.
+    /// While writing: the frames being written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<String>,
 }
@@ -229,7 +229,7 @@ impl Head {
         Head { drift: Some(run.survey().drift), warnings, ..head }
     }
 
-    /// The part that is known without a run of the scene.
+    /// The part that needs no run of the scene.
     pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Head {
         Head {
             generator: GENERATOR.to_owned(),
@@ -275,19 +275,19 @@ pub(crate) fn read(path: &Path) -> Option<Head> {
     head.is_ours().then_some(head)
 }
 
-/// Opens a manifest that is a file, and no link, of a size that makes sense.
+/// Opens a manifest if it is a regular file of a plausible size, and not a link.
 fn open(path: &Path) -> Option<impl io::Read> {
     let metadata = fs::symlink_metadata(path).ok()?;
     let sensible = metadata.is_file() && metadata.len() <= MAX_BYTES;
     sensible.then(|| fs::File::open(path).ok().map(io::BufReader::new))?
 }
 
-/// Writes a manifest, one line a file.
+/// Writes a manifest, with one line for each file.
 pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io::Result<()> {
     write_each(out, head, entries.iter().cloned().map(Ok))
 }
 
-/// The same of files that are not all in memory.
+/// Writes a manifest whose list of files is not in memory as a whole.
 pub(super) fn write_each(
     out: &mut impl Write,
     head: &Head,
@@ -300,7 +300,7 @@ pub(super) fn write_each(
     for (i, entry) in entries.enumerate() {
         let entry = entry?;
         let comma = if i == 0 { "" } else { "," };
-        // The name of a file that somebody else chose may need escapes.
+        // A name chosen by somebody else may need escapes.
         let name = serde_json::to_string(&entry.name)?;
         let (bytes, digest) = (entry.bytes, entry.hex());
         write!(out, "{comma}\n    {{ \"name\": {name}, \"bytes\": {bytes}, \"sha256\": \"{digest}\" }}")?;

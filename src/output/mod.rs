@@ -1,7 +1,7 @@
 //! Scripts → files.
 //!
-//! An output folder survives whatever happens: files appear whole, under their names, or not at all; a run that was
-//! killed is made good by running it again; and nothing that jabuka did not write is ever touched.
+//! An output folder stays consistent: files appear whole, under their names, or not at all; running again completes a killed
+//! run; and jabuka never touches files that it did not write.
 
 mod assets;
 mod compare;

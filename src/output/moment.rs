@@ -7,8 +7,8 @@ use super::{Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::frame_name;
 
-/// Writes the script of any moment of a run, time in s, in place of all scripts that are in the folder, and tells the
-/// number of the frame at or before it, by which the script is named.
+/// Writes the script of any moment of a run, time in s, in place of all scripts in the folder. Returns the number of the frame
+/// at or before that time, which names the script.
 ///
 /// # Errors
 /// If a file cannot be written, the run becomes non-finite before that time, or the script cannot be made.

@@ -1,4 +1,4 @@
-//! The digest and the length of what is written, without holding it.
+//! The digest and the length of a file, computed while it is written.
 
 use std::fs::File;
 use std::io;
@@ -29,7 +29,7 @@ impl Tally {
         Ok(tally)
     }
 
-    /// The entry of the file that the pieces make.
+    /// The entry of the file that consists of the pieces.
     pub(super) fn entry(self, frame: Option<usize>, name: String) -> Entry {
         Entry { frame, name, bytes: self.bytes, sha256: self.hash.finalize().into() }
     }

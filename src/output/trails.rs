@@ -16,7 +16,7 @@ pub(super) struct TrailFiles {
 }
 
 impl TrailFiles {
-    /// Writes those that the script of a frame includes and that are not there yet.
+    /// Writes the files that the script of a frame includes and that do not exist yet.
     pub(super) fn put(&self, run: &Run<'_>, folder: &Folder, frame: &Frame) -> Result<(), OutputError> {
         let is_begun =
             |name: &str| !self.begun.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());

@@ -1,4 +1,4 @@
-//! Check whether a folder holds everything that a scene would write.
+//! Checks whether a folder holds everything that a scene would write.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -11,8 +11,8 @@ use crate::emit::{ASSETS, frame_name, shutter_name};
 use crate::scene::{Scene, View};
 use crate::simulate::Selection;
 
-/// The manifest of a folder that holds, to the byte, what this program would write there of these frames, so that
-/// the scene need not even be simulated. `None` where it does not, or where that cannot be told.
+/// The manifest of a folder with exactly the bytes that this program would write for these frames; then the scene need not even
+/// be simulated. `None` if the folder differs, or if that is unknown.
 pub fn up_to_date(
     scene: &Scene,
     view: Option<&View>,

@@ -23,15 +23,15 @@ pub struct Written {
     pub scripts: usize,
     /// The bytes of all files but the manifest.
     pub bytes: u64,
-    /// The scripts of other frames of the scene that have stayed.
+    /// The number of kept scripts of other frames of the scene.
     pub kept: usize,
-    /// The scripts of other frames that were of another scene, or of this one before it was changed, and are gone.
+    /// The number of removed scripts of other frames. They were of another scene, or of this one before it was changed.
     pub removed: usize,
 }
 
-/// Writes the selected scripts of a run, and what renders the whole sequence. `done` is told of every script.
+/// Writes the selected scripts of a run, and the files that render the whole sequence. `done` is called for every script.
 ///
-/// The manifest is there from the first moment to the last: a run that is killed leaves a folder that says so.
+/// The manifest exists from the first moment to the last: it marks the folder of a killed run as incomplete.
 ///
 /// # Errors
 /// If a file cannot be written, the run becomes non-finite, or a script cannot be made.
@@ -99,7 +99,7 @@ struct Scripts {
     scene_frames: usize,
     /// The number of scripts of a frame: with motion blur, two.
     per_frame: usize,
-    /// The number of frames of which there are scripts now.
+    /// The number of frames that have scripts now.
     frames: usize,
     /// The bytes of all of them.
     bytes: u64,
@@ -145,7 +145,7 @@ impl Scripts {
         Ok(Scripts { ledger, scene_frames, per_frame, frames, bytes })
     }
 
-    /// The entries of the scripts among others, which stand in their order.
+    /// The entries of the scripts and other entries, merged in their order.
     fn merged(&self, others: Vec<Entry>, selection: &Selection) -> impl Iterator<Item = io::Result<Entry>> {
         let frames = (0..self.scene_frames).filter(|&frame| selection.contains(frame));
         let mut scripts = frames
@@ -201,7 +201,7 @@ pub(super) fn put_blurred(
     Ok(digest.entry(Some(frame.index), name))
 }
 
-/// The files with parts of trails that were there before, of scripts that have stayed: as the manifest had them, if it did.
+/// The trail files of kept scripts. They keep their old entries, if the manifest had them.
 fn kept_trails(
     folder: &Folder,
     written: &[Entry],
@@ -212,7 +212,7 @@ fn kept_trails(
     others.map(|name| kept_entry(folder, None, name, known)).collect()
 }
 
-/// The scripts of the folder that were there before and have stayed: as the manifest had them, if it did.
+/// The scripts that were in the folder before and stay. They keep their old entries, if the manifest had them.
 fn kept(
     folder: &Folder,
     selection: &Selection,
@@ -222,8 +222,7 @@ fn kept(
     others.map(|(frame, name)| kept_entry(folder, Some(frame), name, known)).collect()
 }
 
-/// The entry of a file that has stayed: the one that is known, so that an edited file is known as such later, or else that of
-/// its bytes.
+/// The entry of a file that stays: its known entry, so that a later run recognizes an edit, or else one made from its bytes.
 fn kept_entry(
     folder: &Folder,
     frame: Option<usize>,
