@@ -13,14 +13,14 @@ use super::picture::{self, Picture, Size, light, srgb};
 
 type Rgb = [u8; 3];
 
-/// Around everything, and between two images, pixels.
+/// The margin around everything, and the space between two images, pixels.
 const MARGIN: usize = 32;
 const GAP: usize = 24;
-/// Between an image and its caption.
+/// The space between an image and its caption.
 const ABOVE_CAPTION: usize = 8;
 /// The area of an image on the sheet, pixels: that of 480 × 270. Small images are not enlarged.
 const AREA: f64 = 480.0 * 270.0;
-/// The shape of a sheet, width to height, that the grid comes near to.
+/// The preferred shape of a sheet, width to height.
 const SHAPE: f64 = 16.0 / 9.0;
 
 const GROUND: Rgb = [247, 246, 243];
@@ -28,7 +28,7 @@ const EDGE: Rgb = [214, 211, 204];
 const INK: Rgb = [52, 50, 46];
 const FAINT_INK: Rgb = [122, 118, 110];
 
-/// An image that may stand on a contact sheet.
+/// An image that a contact sheet may show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// The path of the image.
@@ -39,7 +39,7 @@ pub struct Shot {
     pub time: f64,
 }
 
-/// A contact sheet that is to be made.
+/// A planned contact sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ContactSheet {
     path: PathBuf,
@@ -47,7 +47,7 @@ pub struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// The number of images on a sheet, unless the user gives another or there are fewer.
+    /// The default number of images on a sheet, unless there are fewer.
     pub const USUAL: usize = 12;
 
     /// A contact sheet of this name.
@@ -76,7 +76,7 @@ impl ContactSheet {
         &self.path
     }
 
-    /// Whether the sheet can be written where it is to be. This makes its folder, if need be.
+    /// Checks that the sheet can be written to its path. Creates its folder, if needed.
     ///
     /// # Errors
     /// If no file can be written there, or another process writes it.
@@ -84,8 +84,8 @@ impl ContactSheet {
         Target::create(&self.path).map(drop)
     }
 
-    /// Makes the sheet from all images that there are, in their order: it takes the first, the last, and some between
-    /// them, evenly spaced. What is transparent is shown before white. A sheet that was there stays until the new one is whole.
+    /// Makes the sheet from all existing images, in their order: it takes the first, the last, and some between them, evenly
+    /// spaced. Transparent pixels are shown on white. An existing sheet stays until the new one is whole.
     ///
     /// # Errors
     /// If one of these images cannot be read or differs in size, or the sheet cannot be written.
@@ -113,7 +113,7 @@ impl ContactSheet {
     }
 }
 
-/// The indices of at most `most` things out of `count`: the first, the last, and some between them, evenly spaced.
+/// The indices of at most `most` items out of `count`: the first, the last, and some between them, evenly spaced.
 pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
@@ -163,7 +163,7 @@ impl Layout {
     }
 }
 
-/// How many columns make a page of pleasant shape, and few empty places.
+/// The number of columns that gives the page a pleasant shape with few empty places.
 fn columns(count: usize, (width, height): Size) -> usize {
     let badness = |columns: usize| {
         let rows = count.div_ceil(columns);
@@ -174,7 +174,8 @@ fn columns(count: usize, (width, height): Size) -> usize {
     (1..=count).min_by(|a, b| badness(*a).total_cmp(&badness(*b))).unwrap_or(1)
 }
 
-/// The captions under the images: the number of the frame, and its time with enough digits to tell it from its neighbours.
+/// The captions under the images: the number of the frame, and its time with enough digits to distinguish it from its
+/// neighbours.
 fn captions(shots: &[&Shot]) -> Vec<[String; 2]> {
     let gaps = shots.windows(2).map(|pair| (pair[1].time - pair[0].time).abs()).filter(|gap| *gap > 0.0);
     let largest = shots.iter().map(|shot| shot.time.abs()).fold(0.0, f64::max);
@@ -199,7 +200,7 @@ fn scientific(time: f64) -> String {
     if time == 0.0 { "0".to_owned() } else { format!("{time:.3e}") }
 }
 
-/// Three bytes for each pixel of a reduced image. It averages light, and not bytes of sRGB, which would darken fine details.
+/// The pixels of a reduced image, three bytes each. It averages light, since a mean of sRGB bytes would darken fine details.
 fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let picture = Picture::read(path)?;
     let (from_width, from_height) = picture.size;
@@ -210,7 +211,7 @@ fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let from: Vec<RGB<f32>> =
         bytes.chunks_exact(3).map(|p| RGB::new(light(p[0]), light(p[1]), light(p[2]))).collect();
     let mut to = vec![RGB::new(0.0, 0.0, 0.0); width * height];
-    // It is sharp without much ringing, and a polynomial: it gives the same bits everywhere.
+    // This filter is sharp without much ringing. It is a polynomial, so it gives the same bits everywhere.
     let filter = resize::Type::Catrom;
     resize::new(from_width, from_height, width, height, resize::Pixel::RGBF32, filter)
         .and_then(|mut resizer| resizer.resize(&from, &mut to))
@@ -222,7 +223,7 @@ fn text_width(text: &str, letters: RasterHeight) -> usize {
     text.chars().count() * get_raster_width(FontWeight::Regular, letters)
 }
 
-/// A picture that is drawn on.
+/// A picture to draw on.
 struct Page {
     size: Size,
     rgb: Vec<u8>,
@@ -258,7 +259,7 @@ impl Page {
         }
     }
 
-    /// Writes a line of text, of the letters of ASCII.
+    /// Writes a line of ASCII text.
     fn write(&mut self, text: &str, (x, y): (usize, usize), letters: RasterHeight, ink: Rgb) {
         let advance = get_raster_width(FontWeight::Regular, letters);
         let glyphs = text.chars().map(|c| get_raster(c, FontWeight::Regular, letters));
@@ -268,7 +269,7 @@ impl Page {
                 for (column, part) in line.iter().enumerate() {
                     let place = (x + index * advance + column, y + row);
                     for (byte, ink) in self.pixel(place).iter_mut().zip(ink) {
-                        // The letters were made to be mixed so, and in light they would be too thin.
+                        // The letters are made for mixing in sRGB; mixed in linear light, they would be too thin.
                         let (ground, ink, part) = (u32::from(*byte), u32::from(ink), u32::from(*part));
                         *byte = ((ground * (255 - part) + ink * part + 127) / 255) as u8;
                     }
@@ -279,7 +280,7 @@ impl Page {
 
     fn save(&self, target: &Target) -> Result<(), FilmError> {
         let (width, height) = self.size;
-        // In memory first, where nothing can fail: an error of the disk is to be told as such.
+        // Encode in memory first, which cannot fail, so that any later error comes from the disk.
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
         encoder.set_color(png::ColorType::Rgb);

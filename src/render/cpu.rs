@@ -1,9 +1,9 @@
-//! How much processors work, where the system tells (Linux does, in `/proc`).
+//! The CPU time of processes, where the system reports it (Linux does, in `/proc`).
 
 use std::collections::HashMap;
 use std::fs;
 
-/// The CPU time that every process group has used so far, s; `None` where the system does not tell.
+/// The CPU time that every process group has used so far, s; `None` where the system does not report it.
 pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
     let mut groups = HashMap::new();
     for entry in fs::read_dir("/proc").ok()?.flatten() {
@@ -12,7 +12,7 @@ pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
         if !is_process {
             continue;
         }
-        // A process may end while this looks.
+        // A process may end during this loop.
         let Ok(stat) = fs::read_to_string(entry.path().join("stat")) else { continue };
         if let Some((group, seconds)) = group_and_seconds(&stat) {
             *groups.entry(group).or_default() += seconds;
@@ -26,7 +26,7 @@ pub(super) fn seconds(process: u32) -> Option<f64> {
     group_and_seconds(&fs::read_to_string(format!("/proc/{process}/stat")).ok()?).map(|(_, seconds)| seconds)
 }
 
-/// The memory that new processes could have, bytes.
+/// The memory available to new processes, bytes.
 pub(super) fn available_memory() -> Option<u64> {
     let text = fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;

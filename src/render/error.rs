@@ -6,20 +6,20 @@ use std::path::PathBuf;
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Why rendering had to stop. What concerns one frame only is a [`Fault`](super::Fault), and stops nothing.
+/// Why rendering had to stop. A problem with a single frame is a [`Fault`](super::Fault), and stops nothing.
 #[derive(Debug)]
 pub enum RenderError {
-    /// There is no POV-Ray: what was looked for.
+    /// There is no POV-Ray: the program that was looked for.
     NoPovray(PathBuf),
     /// The program found is not POV-Ray, or its version is unknown: its path and its answer.
     NotPovray(PathBuf, String),
     /// The folder has no scripts.
     NoScripts(PathBuf),
-    /// The scripts in the folder are not all there: a compile was broken off.
+    /// Some scripts are missing from the folder: a compile was interrupted.
     Incomplete(PathBuf),
     /// The folder has no scripts of these frames.
     NoSuchFrames(PathBuf, String),
-    /// The folder for the images holds files, and none of them says that jabuka made it.
+    /// The folder for the images contains files, but nothing marks it as jabuka's.
     NotOurs(PathBuf),
     /// There is a link where jabuka would write.
     Link(PathBuf),
@@ -60,7 +60,7 @@ impl RenderError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// How to mend it, where that is not plain from the message.
+    /// How to fix it, where the message does not make that plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             RenderError::NoPovray(_) => Some(
@@ -87,7 +87,7 @@ impl RenderError {
         }
     }
 
-    /// The error of a file; that of a full disk is one of its own.
+    /// The error of a file; a full disk has an error of its own.
     pub(super) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> RenderError {
         let path = path.into();
         |error| match error.kind() {

@@ -1,4 +1,4 @@
-//! A frame with motion blur: the images of its moments, until all are there.
+//! A frame with motion blur: collects the images of its moments, until all are there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::linear_light;
 use super::{Images, RenderError};
 
-/// The images of the moments of a frame. Their folder goes with this.
+/// The images of the moments of a frame. Dropping this removes their folder.
 pub(super) struct Exposure {
     folder: PathBuf,
     images: Vec<PathBuf>,
@@ -15,12 +15,12 @@ pub(super) struct Exposure {
 }
 
 impl Exposure {
-    /// A frame of which no moment is there.
+    /// A frame without any moment yet.
     pub(super) fn new(images: &Images, index: usize) -> Result<Exposure, RenderError> {
         Ok(Exposure { folder: images.exposure_folder(index)?, images: Vec::new(), seconds: 0.0 })
     }
 
-    /// Takes in the image of one of this many moments, and returns whether all are there.
+    /// Adds the image of one of this many moments, and returns whether all are there.
     pub(super) fn add(
         &mut self,
         image: &Path,
@@ -35,7 +35,7 @@ impl Exposure {
         Ok(self.images.len() == of as usize)
     }
 
-    /// The mean of all moments in linear light, in the folder of this.
+    /// The mean of all moments in linear light, as a file in this exposure's folder.
     pub(super) fn develop(&self) -> Result<PathBuf, RenderError> {
         let path = self.folder.join("mean.png");
         let mut images = self.images.clone();
@@ -51,7 +51,7 @@ impl Exposure {
 
 impl Drop for Exposure {
     fn drop(&mut self) {
-        // The next run sweeps up a folder that stays.
+        // The next run removes a folder that stays.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

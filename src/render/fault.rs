@@ -1,4 +1,4 @@
-//! A frame that cannot be rendered, and what POV-Ray says of it.
+//! A frame that cannot be rendered, with POV-Ray's message.
 
 use std::fmt;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::PovRay;
 use crate::diagnostic::{Code, Diagnostic, Report, Span};
 
-/// Why one frame could not be rendered; others can.
+/// Why one frame could not be rendered; other frames can.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The number of the frame.
@@ -16,7 +16,7 @@ pub struct Fault {
     pub script: PathBuf,
     /// The line of the script where POV-Ray stopped, from 1.
     pub line: Option<usize>,
-    /// The body that is drawn there.
+    /// The body drawn there.
     pub body: Option<String>,
     /// The message.
     pub message: String,
@@ -25,7 +25,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// The fault in what a POV-Ray has said of a script.
+    /// The fault in POV-Ray's messages about a script.
     pub(super) fn parse(frame: usize, script: PathBuf, said: &str, povray: &PovRay) -> Fault {
         let name = script.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         let mut place = None;
@@ -49,7 +49,7 @@ impl Fault {
             fs::read(&script).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
         let (line, message) = match place {
             Some((file, line)) if file == name => (Some(line), text),
-            // POV-Ray notices an unclosed block only behind the end of the script.
+            // POV-Ray notices an unclosed block only after the end of the script.
             Some(("run.pov", _)) => (Some(source.lines().count()), text),
             Some((file, line)) => (None, format!("in {file}, line {line}: {text}")),
             None => (None, text),
@@ -113,9 +113,9 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Something that POV-Ray could not open.
+/// A file that POV-Ray could not open.
 enum Opened<'a> {
-    /// A file to be read, if POV-Ray tells which.
+    /// A file to be read, if POV-Ray names it.
     ToRead(Option<&'a str>),
     /// A file to be written.
     ToWrite,
@@ -136,13 +136,13 @@ fn opened(message: &str) -> Option<Opened<'_>> {
     ["Cannot open file", "Cannot open font file"].contains(&told).then_some(Opened::ToRead(None))
 }
 
-/// The file's name and the line in what begins a message: `File: scripts/frame_0060.pov  Line: 34`.
+/// The file's name and the line in the beginning of a message: `File: scripts/frame_0060.pov  Line: 34`.
 fn file_and_line(said: &str) -> Option<(&str, usize)> {
     let (path, line) = said.strip_prefix("File: ")?.rsplit_once("Line: ")?;
     Some((path.trim().rsplit('/').next()?, line.trim().parse().ok()?))
 }
 
-/// The body that stands in a line of a script: the object's last line ends with its name as a comment.
+/// The body in a line of a script: the object's last line ends with its name as a comment.
 fn body_at(script: &str, line: usize) -> Option<String> {
     let lines: Vec<&str> = script.lines().collect();
     let bodies = lines.iter().position(|line| *line == "// the bodies")?;

@@ -8,7 +8,7 @@ use crate::emit::COMMON;
 /// The folder of assets beside the scripts.
 pub const ASSETS: &str = "assets";
 
-/// The files that the scripts of a folder read, by their names in it: first the shared ones, then the assets in the order of
+/// The files that the scripts of a folder read, by their names in it: first the shared files, then the assets in the order of
 /// their names.
 ///
 /// # Errors
@@ -27,7 +27,7 @@ pub fn of_scripts(scripts: &Path) -> io::Result<Vec<String>> {
     Ok(files)
 }
 
-/// All files below a folder, hidden ones left aside.
+/// All files below a folder, except hidden ones.
 fn below(root: &Path, folder: &str, found: &mut Vec<String>) -> io::Result<()> {
     for entry in std::fs::read_dir(root.join(folder))? {
         let entry = entry?;

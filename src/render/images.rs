@@ -1,4 +1,4 @@
-//! The folder of the images: who owns it, who renders into it, and how images come into it.
+//! The folder of the images: who owns it, who renders into it, and how images are added.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -15,11 +15,11 @@ pub struct Images {
 }
 
 impl Images {
-    /// Opens a folder for images: makes it if need be, makes sure that it is ours, locks it, and sweeps away what a
-    /// killed run has left.
+    /// Opens a folder for images: creates it if needed, checks that it is jabuka's, locks it, and removes leftovers of a killed
+    /// run.
     ///
     /// # Errors
-    /// If the folder is somebody else's, is being rendered into, or cannot be used.
+    /// If the folder belongs to something else, another process renders into it, or it cannot be used.
     pub fn open(folder: &Path) -> Result<Images, RenderError> {
         fs::create_dir_all(folder).map_err(RenderError::io(folder))?;
         let hidden = folder.join(HIDDEN);
@@ -72,8 +72,8 @@ impl Images {
         Ok(path)
     }
 
-    /// Takes a finished image in under its name: first the image, then the record, so that whatever breaks off
-    /// between them leaves an image that is rendered again.
+    /// Adds a finished image under its name: first the image, then the record. An interruption between them leaves an image
+    /// that is rendered again.
     pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {
         let path = self.image(name);
         let record = record.clone().of_image(finished).map_err(RenderError::io(finished))?;
@@ -96,14 +96,14 @@ impl Images {
         self.adopt(&temporary, name, record)
     }
 
-    /// Copies an image to another place, where it appears whole or not at all.
+    /// Copies an image to another place. The copy appears whole or not at all.
     ///
     /// # Errors
-    /// If it cannot be read, or not be written there.
+    /// If it cannot be read, or cannot be written there.
     pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
         let file = target.file_name().unwrap_or_default().to_string_lossy();
         let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));
-        // A killed run may have left it.
+        // A killed run may have left this file.
         let _ = fs::remove_file(&temporary);
         let copy = || {
             let mut image = File::open(self.image(name))?;
@@ -119,7 +119,7 @@ impl Images {
         })
     }
 
-    /// Notes why an image could not be rendered.
+    /// Records why an image could not be rendered.
     pub(super) fn note_failure(&self, name: &str, why: &str) -> Result<(), RenderError> {
         let folder = self.hidden().join("failed");
         fs::create_dir_all(&folder).map_err(RenderError::io(&folder))?;
@@ -135,8 +135,8 @@ impl Images {
         }
     }
 
-    /// Removes the images that jabuka has rendered and that are of no frame any more, and tells how many. An image
-    /// that is not as it was rendered stays.
+    /// Removes images that jabuka has rendered for frames that no longer exist, and returns their number. An image that was
+    /// changed since stays.
     pub(super) fn remove_others(&self, is_frame: impl Fn(&str) -> bool) -> Result<usize, RenderError> {
         let hidden = self.hidden();
         let mut removed = 0;
@@ -155,17 +155,17 @@ impl Images {
         Ok(removed)
     }
 
-    /// Removes what a killed run has left: its folders of work, which hold `.pov-state` and unfinished images.
+    /// Removes leftovers of a killed run: its work folders, which hold `.pov-state` and unfinished images.
     fn sweep(&self) -> io::Result<()> {
         for entry in fs::read_dir(self.hidden())? {
             let entry = entry?;
-            // Also records that were being written.
+            // Also unfinished records.
             let is_left =
                 |name: &str| name.starts_with("work-") || (name.starts_with('.') && name.ends_with(".tmp"));
             if !entry.file_name().to_str().is_some_and(is_left) {
                 continue;
             }
-            // A POV-Ray that has outlived its jabuka may still be writing there: then once more.
+            // A POV-Ray that has outlived its jabuka may still be writing there, so try once more.
             let remove = || match entry.file_type() {
                 Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
                 _ => fs::remove_file(entry.path()),

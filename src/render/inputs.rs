@@ -1,4 +1,4 @@
-//! The inputs of a script: the files that it and its include files name, and the assets of its scene.
+//! The inputs of a script: the files that the script and its include files name, and the assets of its scene.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::{RenderError, Script, Sequence};
 use crate::emit::{COMMON, is_trail_file};
 use crate::scene::sdl::{FileKind, files};
 
-/// The record that the image of each script would get now, but for the length of the image.
+/// The record that the image of each script would get now, except for the length of the image.
 ///
 /// # Errors
 /// If a file cannot be read.
@@ -38,10 +38,10 @@ pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Resu
     pairs.par_iter().map(record).collect()
 }
 
-/// The files that a script reads, apart from those that come with POV-Ray: these belong to its version.
+/// The files that a script reads, except those that come with POV-Ray: its version stands for these.
 ///
-/// They are in the order of the lists of jobs for clusters, so that a job's records are the same: what all scripts
-/// share, the assets by their names, and then whatever else is read.
+/// Their order is that of the lists of cluster jobs, so that a job's records are the same: first the files shared by all
+/// scripts, then the assets by their names, then all others.
 fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, RenderError> {
     let folder = sequence.absolute();
     let path = folder.join(&script.file);
@@ -61,7 +61,7 @@ fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, Render
     Ok(paths)
 }
 
-/// Adds what the files that are included read, and so on.
+/// Adds the files that included files read, and so on.
 fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (PathBuf, io::Error)> {
     let mut next = 0;
     while let Some((kind, path)) = read.get(next).cloned() {
@@ -74,22 +74,22 @@ fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (Path
     Ok(())
 }
 
-/// The files that scripts in a folder would read where their SDL has these names, and those that these include, as far as
+/// The files that scripts in a folder would read if their SDL contains these names, and the files that these include, as far as
 /// they can be read now.
 pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf> {
     let mut read = Vec::new();
     for (kind, name) in names {
         add_name(folder, *kind, name, &mut read);
     }
-    // A file that cannot be read cannot be lost, so errors do not matter here.
+    // A file that cannot be read cannot be lost either, so errors do not matter here.
     let _ = close(folder, &mut read);
     read.into_iter().map(|(_, path)| path).collect()
 }
 
-/// Adds the files that a text names and that are there: beside the scripts, among the assets, or at an absolute path.
+/// Adds the existing files that a text names: beside the scripts, among the assets, or at an absolute path.
 fn add_read(folder: &Path, text: &[u8], read: &mut Vec<(FileKind, PathBuf)>) {
     for file in files(&String::from_utf8_lossy(text)) {
-        // The name of a trail's file identifies its contents, and stands in the script.
+        // The name of a trail's file identifies its contents, and is part of the script.
         let Some(name) = file.literal.filter(|name| !is_trail_file(name)) else { continue };
         add_name(folder, file.kind, name, read);
     }
@@ -107,7 +107,7 @@ fn add_name(folder: &Path, kind: FileKind, name: &str, read: &mut Vec<(FileKind,
     }
 }
 
-/// The names under which POV-Ray looks for a file: it adds the usual endings to a name that has none.
+/// The names under which POV-Ray looks for a file. POV-Ray adds the usual endings to a name without one.
 fn candidates(name: &str, kind: FileKind) -> Vec<String> {
     let endings: &[&str] = match kind {
         _ if Path::new(name).extension().is_some() => &[],

@@ -1,4 +1,4 @@
-//! All images of a sequence: those up to date stay, equal ones are rendered once, and the rest goes to POV-Ray.
+//! All images of a sequence: up-to-date ones stay, equal ones are rendered once, and POV-Ray renders the rest.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::AtomicBool;
@@ -21,29 +21,29 @@ pub struct Job<'a> {
     pub images: &'a Images,
     /// The renderer.
     pub povray: &'a PovRay,
-    /// The options of POV-Ray that decide on pixels.
+    /// The options of POV-Ray that affect pixels.
     pub options: Vec<String>,
-    /// The number of processes; none: as many as keep the processors busy.
+    /// The number of processes; `None` for as many as keep the processors busy.
     pub jobs: Option<usize>,
     /// The threads that each process renders with.
     pub threads: usize,
-    /// How often a frame is tried again after POV-Ray has died of it.
+    /// How often a frame is tried again after POV-Ray has died on it.
     pub retries: u32,
-    /// Whether to go on where all frames fail.
+    /// Whether to go on if all frames fail.
     pub keep_going: bool,
-    /// How long a frame may take; none: far longer than others have taken.
+    /// The longest time for a frame; `None` for a limit far above the time of other frames.
     pub time_limit: Option<Duration>,
-    /// Whether images that are up to date are read, and rendered again unless their bytes are those that were rendered.
+    /// Whether to verify up-to-date images: an image with changed bytes is rendered again.
     pub verify: bool,
 }
 
 /// Progress of a job.
 pub enum Event<'a> {
-    /// How many images exist already or follow from others, and how many will be rendered.
+    /// The number of existing or copied images, and the number that will be rendered.
     Planned {
         /// The images that are up to date.
         up_to_date: usize,
-        /// The images that are to be made.
+        /// The images to render.
         to_make: usize,
     },
     /// An image has been made, or copied from an equal one.
@@ -62,29 +62,29 @@ pub enum Event<'a> {
 pub struct Outcome {
     /// The images that POV-Ray has rendered.
     pub rendered: usize,
-    /// The images that are copies, since their scripts are equal to others.
+    /// The number of copied images, whose scripts are equal to others.
     pub copied: usize,
     /// The images that were up to date.
     pub up_to_date: usize,
-    /// The frames whose images had changed since they were rendered, and were not kept.
+    /// The frames whose images had changed since they were rendered. Those images were not kept.
     pub changed: Vec<usize>,
     /// Frames that are rendered again because the records of their images have no digest to verify.
     pub unverified: Vec<usize>,
     /// The frames that failed, in the order of their numbers.
     pub failed: Vec<Fault>,
-    /// The images that were removed, since the film has no such frames any more.
+    /// The number of removed images, of frames that the film no longer has.
     pub removed: usize,
-    /// The frame that took longest, and how long, s.
+    /// The slowest frame, and its time, s.
     pub slowest: Option<(usize, f64)>,
-    /// The processes of POV-Ray's that were started.
+    /// The number of POV-Ray processes that were started.
     pub processes: usize,
     /// The warnings of POV-Ray.
     pub warnings: Vec<String>,
-    /// Whether the user stopped the job before all was done.
+    /// Whether the user stopped the job before the end.
     pub stopped: bool,
 }
 
-/// Frames of equal scripts: the first is rendered.
+/// Frames with equal scripts: only the first is rendered.
 pub(super) struct Group {
     /// The numbers within the sequence.
     pub(super) members: Vec<usize>,
@@ -119,7 +119,7 @@ impl Job<'_> {
         let (there, mut missing): (Vec<usize>, Vec<usize>) =
             (0..scripts.len()).partition(|&index| state(index) == State::UpToDate);
         let looks_missing: HashSet<String> = missing.iter().map(|&index| records[index].to_text()).collect();
-        // An image that is copied is read anyhow, so it is verified also without being asked.
+        // Copying reads the image in any case, so a copied image is always verified.
         let is_read = |index: &usize| self.verify || looks_missing.contains(&records[*index].to_text());
         let verdicts: Vec<Verdict> = there
             .par_iter()

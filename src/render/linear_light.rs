@@ -22,7 +22,7 @@ pub struct Image {
     pub height: u32,
     /// Whether it has alpha.
     pub alpha: bool,
-    /// Its pixels, row by row from the upper left: red, green, blue, and, where it has alpha, how much that covers.
+    /// Its pixels, row by row from the upper left: red, green, blue, and, if the image has alpha, the opacity.
     pub bytes: Vec<u8>,
 }
 
@@ -33,17 +33,17 @@ pub enum ImageError {
     None,
     /// A file cannot be read or written.
     Io(PathBuf, io::Error),
-    /// A file is no image, or none that POV-Ray would have written.
+    /// A file is no image, or one that POV-Ray would not have written.
     Format(PathBuf, String),
     /// An image is of another size than the first, or only one of them has alpha.
     Differs(PathBuf),
 }
 
-/// The mean of images in linear light: PNGs of 8 or 16 bits in sRGB, as POV-Ray writes them by `+FN8` and `+FN16`. They
-/// are read one after another, row by row.
+/// The mean of images in linear light: PNGs of 8 or 16 bits in sRGB, as POV-Ray writes them with `+FN8` and `+FN16`. They are
+/// read one after another, row by row.
 ///
 /// # Errors
-/// If a file is no such image, or they are not of one size.
+/// If a file is no such image, or the sizes of the images differ.
 pub fn mean(images: &[PathBuf]) -> Result<Image, ImageError> {
     let mut sum: Option<Sum> = None;
     for path in images {
@@ -57,12 +57,12 @@ struct Sum {
     width: u32,
     height: u32,
     alpha: bool,
-    /// For each pixel the light of its channels, from 0 to 1 for each image, and with alpha what is covered. 24 bits
-    /// are enough for the sum of some hundred images, of which 8 are shown.
+    /// For each pixel, the light of its channels and, if the image has alpha, its opacity; each image adds from 0 to 1. 24 bits
+    /// are enough for the sum of some hundred images, since the mean has 8.
     light: Vec<f32>,
 }
 
-/// Adds the light of an image to that of those before it.
+/// Adds the light of an image to the sum.
 fn add(path: &Path, sum: &mut Option<Sum>) -> Result<(), ImageError> {
     let file = File::open(path).map_err(|error| ImageError::Io(path.to_owned(), error))?;
     let damaged = |error: png::DecodingError| match error {
@@ -95,11 +95,11 @@ fn add(path: &Path, sum: &mut Option<Sum>) -> Result<(), ImageError> {
             (false, true) => add_covering(light, row.data().as_chunks().0, widened),
         }
     }
-    // The end of the file, so that one that was cut short is noticed.
+    // Read to the end of the file, to detect a truncated one.
     reader.finish().map_err(damaged)
 }
 
-/// A number of 8 bits as one of 16: 255 is 65535.
+/// A number of 8 bits as one of 16: 255 becomes 65535.
 fn widened([byte]: &[u8; 1]) -> u16 {
     u16::from(*byte) * 257
 }
@@ -136,7 +136,7 @@ impl Sum {
     }
 }
 
-/// A pixel that covers part of what is behind it. Where it covers nothing, it has no color.
+/// A pixel that covers part of its background. If it covers nothing, it has no color.
 fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     if cover <= 0.0 {
         return [0; 4];
@@ -146,7 +146,7 @@ fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     [number(r / cover), number(g / cover), number(b / cover), alpha]
 }
 
-/// The number from 0 to 255 whose light is nearest, found by the place of the light in the table.
+/// The number from 0 to 255 with the nearest light, found by looking the light up in the table.
 fn number(light: f32) -> u8 {
     let (starts, borders) = &*NUMBERS;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within the table")]
@@ -170,8 +170,8 @@ static LIGHT: LazyLock<Box<[f32; 65536]>> = LazyLock::new(|| {
 /// The size of the table that a search for a number starts from. The number is then at most a few steps away.
 const STARTS: usize = 4096;
 
-/// For each place the smallest number that light may have there; and for each number the light at which the next one
-/// is nearer.
+/// For each entry, the smallest number that its light may have; and for each number, the light above which the next number is
+/// nearer.
 static NUMBERS: LazyLock<(Vec<u8>, [f32; 255])> = LazyLock::new(|| {
     let mut borders = [0.0; 255];
     for (number, border) in (0..u8::MAX).zip(&mut borders) {
@@ -194,9 +194,9 @@ fn linear(number: f64) -> f32 {
     if number <= 0.04045 { (number / 12.92) as f32 } else { libm::pow((number + 0.055) / 1.055, 2.4) as f32 }
 }
 
-/// Whether an image has alpha, and whether it has 16 bits; or why its numbers are not those of POV-Ray's images.
+/// Whether an image has alpha, and whether it has 16 bits. An error if its encoding differs from that of POV-Ray's images.
 fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
-    /// 1/2.2, as gamma is written: that of sRGB as near as one power can be.
+    /// 1/2.2, as a PNG stores gamma: the single power nearest to sRGB.
     const GAMMA: u32 = 45455;
     if info.interlaced {
         return Err("it is interlaced".to_owned());
@@ -216,10 +216,10 @@ fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
 }
 
 impl Image {
-    /// Writes a PNG, whole or not at all. It says that it is sRGB, as those of POV-Ray's do.
+    /// Writes a PNG, whole or not at all. It is marked as sRGB, like POV-Ray's.
     ///
     /// # Errors
-    /// If it cannot be written; then a file of that name is as it was before.
+    /// If it cannot be written; then an existing file of that name is unchanged.
     pub fn write(&self, path: &Path) -> Result<(), ImageError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));

@@ -1,4 +1,4 @@
-//! Results of the pool → images under their names, and faults.
+//! Results of the pool → named images, and faults.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -10,13 +10,13 @@ use super::pool::Fate;
 use super::process::Unit;
 use super::{Fault, RenderError};
 
-/// Takes in what becomes of each unit, as it comes.
+/// Handles the result of each unit, as it comes.
 pub(super) struct Making<'a> {
     job: &'a Job<'a>,
     groups: &'a [Group],
     outcome: &'a mut Outcome,
     watch: &'a mut dyn FnMut(Event<'_>),
-    /// The folder of a process goes with it; images of moments wait here for the others of their frame.
+    /// A process takes its folder with it, so images of moments wait here for the others of their frame.
     exposures: HashMap<usize, Exposure>,
     /// The groups that have failed.
     failed: HashSet<usize>,
@@ -32,7 +32,7 @@ impl<'a> Making<'a> {
         Making { job, groups, outcome, watch, exposures: HashMap::new(), failed: HashSet::new() }
     }
 
-    /// Records the fate of a unit.
+    /// Records the result of a unit.
     pub(super) fn take(&mut self, unit: &Unit, fate: Fate) -> Result<(), RenderError> {
         match (fate, unit.moment) {
             (Fate::Image(path, seconds), None) => self.image(unit, &path, seconds),
@@ -41,7 +41,7 @@ impl<'a> Making<'a> {
         }
     }
 
-    /// The image of a moment; the last of a frame completes it.
+    /// Handles the image of a moment; the last one completes its frame.
     fn moment(&mut self, unit: &Unit, moment: u32, path: &Path, seconds: f64) -> Result<(), RenderError> {
         if self.failed.contains(&unit.index) {
             return Ok(());
@@ -58,7 +58,7 @@ impl<'a> Making<'a> {
         self.image(unit, &exposure.develop()?, exposure.seconds)
     }
 
-    /// The image of a frame, which is also that of all frames with equal scripts.
+    /// Handles the image of a frame, which also serves all frames with equal scripts.
     fn image(&mut self, unit: &Unit, path: &Path, seconds: f64) -> Result<(), RenderError> {
         let (images, scripts) = (self.job.images, self.job.sequence.scripts());
         let group = &self.groups[unit.index];
@@ -77,11 +77,11 @@ impl<'a> Making<'a> {
         Ok(())
     }
 
-    /// Records that a frame failed, and with it all frames with equal scripts.
+    /// Records the failure of a frame, and of all frames with equal scripts.
     fn failure(&mut self, unit: &Unit, said: &str) -> Result<(), RenderError> {
-        /// If this many fail and none succeeds, the cause is not in the frames.
+        /// If this many frames fail and none succeeds, the cause is not in the frames.
         const HOPELESS: usize = 8;
-        // Other moments of the frame may already be on their way.
+        // Other moments of the frame may still be rendering.
         self.exposures.remove(&unit.index);
         if !self.failed.insert(unit.index) {
             return Ok(());

@@ -3,14 +3,14 @@
 //! | what | where |
 //! | --- | --- |
 //! | the scripts of a film in their folder | [`Sequence`] |
-//! | the folder of the images, who owns it | [`Images`] |
-//! | what an image was rendered from | [`Record`] |
-//! | the POV-Ray that is there, and its options | [`PovRay`], [`options`] |
-//! | all images of a sequence, by a pool of POV-Rays | [`Job`], its [`Outcome`] |
-//! | a frame that POV-Ray refuses | [`Fault`] |
+//! | the folder of the images, and its owner | [`Images`] |
+//! | the inputs of an image | [`Record`] |
+//! | the installed POV-Ray, and its options | [`PovRay`], [`options`] |
+//! | all images of a sequence, by a pool of POV-Ray processes | [`Job`], its [`Outcome`] |
+//! | a frame that POV-Ray cannot render | [`Fault`] |
 //! | the mean of images, for motion blur | [`linear_light`] |
 //! | images → film, contact sheet | [`Film`], [`ContactSheet`] |
-//! | jobs for clusters, and how far they are | [`batch`], [`Status`] |
+//! | jobs for clusters, and their progress | [`batch`], [`Status`] |
 
 pub mod batch;
 mod contact_sheet;

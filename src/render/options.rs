@@ -1,6 +1,6 @@
-//! The options of POV-Ray that decide on pixels.
+//! The options of POV-Ray that affect pixels.
 
-/// How good the images are, against how long they take.
+/// The quality of the images, traded for time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// For a look at the motion: no anti-aliasing.
@@ -8,12 +8,12 @@ pub enum Quality {
     /// As `animation.ini` renders it.
     #[default]
     Good,
-    /// For the film that is kept: finer anti-aliasing, adaptive.
+    /// For the final film: finer anti-aliasing, adaptive.
     Final,
 }
 
 impl Quality {
-    /// The options of POV-Ray that stand for it.
+    /// The corresponding options of POV-Ray.
     pub fn options(self) -> &'static str {
         match self {
             // Measured on the default look: 0.3, 1 and 2 to 3 times the time.
@@ -24,7 +24,7 @@ impl Quality {
     }
 }
 
-/// The options that decide on pixels, in the order in which a [record](super::Record) has them.
+/// The options that affect pixels, in the order in which a [record](super::Record) has them.
 pub fn options(size: [u32; 2], transparent: bool, quality: Quality) -> Vec<String> {
     let [width, height] = size;
     let mut options = vec![format!("+W{width}"), format!("+H{height}")];

@@ -1,4 +1,4 @@
-//! Pictures in memory, and light as their bytes mean it.
+//! Pictures in memory, and the light that their bytes stand for.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -9,7 +9,7 @@ use png::{Decoder, Reader, Transformations};
 
 use super::FilmError;
 
-/// A picture of four bytes a pixel: red, green, blue in sRGB, and opacity, by which the colors are not multiplied.
+/// A picture of four bytes a pixel: red, green, blue in sRGB, and opacity. The colors are not multiplied by the opacity.
 pub(super) struct Picture {
     pub(super) size: Size,
     pub(super) rgba: Vec<u8>,
@@ -19,10 +19,10 @@ pub(super) struct Picture {
 pub(super) type Size = (usize, usize);
 
 impl Picture {
-    /// Reads a PNG of any kind of color.
+    /// Reads a PNG with any color type.
     ///
     /// # Errors
-    /// If it is not there, or is no whole PNG.
+    /// If it does not exist, or is not a complete PNG.
     pub(super) fn read(path: &Path) -> Result<Picture, FilmError> {
         let mut reader = open(path)?;
         let too_large = || FilmError::Image(path.to_owned(), "it is too large".to_owned());
@@ -38,7 +38,7 @@ impl Picture {
         Ok(Picture { size: (info.width as usize, info.height as usize), rgba })
     }
 
-    /// Its colors before white, three bytes a pixel. Light adds up, bytes of sRGB do not, so the mixture is one of light.
+    /// Its colors on white, three bytes a pixel. They are mixed as light, not as sRGB bytes.
     pub(super) fn over_white(&self) -> Vec<u8> {
         let pixel = |pixel: &[u8]| match pixel[3] {
             255 => [pixel[0], pixel[1], pixel[2]],
@@ -52,16 +52,16 @@ impl Picture {
     }
 }
 
-/// The size of a PNG, of which only the head is read.
+/// The size of a PNG. Reads only its head.
 ///
 /// # Errors
-/// If it is not there, or is no PNG.
+/// If it does not exist, or is no PNG.
 pub(super) fn size(path: &Path) -> Result<Size, FilmError> {
     let reader = open(path)?;
     Ok((reader.info().width as usize, reader.info().height as usize))
 }
 
-/// The size that all of some images have.
+/// The common size of some images.
 ///
 /// # Errors
 /// If there are no images, one cannot be read, or they differ in size.
@@ -108,7 +108,7 @@ pub(super) fn light(byte: u8) -> f32 {
     LIGHT[usize::from(byte)]
 }
 
-/// The byte of sRGB whose light is nearest. Light below 0 or above 1 is clamped.
+/// The sRGB byte with the nearest light. Light below 0 or above 1 is clamped.
 pub(super) fn srgb(light: f32) -> u8 {
     let light = f64::from(light).clamp(0.0, 1.0);
     let value =

@@ -1,7 +1,7 @@
-//! Several processes of POV-Ray's at once, so that the processors never wait.
+//! A pool of POV-Ray processes that keeps the processors busy.
 //!
-//! POV-Ray waits 0.3 s before its first image and 0.1 to 0.2 s between two, whatever they cost. So there are more
-//! processes than processors: as many as those waits take, by what the images are measured to cost.
+//! POV-Ray waits 0.3 s before its first image and 0.1 to 0.2 s between two, whatever they cost. So there are more processes
+//! than processors: their number follows from these waits and the measured cost of images.
 
 use std::collections::{HashMap, VecDeque};
 use std::fs;
@@ -13,21 +13,21 @@ use std::time::{Duration, Instant};
 use super::process::{Process, Setup, Step, Unit};
 use super::{Images, RenderError, cpu};
 
-/// The time that POV-Ray waits for itself between two images, s. Measured on POV-Ray 3.7.
+/// The time that POV-Ray waits between two images, s. Measured on POV-Ray 3.7.
 const WAIT: f64 = 0.2;
 
-/// Processes for each processor: before anything is measured, and at most.
+/// Processes for each processor: before any measurement, and at most.
 const FIRST: usize = 4;
 const MOST: usize = 12;
 
-/// How often all processes are looked at.
+/// How often all processes are polled.
 const TICK: Duration = Duration::from_millis(8);
 
-/// The fate of a unit.
+/// The result of a unit.
 pub(super) enum Fate {
-    /// Its image is at this path, and stays there until this event is handled. It has cost this many seconds.
+    /// Its image is at this path, and stays there until this event is handled. It took this many seconds.
     Image(PathBuf, f64),
-    /// POV-Ray says this of its script.
+    /// POV-Ray reports this error in its script.
     Broken(String),
     /// POV-Ray died for this reason, and retries are exhausted.
     Died(String),
@@ -37,18 +37,18 @@ pub(super) enum Fate {
 pub(super) struct Pool<'a> {
     pub(super) setup: Setup<'a>,
     pub(super) images: &'a Images,
-    /// The number of processes, if it is not to be found out.
+    /// The number of processes, if it is given.
     pub(super) jobs: Option<usize>,
     /// The memory that a process may need, bytes.
     pub(super) memory: u64,
-    /// How often a unit is tried again after POV-Ray has died of it.
+    /// How often a unit is tried again after POV-Ray has died on it.
     pub(super) retries: u32,
     pub(super) time_limit: Option<Duration>,
     pub(super) stop: &'a AtomicBool,
     processors: usize,
     running: Vec<Process>,
     queue: VecDeque<Unit>,
-    /// How often POV-Ray has died of a unit.
+    /// How often POV-Ray has died on a unit.
     deaths: HashMap<Unit, u32>,
     started: usize,
     /// The images so far: their number, their total cost, and the wall-clock time of the slowest, s.
@@ -76,10 +76,10 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Renders all units. Returns whether it reached the end: the user may have asked to stop. `done` receives each unit.
+    /// Renders all units. Returns false if the user has asked to stop. `done` receives each unit.
     ///
     /// # Errors
-    /// If the disk is full or a folder is gone; or the error of `done`.
+    /// If the disk is full or a folder is gone; or an error of `done`.
     pub(super) fn run(
         &mut self,
         units: impl IntoIterator<Item = Unit>,
@@ -145,9 +145,9 @@ impl<'a> Pool<'a> {
         busy.min(room.max(1))
     }
 
-    /// The number of units for a new process: few at the end, so that all processes end together.
+    /// The number of units for a new process. It is small at the end, so that all processes end together.
     fn share(&self) -> usize {
-        /// More than these bring nothing.
+        /// Larger numbers do not help.
         const MOST_UNITS: usize = 200;
         let (left, processes) = (self.queue.len(), self.wanted());
         let is_first_round = self.started < processes;
@@ -160,12 +160,12 @@ impl<'a> Pool<'a> {
 
     /// Starts a process on the next units of the queue.
     fn start(&mut self) -> Result<(), RenderError> {
-        // Somebody wants to look at the first image while the others are being made.
+        // The user wants to look at the first image while the others are being made.
         let is_first = self.started == 0;
         let share = if is_first { 1 } else { self.share() };
         let mut units = Vec::new();
         while let Some(next) = self.queue.front() {
-            // POV-Ray may have died of something other frames did to it.
+            // Other frames in the same process may have caused POV-Ray's death.
             let alone = next.asks_clock || self.deaths.contains_key(next);
             if units.len() >= share || (alone && !units.is_empty()) {
                 break;
@@ -202,7 +202,7 @@ impl<'a> Pool<'a> {
             Step::Broken { message, left } => {
                 let mut left = left.into_iter();
                 let broken = left.next();
-                // The others are as they were.
+                // The remaining units are unchanged.
                 left.rev().for_each(|unit| self.queue.push_front(unit));
                 if let Some(unit) = broken {
                     self.queue.retain(|other| other.index != unit.index);
@@ -231,7 +231,7 @@ impl<'a> Pool<'a> {
         Ok(false)
     }
 
-    /// Tries a unit again that POV-Ray has died of, unless that has happened too often.
+    /// Tries a unit again after POV-Ray has died on it, unless retries are exhausted.
     fn again(
         &mut self,
         unit: Unit,
@@ -249,7 +249,7 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// Whether there is room for what POV-Ray writes; it does not say so itself.
+    /// Checks for free disk space; POV-Ray itself does not report a full disk.
     fn probe(&self, index: usize) -> Result<(), RenderError> {
         let folder = self.running[index].folder();
         let path = folder.join("probe");
@@ -259,7 +259,7 @@ impl<'a> Pool<'a> {
         result.and(removed).map_err(RenderError::io(self.images.folder()))
     }
 
-    /// Ends what hangs.
+    /// Ends processes that hang.
     fn guard(
         &mut self,
         done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
@@ -276,9 +276,9 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// Longer than this no frame takes, by what others have taken.
+    /// The time limit for a frame, from the times of other frames.
     fn usual_limit(&self) -> Duration {
-        /// For the first frames, nothing is known.
+        /// For the first frames, no times are known.
         const UNKNOWN: Duration = Duration::from_secs(24 * 3600);
         let (images, _, slowest) = self.measured;
         if images == 0 {

@@ -16,22 +16,22 @@ pub struct PovRay {
     path: PathBuf,
     version: String,
     confinement: Confinement,
-    /// Why it may read all files though it should not.
+    /// Why it may read all files, although it should be confined.
     unlimited: Option<String>,
 }
 
-/// The longest wait for POV-Ray to tell its version.
+/// The longest wait for POV-Ray's version.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 impl PovRay {
-    /// Finds POV-Ray: at the given path, or else the `povray` of the `PATH`. Asking it for its version costs 0.2 s, so
-    /// the answer is kept in the file `memory`, and holds as long as the program has the same path, size and time.
+    /// Finds POV-Ray: at the given path, or else the `povray` of the `PATH`. Asking it for its version takes 0.2 s, so the
+    /// answer is kept in the file `memory`. It holds as long as the program has the same path, size and time.
     ///
-    /// The confinement is that of all its runs. A POV-Ray that cannot start where reading is limited, since its libraries
-    /// are in an unusual folder, may read all files; [`PovRay::warning`] says so.
+    /// The confinement applies to all its runs. A POV-Ray with libraries in an unusual folder cannot start with limited read
+    /// access; it may then read all files, and [`PovRay::warning`] says so.
     ///
     /// # Errors
-    /// If there is none, or none of a version that is known.
+    /// If there is none, or its version is unknown.
     pub fn find(
         given: Option<&Path>,
         memory: &Path,
@@ -78,14 +78,14 @@ impl PovRay {
         &self.path
     }
 
-    /// The warning for users that POV-Ray is less confined than usual.
+    /// The warning that POV-Ray is less confined than usual.
     pub fn warning(&self) -> Option<String> {
         let why = self.unlimited.as_ref()?;
         let path = self.path.display();
         Some(format!("`{path}` may read all files, since it does not start in the sandbox: it says `{why}`"))
     }
 
-    /// Whether the sandbox limits where it may write.
+    /// Whether the sandbox limits its write access.
     pub(super) fn is_confined(&self) -> bool {
         self.confinement.is_enforced()
     }
@@ -95,25 +95,25 @@ impl PovRay {
         self.confinement.limits_reading()
     }
 
-    /// One that was not looked for.
+    /// A POV-Ray that was not looked for.
     #[cfg(test)]
     pub(super) fn unconfined() -> PovRay {
         let (path, version) = (PathBuf::from("povray"), "3.7".to_owned());
         PovRay { path, version, confinement: Confinement::default(), unlimited: None }
     }
 
-    /// The command that starts it; its arguments are to be added.
+    /// The command that starts it; the caller adds the arguments.
     pub(super) fn command(&self, needs: Needs<'_>) -> Command {
         self.confinement.command(&self.path, needs)
     }
 
-    /// Its version, as it says itself: `3.7.0.10.unofficial`.
+    /// Its version, as it prints it: `3.7.0.10.unofficial`.
     pub fn version(&self) -> &str {
         &self.version
     }
 }
 
-/// A mark that tells one program from another without running it: path, size and time of change, and whether reading was limited
+/// A mark that identifies a program without running it: path, size, time of change, and whether its read access was limited
 /// when it was asked.
 fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     let limited = if confinement.limits_reading() { " confined" } else { "" };
@@ -143,7 +143,7 @@ fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     Ok(String::from_utf8_lossy(&said).into_owned())
 }
 
-/// The version in what POV-Ray says of itself, if it is one that is known.
+/// The version in POV-Ray's output, if it is a known one.
 fn version(said: &str) -> Option<&str> {
     let word = said.lines().find_map(|line| line.strip_prefix("POV-Ray ")?.split_whitespace().next())?;
     let known = ["3.7", "3.8"].iter().any(|known| {

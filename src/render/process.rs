@@ -1,7 +1,7 @@
-//! One process of POV-Ray's, and the images that it makes one after another.
+//! One POV-Ray process, and the images that it makes one after another.
 //!
-//! A process costs 0.6 s of waiting, so each is given several images through POV-Ray's animation loop: the script that it
-//! is started with includes another one for each frame number.
+//! Each process waits for 0.6 s in total, so it gets several images through POV-Ray's animation loop: its script includes
+//! another script for each frame number.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -26,7 +26,7 @@ pub(super) struct Unit {
     pub(super) script: String,
     /// The moment within a blurred frame.
     pub(super) moment: Option<u32>,
-    /// Whether the script asks POV-Ray for its clock, which takes a process of its own.
+    /// Whether the script asks POV-Ray for its clock. Such a script needs a process of its own.
     pub(super) asks_clock: bool,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Setup<'a> {
     pub(super) povray: &'a PovRay,
     /// The folder of the scripts, absolute.
     pub(super) scripts: &'a Path,
-    /// The options that decide on pixels.
+    /// The options that affect pixels.
     pub(super) options: &'a [String],
     /// The number of the last frame.
     pub(super) last: usize,
@@ -52,25 +52,25 @@ pub(super) struct Process {
     units: Vec<Unit>,
     names: Names,
     done: usize,
-    /// When the present image was begun.
+    /// The time at which the present image was begun.
     since: Instant,
-    /// The CPU time that the process had used then, s.
+    /// The CPU time that the process had used by then, s.
     cpu_before: f64,
     /// The CPU time when it was last seen to grow, s, and when that was.
     alive: (f64, Instant),
 }
 
-/// The news since the last look.
+/// The events since the last poll.
 pub(super) enum Step {
-    /// No news.
+    /// Nothing new.
     Working,
     /// The image of a unit is whole.
     Image { unit: Unit, path: PathBuf, seconds: f64 },
-    /// The process has ended, or has been ended, after its last image.
+    /// The process has ended, or was ended, after its last image.
     Done,
-    /// It has ended before: POV-Ray said this of the script of the first unit left.
+    /// It ended early, with this message of POV-Ray's about the script of the first remaining unit.
     Broken { message: String, left: Vec<Unit> },
-    /// It has ended before, or was ended, for a reason that is not the script's.
+    /// It ended early, or was ended, for a reason that is not in the script.
     Died { why: String, left: Vec<Unit> },
 }
 
@@ -83,14 +83,14 @@ enum Names {
 }
 
 impl Process {
-    /// Starts a process on some units. `humble` lets others go first.
+    /// Starts a process on some units. With `humble`, other processes run first.
     pub(super) fn start(
         setup: &Setup<'_>,
         folder: PathBuf,
         units: Vec<Unit>,
         humble: bool,
     ) -> io::Result<Process> {
-        // The names of folders may contain what neither POV-Ray's command line nor its strings can.
+        // Folder names may contain characters that neither POV-Ray's command line nor its strings can.
         std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
         fs::write(folder.join("run.pov"), master(&units))?;
         let (last, [begin, end]) = (setup.last, setup.clock);
@@ -123,9 +123,9 @@ impl Process {
         Ok(Process { child, folder, units, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
 
-    /// Checks for news.
+    /// Checks for new events.
     pub(super) fn step(&mut self) -> Step {
-        // First the end, then the images: what was there before the end is not missed.
+        // First check for the end, then for images, so that no image made before the end is missed.
         let exit = match self.child.exit() {
             Ok(exit) => exit,
             Err(error) => return self.died(format!("it cannot be watched: {error}")),
@@ -145,7 +145,7 @@ impl Process {
                 return Step::Image { unit, path, seconds };
             }
         } else {
-            // To wait for its end would cost a third of a second.
+            // Waiting for its end would take a third of a second.
             self.child.end();
             return Step::Done;
         }
@@ -155,9 +155,9 @@ impl Process {
         }
     }
 
-    /// Ends it if it does nothing any more, or takes longer than it may.
+    /// Ends it if it hangs, or exceeds its time limit.
     pub(super) fn guard(&mut self, cpu: Option<f64>, limit: Duration) -> Step {
-        /// POV-Ray never waits so long for anything.
+        /// POV-Ray never waits this long for anything.
         const STILL: Duration = Duration::from_secs(20);
         let now = Instant::now();
         if cpu.is_none_or(|cpu| cpu > self.alive.0 + 0.005) {
@@ -182,12 +182,12 @@ impl Process {
         said(&self.folder.join("warnings.txt"))
     }
 
-    /// Its folder of work.
+    /// Its work folder.
     pub(super) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Why it has ended before it had made all images.
+    /// The reason why it ended before all its images were made.
     fn fate(&mut self, exit: ExitStatus) -> Step {
         let message = said(&self.folder.join("errors.txt"));
         if exit.code() == Some(1) && !message.is_empty() {
@@ -196,7 +196,7 @@ impl Process {
         }
         let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
         let console = String::from_utf8_lossy(&console);
-        // This is no parse error to POV-Ray, though it is found while the script is parsed: of images, fonts and the like.
+        // POV-Ray does not call this a parse error, though it occurs while parsing: for missing images, fonts and the like.
         if let Some(message) = console.lines().find_map(|line| line.strip_prefix("Fatal error in parser: ")) {
             self.child.end();
             return Step::Broken { message: message.to_owned(), left: self.units.split_off(self.done) };
@@ -222,7 +222,7 @@ impl Process {
 impl Drop for Process {
     fn drop(&mut self) {
         self.child.end();
-        // The next run sweeps up a folder that stays.
+        // The next run removes a folder that stays.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }
@@ -251,7 +251,7 @@ fn master(units: &[Unit]) -> String {
     text + "#end\n"
 }
 
-/// Whether there is an image with a beginning and an end.
+/// Whether an image is complete: it has a beginning and an end.
 pub(super) fn is_whole(path: &Path) -> bool {
     /// The last chunk of every PNG: no bytes, `IEND`, and their checksum.
     const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];

@@ -26,10 +26,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sha2::{Digest, Sha256};
 
-/// The hidden folder beside the images, for records and what else is known of them.
+/// The hidden folder beside the images, for records and other data about them.
 pub const HIDDEN: &str = ".jabuka";
 
-/// The words by which a script may depend on the number of its frame.
+/// The words that make a script depend on the number of its frame.
 const NUMBERED: [&str; 2] = ["frame_number", "clock"];
 
 /// The beginning of the names of scripts that hold the moments of a blurred frame. Their `frame_number` is that of the
@@ -49,39 +49,39 @@ pub struct Record {
     pub frame: Option<usize>,
     /// The version of POV-Ray: the word after `POV-Ray` in what `povray --version` prints.
     pub povray: String,
-    /// The length of the image in bytes; of no account in a record of what would be rendered.
+    /// The length of the image in bytes; without meaning in a record of an image that is yet to be rendered.
     pub bytes: u64,
-    /// The digest of the image in hexadecimal digits. `None` in a record of what would be rendered, and in one of an
+    /// The digest of the image in hexadecimal digits. `None` for an image that is yet to be rendered, and in a record of an
     /// earlier version.
     pub image: Option<String>,
 }
 
-/// How much of a record must be as expected.
+/// Which parts of a record must match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compare {
     /// All of it.
     All,
-    /// All but the version of POV-Ray, where there is none to ask.
+    /// All but the version of POV-Ray, if there is none to ask.
     NotPovray,
-    /// Script, files and frame, where it is not known what options were asked for.
+    /// Script, files and frame, if the requested options are unknown.
     Scene,
 }
 
 /// The state of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// It is what would be rendered now.
+    /// It equals the image that would be rendered now.
     UpToDate,
-    /// There is an image, but of something else, or nobody knows of what, or not whole.
+    /// There is an image, but it is outdated, incomplete, or of unknown origin.
     Outdated,
-    /// There is none.
+    /// There is no image.
     Missing,
 }
 
 /// Whether an image has the bytes that were rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It has.
+    /// It has these bytes.
     Intact,
     /// It was changed or damaged since.
     Changed,
@@ -100,7 +100,7 @@ impl Files {
     /// Reads the files, in the order of the list.
     ///
     /// # Errors
-    /// If one cannot be read: which, and why.
+    /// If one cannot be read; the error names it and the reason.
     pub fn read(files: &[PathBuf]) -> Result<Files, (PathBuf, io::Error)> {
         let mut hasher = Sha256::new();
         let mut numbered = false;
@@ -115,7 +115,7 @@ impl Files {
 }
 
 impl Record {
-    /// The record that an image of this script would get now, but for the length of the image.
+    /// The record that an image of this script would get now, except for the length of the image.
     ///
     /// # Errors
     /// If the script cannot be read.
@@ -143,7 +143,7 @@ impl Record {
         })
     }
 
-    /// Completes the record by the length and the digest of the finished image.
+    /// Completes the record with the length and the digest of the finished image.
     ///
     /// # Errors
     /// If the image cannot be read.
@@ -152,7 +152,7 @@ impl Record {
         Ok(Record { bytes, image: Some(image), ..self })
     }
 
-    /// Reads an image that has this record, and compares its digest.
+    /// Reads the image of this record, and compares its digest.
     ///
     /// # Errors
     /// If the image cannot be read.
@@ -169,7 +169,7 @@ impl Record {
 
     /// Reads the record of an image. `None` if there is none, or its file is no record.
     pub fn read(images: &Path, name: &str) -> Option<Record> {
-        /// Far more than options need.
+        /// The largest file that is read, bytes: far more than options need.
         const MAX_BYTES: u64 = 64 << 10;
         let mut text = String::new();
         let file = File::open(Record::path(images, name)).ok()?;
@@ -177,7 +177,7 @@ impl Record {
         Record::parse(&text)
     }
 
-    /// Writes the record of an image that is there, whole or not at all. The folder [`HIDDEN`] must be there.
+    /// Writes the record of an existing image, whole or not at all. The folder [`HIDDEN`] must exist.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -191,7 +191,7 @@ impl Record {
             fs::rename(&temporary, Record::path(images, name))
         };
         write().inspect_err(|_| {
-            // A leftover is hidden, and has no record's name.
+            // A leftover is hidden, and does not have the name of a record.
             let _ = fs::remove_file(&temporary);
         })
     }
@@ -206,7 +206,7 @@ impl Record {
         }
     }
 
-    /// Whether two images are of the same, apart from their lengths.
+    /// Whether two records agree, apart from the lengths of the images.
     pub fn is_of(&self, other: &Record, compare: Compare) -> bool {
         self.script == other.script
             && self.files == other.files
@@ -215,7 +215,7 @@ impl Record {
             && (compare != Compare::All || self.povray == other.povray)
     }
 
-    /// The record as its file has it.
+    /// The text of the record's file.
     pub fn to_text(&self) -> String {
         let frame = self.frame.map_or_else(|| "-".to_owned(), |frame| frame.to_string());
         let Record { script, files, options, povray, bytes, .. } = self;
@@ -248,7 +248,7 @@ impl Record {
     }
 }
 
-/// Whether a text has one of the words by which a script may depend on the number of its frame.
+/// Whether a text contains a word that makes a script depend on the number of its frame.
 fn mentions_number(text: &[u8]) -> bool {
     let is_word = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
     let at = |start: usize, word: &str| {

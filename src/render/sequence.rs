@@ -10,16 +10,16 @@ use crate::simulate::Selection;
 /// Some or all scripts of a film.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// The folder as it was given, for people.
+    /// The folder as it was given, for messages.
     folder: PathBuf,
-    /// The same folder, wherever one stands.
+    /// The same folder as an absolute path.
     absolute: PathBuf,
     scripts: Vec<Script>,
     /// The number of the film's last frame.
     pub last: usize,
     /// Frames per second.
     pub frame_rate: f64,
-    /// Frames per second of a film, if the scene gives it a rate of its own.
+    /// Frames per second of a film, if the scene sets this rate.
     pub video_rate: Option<f64>,
     /// Width and height of the images, pixels.
     pub size: [u32; 2],
@@ -27,7 +27,7 @@ pub struct Sequence {
     pub transparent: bool,
     /// The number of moments of each frame, if frames are blurred.
     pub moments: Option<u32>,
-    /// The time of the moment that its one script shows, s, if that need not be the time of a frame.
+    /// The time of the moment that its only script shows, s, if that can differ from the time of a frame.
     pub moment: Option<f64>,
     /// Files that scripts read without including them.
     pub(super) assets: Vec<PathBuf>,
@@ -48,7 +48,7 @@ impl Sequence {
     /// The scripts in a folder, or those of some frames.
     ///
     /// # Errors
-    /// If there are none, or not all of those that are asked for.
+    /// If there are none, or some of the requested ones are missing.
     pub fn open(folder: &Path, selection: Option<&Selection>) -> Result<Sequence, RenderError> {
         let found = scripts(folder).map_err(|error| match error {
             crate::output::OutputError::Io(path, error) => RenderError::io(path)(error),
@@ -101,12 +101,12 @@ impl Sequence {
         &self.folder
     }
 
-    /// The folder of the scripts, wherever one stands.
+    /// The folder of the scripts, as an absolute path.
     pub(super) fn absolute(&self) -> &Path {
         &self.absolute
     }
 
-    /// The scripts that are asked for, in the order of their frames.
+    /// The requested scripts, in the order of their frames.
     pub fn scripts(&self) -> &[Script] {
         &self.scripts
     }
@@ -117,7 +117,7 @@ impl Sequence {
         frame as f64 / self.frame_rate
     }
 
-    /// Whether an image of this name is that of a frame of the film, asked for or not.
+    /// Whether an image of this name belongs to a frame of the film, requested or not.
     pub(super) fn has(&self, name: &str) -> bool {
         let number = name.strip_prefix("frame_").and_then(|digits| digits.parse().ok());
         let is = |number: usize| frame_name(number, self.last + 1) == format!("{name}.pov");

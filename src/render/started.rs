@@ -7,10 +7,10 @@ use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitSta
 
 use rustix::process::{Pid, Signal, kill_process_group};
 
-/// A running program. It ends, with all that it has started, when this is dropped.
+/// A running program. Dropping this ends it, with all processes that it has started.
 ///
-/// The system also ends it when the thread that started it ends, since nothing else works when jabuka is killed. So
-/// this stays on its thread (it is not `Send`): no other thread can be left with a program that ends too early.
+/// The system also ends the program when the thread that started it ends; nothing else works when jabuka is killed. So this
+/// stays on its thread (it is not `Send`): no other thread can be left with a program that ends too early.
 pub(super) struct Started {
     child: Child,
     exit: Option<ExitStatus>,
@@ -18,8 +18,8 @@ pub(super) struct Started {
 }
 
 impl Started {
-    /// Starts a program as a process group of its own. What the terminal sends to interrupt jabuka must not reach it:
-    /// POV-Ray would leave its state behind, and ffmpeg would end a film too early.
+    /// Starts a program as a process group of its own, so that an interrupt from the terminal does not reach it: POV-Ray would
+    /// leave its state behind, and ffmpeg would end a film too early.
     ///
     /// # Errors
     /// If the system does not start it.
@@ -33,15 +33,15 @@ impl Started {
         self.child.id()
     }
 
-    /// Its ends of the pipes that the command asked for, each only once.
+    /// Takes its ends of the requested pipes, each only once.
     pub(super) fn pipes(&mut self) -> (Option<ChildStdin>, Option<ChildStdout>, Option<ChildStderr>) {
         (self.child.stdin.take(), self.child.stdout.take(), self.child.stderr.take())
     }
 
-    /// How it has ended; `None` while it runs.
+    /// Its exit status; `None` while it runs.
     ///
     /// # Errors
-    /// If the system does not tell.
+    /// If the system does not report it.
     pub(super) fn exit(&mut self) -> io::Result<Option<ExitStatus>> {
         if self.exit.is_none() {
             self.exit = self.child.try_wait()?;
@@ -49,10 +49,10 @@ impl Started {
         Ok(self.exit)
     }
 
-    /// Ends it, if it has not ended, with all that it has started: it may be a script that runs another program.
+    /// Ends it, if it has not ended, with all processes that it has started: it may be a script that runs another program.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if self.exit.is_none() {
-            // A process that has ended already cannot be killed, which is as good.
+            // Killing a process that has ended already fails, which is as good.
             let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
             let _ = self.child.kill();
             self.exit = self.child.wait().ok();

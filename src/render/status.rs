@@ -17,33 +17,33 @@ use crate::diagnostic::visible;
 use crate::output::{self, MANIFEST};
 use crate::simulate::Selection;
 
-/// A marker of a frame that is being rendered is touched twice a minute; one that was not touched for so long was left by
-/// something that is dead.
+/// The marker of a frame that is being rendered is touched twice a minute. A marker that was not touched for this long belongs
+/// to a dead process.
 const HEARTBEATS: Duration = Duration::from_secs(180);
 
 /// The status of the images in a folder. Every frame is in one of the lists.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Status {
-    /// The frames that are asked for.
+    /// The requested frames.
     #[serde(skip)]
     pub frames: Vec<usize>,
-    /// Those whose images are up to date.
+    /// The frames with up-to-date images.
     pub done: Vec<usize>,
-    /// Those whose images have changed since they were rendered; empty unless the images were read.
+    /// The frames whose images have changed since they were rendered; empty unless the images were read.
     pub changed: Vec<usize>,
-    /// Those whose records have no digest to compare with; empty unless the images were read.
+    /// The frames whose records have no digest to compare with; empty unless the images were read.
     pub unverified: Vec<usize>,
-    /// Those that are being rendered.
+    /// The frames that are being rendered.
     pub running: Vec<Running>,
-    /// Those that failed when they were last tried.
+    /// The frames that failed at the last attempt.
     pub failed: Vec<Failed>,
-    /// Those that nobody works on: there is no image, or one of something else.
+    /// The frames that nobody works on, without an image or with an outdated one.
     pub missing: Vec<usize>,
-    /// Those missing frames that were begun, but have given no sign of life for three minutes.
+    /// The missing frames that were begun, but have given no sign of life for three minutes.
     pub stale: Vec<Running>,
     /// Whether there is a film of all these images. `None` if no film was requested.
     pub film: Option<bool>,
-    /// Whether what wrote the scripts was broken off, so that some may be missing or of another version of the scene.
+    /// Whether writing the scripts was interrupted, so that some may be missing or of another version of the scene.
     pub unfinished_scripts: bool,
 }
 
@@ -82,18 +82,17 @@ struct Place {
 }
 
 impl Status {
-    /// As [`Status::read`], but reads the images, too, and counts as done only those that have the digest of their
-    /// record.
+    /// Like [`Status::read`], but also reads the images. Only images with the digest of their record count as done.
     ///
     /// # Errors
-    /// As those of [`Status::read`].
+    /// The same as those of [`Status::read`].
     pub fn verified(folder: &Path) -> io::Result<Status> {
         let place = Place::find(folder)?;
         let mut status = Status::of(&place)?;
         let verdict = |&frame: &usize| {
             let name = place.name(frame);
             let image = place.images.join(format!("{name}.png"));
-            // A damaged disk does not give all bytes.
+            // A file on a damaged disk may be unreadable in part.
             let of_record = |record: Record| record.verify(&image).unwrap_or(Verdict::Changed);
             Record::read(&place.images, &name).map_or(Verdict::Unverified, of_record)
         };
@@ -112,7 +111,7 @@ impl Status {
     /// themselves.
     ///
     /// # Errors
-    /// If it is neither, or cannot be read.
+    /// If the folder is neither, or cannot be read.
     pub fn read(folder: &Path) -> io::Result<Status> {
         Status::of(&Place::find(folder)?)
     }
@@ -129,7 +128,7 @@ impl Status {
             let name = place.name(frame);
             let blurred = place.scripts.join(format!("{name}.pov").replacen("frame", "shutter", 1));
             let script = if blurred.is_file() { blurred } else { place.scripts.join(format!("{name}.pov")) };
-            // Without an image, nothing needs to be compared.
+            // Without an image, there is nothing to compare.
             let image = place.images.join(format!("{name}.png")).is_file();
             let expected =
                 image.then(|| Record::expected(&script, frame, &files, options, "").ok()).flatten();
@@ -156,7 +155,7 @@ impl Status {
         self.done.len() == self.frames.len() && !self.unfinished_scripts
     }
 
-    /// The status as people read it: what there is how much of, and which.
+    /// The status for people: how many frames are in each state, and which.
     pub fn to_text(&self) -> String {
         /// The number of failures that are shown.
         const SHOWN: usize = 10;
@@ -244,7 +243,7 @@ impl Place {
             });
         }
         let found = output::scripts(&scripts).map_err(io::Error::other)?;
-        // A blurred frame has two scripts, and is one image.
+        // A blurred frame has two scripts but one image.
         let mut frames: Vec<usize> = found.into_iter().map(|(frame, _)| frame).collect();
         frames.dedup();
         let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
@@ -269,7 +268,7 @@ impl Running {
 }
 
 impl Failed {
-    /// Why a frame failed, unless its script has been changed since.
+    /// Why a frame failed, unless its script has changed since.
     fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
         let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
         let text = fs::read_to_string(&path).ok()?;
@@ -282,7 +281,7 @@ impl Failed {
     }
 }
 
-/// Whether a film is of these images, as `render-video` notes it.
+/// Whether a film consists of these images, according to the note of `render-video`.
 fn is_made(film: &Path, how: &str, place: &Place) -> bool {
     let mut hasher = Sha256::new();
     hasher.update(format!("{how}\n"));

@@ -1,4 +1,4 @@
-//! Scripts that were compiled before, for a job of their own.
+//! Copies scripts that were compiled before into a job of their own.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,10 +9,10 @@ use crate::emit::{COMMON, INI, MASTER};
 use crate::output::{self, Entry, Folder, Head, MANIFEST, Manifest, OutputError};
 use crate::render::files;
 
-/// The manifest's head, for a folder of complete scripts.
+/// The head of a folder's manifest, if its scripts are complete.
 ///
 /// # Errors
-/// If the folder has no scripts of jabuka's, or not all of them.
+/// If the folder has no scripts of jabuka's, or some are missing.
 pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
     match output::read_manifest(&scripts.join(MANIFEST)) {
         None => Err(OutputError::NoScripts(scripts.to_owned())),
@@ -23,8 +23,8 @@ pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
     }
 }
 
-/// Copies all scripts of a folder, and what belongs to them, into the folder of a job. What is there and equal stays
-/// untouched, what is of no use any more goes.
+/// Copies all scripts of a folder, and the files that belong to them, into the folder of a job. Equal files stay untouched, and
+/// obsolete ones are removed.
 ///
 /// # Errors
 /// If the scripts are not complete, or a file cannot be copied.
@@ -37,7 +37,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     }
     let names = scripts(from).map_err(io_error)?;
     let old = scripts(to.path()).map_err(|error| OutputError::Io(to.path().to_owned(), error))?;
-    // A file that the user has edited is set aside if it would be replaced by something else.
+    // A file that the user has edited is set aside if a different file would replace it.
     let known = Manifest::read(to.path()).map(|manifest| manifest.files).unwrap_or_default();
     let is_equal = |name: &str| matches!((fs::read(from.join(name)), fs::read(to.path().join(name))), (Ok(a), Ok(b)) if a == b);
     let replaced: Vec<&Entry> = known.iter().filter(|entry| !is_equal(&entry.name)).collect();
@@ -46,7 +46,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
         let path = to.path().join(name);
         fs::remove_file(&path).map_err(|error| OutputError::Io(path, error))?;
     }
-    // The manifest comes last: it says that all is there.
+    // The manifest comes last: it marks the folder as complete.
     let last = names.get(MANIFEST);
     for name in names.iter().filter(|name| name.as_str() != MANIFEST).chain(last) {
         let path = from.join(name);
@@ -63,7 +63,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     to.settle(false)
 }
 
-/// The names of everything in a folder of scripts that is ours.
+/// The names of all of jabuka's files in a folder of scripts.
 fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
     let mut names: BTreeSet<String> = files::of_scripts(folder)?.into_iter().collect();
     names.extend(output::trail_files(folder)?);
@@ -82,7 +82,7 @@ fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// The size of the images of a folder of scripts, and whether they have alpha, as its `animation.ini` says.
+/// The size of the images of a folder of scripts, and whether they have alpha, according to its `animation.ini`.
 pub fn size(scripts: &Path) -> ([u32; 2], bool) {
     let ini = fs::read_to_string(scripts.join(INI)).unwrap_or_default();
     let value = |key: &str| ini.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix('='));

@@ -1,4 +1,4 @@
-//! Writing files that users may edit, without losing their edits.
+//! Writes files that users may edit, without losing their edits.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use super::Edits;
 use super::texts::Text;
 use crate::output::{self, Folder, OutputError};
 
-/// The file that marks a folder as a job of ours, and knows its files as jabuka wrote them.
+/// The file that marks a folder as one of jabuka's jobs. It holds the digests of files as jabuka wrote them.
 const MARKS: &str = ".jabuka-job.json";
 
 const GENERATOR: &str = "jabuka";
@@ -31,7 +31,7 @@ impl Default for Marks {
 }
 
 impl Marks {
-    /// Reads the marks of a folder; none if it is no job of ours.
+    /// Reads the marks of a folder; none if it is not one of jabuka's jobs.
     pub(super) fn read(folder: &Path) -> Option<Marks> {
         let marks: Marks = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
         (marks.generator == GENERATOR).then_some(marks)
@@ -43,7 +43,7 @@ impl Marks {
     }
 }
 
-/// Writes the texts, but for those that have been edited.
+/// Writes the texts, except those that have been edited.
 pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
     let mut marks = Marks::read(folder.path()).unwrap_or_default();
     let mut edits = Edits::default();
@@ -68,7 +68,7 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
             put(folder, text.name, text)?;
         }
         marks.files.insert(text.name.to_owned(), is);
-        // After every file: a run that is killed must not take its own files for edited ones.
+        // After every file, so that the run after a killed one does not take jabuka's own files for edited ones.
         marks.write(folder)?;
     }
     Ok(edits)
@@ -82,7 +82,7 @@ fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
         let path = folder.path().join(name);
         let permit = |path: &Path| {
             let mut permissions = fs::metadata(path)?.permissions();
-            // Readers of the file may also run it.
+            // Everyone who may read the file may also run it.
             let mode = permissions.mode();
             permissions.set_mode(mode | (mode & 0o444) >> 2);
             fs::set_permissions(path, permissions)

@@ -1,7 +1,7 @@
-//! Job folders: everything that machines need to render a film together, without jabuka.
+//! Job folders: everything that several machines need to render a film together, without jabuka.
 //!
-//! A job folder holds the scripts, the images, and `render-chunk`, a script for bash that renders some of the frames and
-//! that every engine calls. Its texts are in `templates/batch/`.
+//! A job folder holds the scripts, the images, and `render-chunk`, a bash script that renders some of the frames and that every
+//! engine calls. Its texts are in `templates/batch/`.
 
 mod copy;
 mod edits;
@@ -49,14 +49,14 @@ pub struct JobFolder {
     folder: Folder,
 }
 
-/// What happened to the files that users may edit.
+/// The treatment of the files that users may edit.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits {
-    /// They were edited, and have stayed.
+    /// Edited files that were kept.
     pub kept: Vec<&'static str>,
-    /// The kept files that jabuka would now write differently. The new text stands beside each, with the ending `.new`.
+    /// The kept files that jabuka would now write differently. The new text is beside each, with the ending `.new`.
     pub new: Vec<&'static str>,
-    /// They were edited, and jabuka needs its own: each with the name that the edited one has now, `submit.old`.
+    /// Edited files that jabuka had to replace, each with its present name, as in `submit.old`.
     pub moved: Vec<(&'static str, String)>,
 }
 
@@ -64,16 +64,16 @@ impl JobFolder {
     /// Opens a job folder: a new or empty one, or one that jabuka made.
     ///
     /// # Errors
-    /// If the folder is somebody else's, is being written to, or cannot be used.
+    /// If the folder belongs to something else, another process writes to it, or it cannot be used.
     pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
         let folder = Folder::open_marked(path, &|path| edits::Marks::read(path).is_some())?;
         let job = JobFolder { folder };
-        // From the first moment on it says whose it is.
+        // From the first moment on, the folder is marked as jabuka's.
         edits::Marks::read(path).unwrap_or_default().write(&job.folder)?;
         Ok(job)
     }
 
-    /// The folder for its scripts, to be written as any other.
+    /// The folder for its scripts, to be written like any other.
     ///
     /// # Errors
     /// If it cannot be used.
@@ -81,7 +81,7 @@ impl JobFolder {
         Folder::open(&self.folder.path().join(SCRIPTS))
     }
 
-    /// Writes everything but the scripts. What a user has edited is not lost.
+    /// Writes everything but the scripts. No user's edit is lost.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -92,7 +92,7 @@ impl JobFolder {
         requirements: &Requirements,
     ) -> Result<Edits, OutputError> {
         let path = self.folder.path();
-        // A log that has no folder fails its job without a word.
+        // A log without a folder makes its job fail without a message.
         for folder in ["logs", "images", &format!("images/{HIDDEN}")] {
             let folder = path.join(folder);
             fs::create_dir_all(&folder).map_err(|error| OutputError::Io(folder, error))?;
@@ -101,10 +101,10 @@ impl JobFolder {
     }
 }
 
-/// The number of images of a job folder that are up to date, and of those that are asked for.
+/// The number of up-to-date images of a job folder, and the number of requested ones.
 ///
 /// # Errors
-/// If a file that the scripts read is not there.
+/// If a file that the scripts read is missing.
 pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
     let status = super::status::Status::read(folder)?;
     Ok((status.done.len(), status.frames.len()))
@@ -112,10 +112,10 @@ pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
 
 /// The settings of a job for the scripts of a folder.
 ///
-/// `frames` are those that are asked for; `None` stands for all that have scripts. `video_rate` is the film's, if it is given.
+/// `frames` are the requested ones; `None` stands for all that have scripts. `video_rate` is the film's, if it is given.
 ///
 /// # Errors
-/// If the folder has no complete scripts of jabuka's.
+/// If the folder has no complete set of jabuka's scripts.
 pub fn settings(
     scripts: &Path,
     frames: Option<&crate::simulate::Selection>,
@@ -128,7 +128,7 @@ pub fn settings(
         .map(|(frame, _)| frame)
         .filter(|frame| frames.is_none_or(|frames| frames.contains(*frame)))
         .collect();
-    // A blurred frame has two scripts, and is one image.
+    // A blurred frame has two scripts but one image.
     frames.dedup();
     let blurred = fs::read_dir(scripts).map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
     let blurred = blurred.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("shutter_"));
@@ -153,7 +153,7 @@ pub fn settings(
     })
 }
 
-/// The files that all scripts read, by names that the settings can hold: each takes up a line.
+/// The files that all scripts read. Their names must be valid in the settings, where each takes up a line.
 fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
     let files = super::files::of_scripts(scripts);
     let files = files.map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
@@ -164,18 +164,18 @@ fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
     Ok(files)
 }
 
-/// The name of a job for a scene. Engines give a meaning to commas, braces and the like, so all but letters, digits and
-/// `-_.` become `_`.
+/// The name of a job for a scene. Commas, braces and other characters have a meaning for engines, so all but letters, digits
+/// and `-_.` become `_`.
 fn job_name(scene: &str) -> String {
-    /// Open Job Description allows 128.
+    /// The limit of Open Job Description is 128.
     const MOST_CHARACTERS: usize = 100;
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
     let name: String = scene.chars().take(MOST_CHARACTERS).map(plain).collect();
     format!("jabuka-{name}")
 }
 
-/// How many frames are one job of an engine, where the user does not say: few enough that a failure costs little, enough
-/// for all processors, and at most 1000 jobs.
+/// The default number of frames in one job of an engine: few enough that a failure costs little, enough for all processors, and
+/// at most 1000 jobs.
 pub fn chunk(frames: usize, cpus: usize) -> usize {
     frames.div_ceil(1000).max(10).max(cpus.saturating_mul(4))
 }

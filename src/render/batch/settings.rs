@@ -1,4 +1,4 @@
-//! The settings of a job folder, `job.conf`: what jabuka tells the scripts that run on the nodes.
+//! The settings of a job folder, `job.conf`, for the scripts that run on the nodes.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ use crate::simulate::Selection;
 
 /// The name of the file in its folder.
 pub const SETTINGS: &str = "job.conf";
-/// The name of the file of the user's own settings, which come after those.
+/// The name of the file with the user's own settings, which override the others.
 const OWN: &str = "local.conf";
 
 /// The keys of the settings.
@@ -38,7 +38,7 @@ const KEYS: [&str; 17] = [
 pub struct Settings {
     /// The name of the job, of letters, digits and `-_.`.
     pub job: String,
-    /// The frames that are to be rendered, in their order.
+    /// The frames to be rendered, in their order.
     pub frames: Vec<usize>,
     /// The number of the last frame of the whole scene.
     pub last_frame: usize,
@@ -46,13 +46,13 @@ pub struct Settings {
     pub end: f64,
     /// The number of digits in the names of frames.
     pub digits: usize,
-    /// How fast the film shows the scene.
+    /// The speed of the film.
     pub pace: Pace,
-    /// How good the film is.
+    /// The quality of the film.
     pub video_quality: Quality,
     /// The number of frames that one job of the engine renders.
     pub chunk: usize,
-    /// The options of POV-Ray that matter for the pixels.
+    /// The options of POV-Ray that affect pixels.
     pub options: String,
     /// The files that all scripts read, by their names in the folder of the scripts.
     pub files: Vec<String>,
@@ -60,7 +60,7 @@ pub struct Settings {
     pub blurred: bool,
     /// Whether the scripts may read all files, and write in the job's folder: the user trusts the scene.
     pub trust: bool,
-    /// The longest that one frame may take, s.
+    /// The time limit for one frame, s.
     pub limit: u64,
 }
 
@@ -75,9 +75,9 @@ pub(crate) struct InForce {
 }
 
 impl Settings {
-    /// The settings as the scripts read them.
+    /// The settings as text for the scripts.
     ///
-    /// Every value takes up the rest of its line and is never run, so it needs no quotes, but must be one line.
+    /// Every value is the rest of its line and is never run, so it needs no quotes, but must not contain line breaks.
     pub(super) fn to_text(&self) -> String {
         let frames: Selection = self.frames.iter().copied().collect();
         let files: Vec<String> = self.files.iter().map(|file| format!("FILE={file}")).collect();
@@ -103,7 +103,7 @@ impl Settings {
 }
 
 impl InForce {
-    /// Reads the settings of a job folder; `None` if it has none, so is no job folder.
+    /// Reads the settings of a job folder; `None` if it has none, so that it is no job folder.
     ///
     /// # Errors
     /// If a file of settings cannot be read or understood.
@@ -111,7 +111,7 @@ impl InForce {
         let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
         values.extend(values_of_user(folder)?);
         let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
-        // Where a key has several lines, the last one counts.
+        // If a key occurs in several lines, the last one counts.
         let one = |key: &str| {
             let value = values.iter().rev().find(|(set, _)| set == key).map(|(_, value)| value.as_str());
             value.ok_or_else(|| {
@@ -134,7 +134,7 @@ impl InForce {
     }
 }
 
-/// The settings of the user, if there are any.
+/// The user's settings, if there are any.
 fn values_of_user(folder: &Path) -> io::Result<Vec<(String, String)>> {
     Ok(values(folder, OWN)?.unwrap_or_default())
 }
@@ -174,7 +174,7 @@ fn values(folder: &Path, name: &str) -> io::Result<Option<Vec<(String, String)>>
     Ok(Some(values))
 }
 
-/// Puts values into the places `@key@` of a text, in one pass: what a value holds is not looked at again.
+/// Replaces `@key@` in a text by values, in one pass: the values themselves are not searched for keys.
 pub(super) fn fill(text: &str, values: &[(&str, &str)]) -> String {
     let mut filled = String::new();
     let mut rest = text;
@@ -233,7 +233,7 @@ pub(super) mod tests {
         if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
     }
 
-    /// Texts that a shell or a second substitution would take for something else.
+    /// Texts that a shell or a second substitution would interpret.
     const HOSTILE: [&str; 9] = [
         "a$(touch PWNED)",
         "a`touch PWNED`",
@@ -305,7 +305,7 @@ pub(super) mod tests {
             let rust = InForce::read(folder.path()).unwrap_err().to_string();
             assert!(rust.contains(said), "{rust}");
         }
-        // Bash runs what stands in the index of a number that it computes with.
+        // Bash runs code in the index of a variable in arithmetic.
         for key in
             ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED", "TRUST"]
         {

@@ -4,20 +4,20 @@ use super::settings::fill;
 use super::{Engine, SETTINGS, Settings};
 use crate::simulate::Selection;
 
-/// The resources that a job requests. Missing ones are left to whoever edits the file.
+/// The resources that a job requests. The user can fill in missing ones by editing the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Requirements {
     /// The partition of Slurm.
     pub partition: Option<String>,
     /// The account of Slurm.
     pub account: Option<String>,
-    /// The longest that a chunk may take, as Slurm writes it.
+    /// The time limit for a chunk, as Slurm writes it.
     pub time: Option<String>,
     /// The processors for a chunk.
     pub cpus: Option<usize>,
     /// The memory for a chunk, as Slurm writes it.
     pub memory: Option<String>,
-    /// The modules to be loaded, as `module load` takes them.
+    /// The modules to load, as `module load` takes them.
     pub modules: Option<String>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Text {
     pub(super) text: String,
     /// Whether users are meant to edit it.
     pub(super) users: bool,
-    /// Whether it can be run.
+    /// Whether it is executable.
     pub(super) runs: bool,
 }
 
@@ -106,7 +106,7 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
     texts
 }
 
-/// The `#SBATCH` lines of the requested resources, and, commented out, of the others.
+/// The `#SBATCH` lines: requested resources, and the others commented out.
 fn slurm(requirements: &Requirements) -> String {
     let line = |option: &str, value: Option<&str>, example: &str| match value {
         Some(value) => format!("#SBATCH --{option}={value}"),
@@ -133,12 +133,12 @@ fn modules(requirements: &Requirements) -> String {
     }
 }
 
-/// A text as a quoted string of YAML, of at most the length that a name may have.
+/// A text as a quoted YAML string, cut to the longest valid name.
 fn yaml(text: &str) -> String {
     /// The limit of Open Job Description.
     const MAX: usize = 128;
     let text: String = text.chars().take(MAX).collect();
-    // A string of JSON is one of YAML. Braces would be a reference.
+    // A JSON string is a YAML string as well. Braces would be a reference.
     serde_json::Value::String(text.replace("{{", "(").replace("}}", ")")).to_string()
 }
 

@@ -10,17 +10,17 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 /// Why a film or a contact sheet could not be made.
 #[derive(Debug)]
 pub enum FilmError {
-    /// The name of the film does not end as that of a film that jabuka makes.
+    /// The ending of the film's name is none of the known formats.
     FilmName(PathBuf),
     /// The name of the contact sheet does not end in `.png`.
     SheetName(PathBuf),
     /// There is a folder where the film or the sheet should be.
     Folder(PathBuf),
-    /// There is nothing to show.
+    /// There are no images.
     NoImages,
     /// No film can be shown at this rate, in frames per second.
     Rate(f64),
-    /// The format of the film has no qualities to choose from.
+    /// The format of the film has no choice of quality.
     NoQuality(PathBuf),
     /// The images are too large for a film of this format.
     TooLarge {
@@ -28,10 +28,10 @@ pub enum FilmError {
         format: Format,
         /// Width and height of the images, pixels.
         size: [u32; 2],
-        /// The longest side that the format can have, pixels.
+        /// The longest side that the format allows, pixels.
         most: u32,
     },
-    /// There is no ffmpeg: what was looked for, and why it cannot be used.
+    /// There is no ffmpeg: the program that was looked for, and why it cannot be used.
     NoFfmpeg(PathBuf, String),
     /// This ffmpeg was built without an encoder that is needed.
     NoEncoder(PathBuf, &'static str),
@@ -50,11 +50,11 @@ pub enum FilmError {
     DiskFull(PathBuf),
     /// A file could not be written.
     Io(PathBuf, io::Error),
-    /// ffmpeg failed: on which file, how it ended, and the last that it said.
+    /// ffmpeg failed: the file, how ffmpeg ended, and its last messages.
     Failed(PathBuf, String, String),
-    /// ffmpeg ended well, but the film has not as many frames as there are images: the file, its frames, and the images.
+    /// ffmpeg ended well, but the numbers of frames and images differ: the file, its frames, and the images.
     Count(PathBuf, usize, usize),
-    /// Somebody has asked to stop.
+    /// The user has asked to stop.
     Cancelled,
 }
 
@@ -88,7 +88,7 @@ impl FilmError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// How to mend it, where that is not plain from the message.
+    /// How to fix it, where the message does not make that plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             FilmError::FilmName(_) => Some(
@@ -124,7 +124,7 @@ impl FilmError {
         }
     }
 
-    /// The error of a file that is written; that of a full disk is one of its own.
+    /// The error of an output file; a full disk has an error of its own.
     pub(in crate::render) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> FilmError {
         let path = path.into();
         |error| match error.kind() {

@@ -1,4 +1,4 @@
-//! ffmpeg: whether it is there, and a run of it.
+//! Finds ffmpeg and runs it.
 
 use std::collections::VecDeque;
 use std::ffi::OsString;
@@ -22,20 +22,20 @@ pub struct Ffmpeg {
     confinement: Confinement,
 }
 
-/// How a run of ffmpeg has ended.
+/// The result of a run of ffmpeg.
 pub(super) struct End {
-    /// Whether it says that it has ended well, which is not always so.
+    /// Whether ffmpeg reports success, which is not always true.
     pub(super) success: bool,
-    /// How: "ended with code 1".
+    /// How it ended: "ended with code 1".
     pub(super) how: String,
-    /// The last that it said.
+    /// Its last messages.
     pub(super) said: String,
-    /// How many frames it has written.
+    /// The number of frames that it has written.
     pub(super) frames: usize,
 }
 
 impl Ffmpeg {
-    /// Looks for a program, or for `ffmpeg` where the shell would, and asks it for the encoder of a format.
+    /// Looks for a program, or for `ffmpeg` in the `PATH`, and asks it for the encoder of a format.
     pub(super) fn find(
         program: Option<&Path>,
         format: Format,
@@ -65,7 +65,7 @@ impl Ffmpeg {
         Ok(Ffmpeg { program: program.to_owned(), version: version.to_owned(), confinement })
     }
 
-    /// Its path, or its name where that was enough to find it.
+    /// Its path, or its name if that was enough to find it.
     pub fn program(&self) -> &Path {
         &self.program
     }
@@ -75,11 +75,11 @@ impl Ffmpeg {
         &self.version
     }
 
-    /// Runs it, so that it writes the file `film` and nothing else. `feed` writes to its standard input, on a thread of its own; `progress` is told how many frames it has
-    /// written.
+    /// Runs it with write access to the file `film` only. `feed` writes to its standard input, on a thread of its own;
+    /// `progress` receives the number of written frames.
     ///
     /// # Errors
-    /// If it cannot be run, `feed` fails, or `cancelled` says so.
+    /// If it cannot be run, `feed` fails, or `cancelled` returns true.
     pub(super) fn run(
         &self,
         arguments: &[OsString],
@@ -96,9 +96,9 @@ impl Ffmpeg {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
-            // Its errors are looked through for words.
+            // Its messages are searched for English words.
             .env("LC_ALL", "C")
-            // Either would put what nobody has asked for into the messages or into the folder.
+            // Either variable would add unwanted output to the messages or to the folder.
             .env_remove("AV_LOG_FORCE_COLOR")
             .env_remove("FFREPORT");
         let started = Started::new(&mut command);
@@ -128,18 +128,18 @@ impl Ffmpeg {
                 thread::sleep(Duration::from_millis(10));
             };
             stop.store(true, Ordering::Relaxed);
-            // From here on no thread waits for ffmpeg: its ends of the pipes are closed.
+            // From here on, no thread waits for ffmpeg: its ends of the pipes are closed.
             let exit = running.end();
             if stopped {
                 return Err(FilmError::Cancelled);
             }
-            // A thread that panics would be a mistake in this file.
+            // A panic of that thread would be a bug in this file.
             feeder.join().unwrap_or(Ok(()))?;
             let said = said.join().unwrap_or_default();
             Ok(End { success: exit.is_some_and(|exit| exit.success()), how: how(exit), said, frames: 0 })
         })
         .map(|end| {
-            // The last of them may have been counted after the last look.
+            // The last frames may have been counted after the last poll.
             let frames = frames.load(Ordering::Relaxed);
             if frames != shown {
                 progress(frames);
@@ -167,7 +167,7 @@ fn count(output: impl Read, frames: &AtomicUsize) {
     }
 }
 
-/// Reads to the end, and keeps the last few lines, of moderate length, without what could steer a terminal.
+/// Reads to the end, and keeps the last few lines, shortened, without characters that control a terminal.
 fn last_lines(mut from: impl Read) -> String {
     const LINES: usize = 8;
     const BYTES: usize = 4000;

@@ -1,4 +1,4 @@
-//! The formats of films, and how ffmpeg is told to make them.
+//! The formats of films, and ffmpeg's options for them.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::render::picture::Size;
 pub enum Format {
     /// H.264 in MP4.
     Mp4,
-    /// VP9 in WebM.
+    /// An animated GIF that loops forever.
     Webm,
     /// An animated GIF that never ends.
     Gif,
@@ -22,7 +22,7 @@ impl Format {
     /// All formats.
     pub const ALL: [Format; 3] = [Format::Mp4, Format::Webm, Format::Gif];
 
-    /// The ending of names of films, which is also what ffmpeg calls the format.
+    /// The ending of film names, which is also ffmpeg's name of the format.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Mp4 => "mp4",
@@ -31,7 +31,7 @@ impl Format {
         }
     }
 
-    /// The format that the ending of a name says.
+    /// The format that belongs to the ending of a name.
     pub(super) fn of(path: &Path) -> Option<Format> {
         let extension = path.extension()?;
         Format::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
@@ -46,9 +46,9 @@ impl Format {
         }
     }
 
-    /// The indices of the images that ffmpeg gets before all images, to learn the palette of a GIF from.
+    /// The indices of the images from which ffmpeg computes the palette of a GIF; ffmpeg gets them before all images.
     ///
-    /// A palette of all of them would make it hold all of them: 3.7 MB for each of 1280 × 720 pixels.
+    /// For a palette of all images, ffmpeg would hold all of them in memory: 3.7 MB for each of 1280 × 720 pixels.
     pub(super) fn samples(self, images: usize) -> Vec<usize> {
         const MOST: usize = 32;
         match self {
@@ -57,7 +57,7 @@ impl Format {
         }
     }
 
-    /// Tells ffmpeg to read pixels from its standard input, and to make a film of this format of them.
+    /// Tells ffmpeg to read pixels from its standard input, and to make a film of this format from them.
     pub(super) fn arguments(
         self,
         (width, height): Size,
@@ -66,7 +66,7 @@ impl Format {
         quality: Quality,
     ) -> Vec<OsString> {
         let (pixels, width, height) = match self {
-            // What is told of transparency, of odd sizes: see above.
+            // Transparency and odd sizes: see the documentation of the module `film`.
             Format::Gif => ("rgba", width, height),
             Format::Mp4 | Format::Webm => ("rgb24", next_even(width), next_even(height)),
         };
@@ -76,7 +76,7 @@ impl Format {
         words.extend(["-filter_complex".to_owned(), self.filters(samples)]);
         words.extend(self.codec(quality).split(' ').map(str::to_owned));
         if self == Format::Mp4 {
-            // A browser can begin to play before it has the whole film.
+            // So a browser can begin to play before it has the whole film.
             words.extend(["-movflags", "+faststart"].map(str::to_owned));
         }
         if self != Format::Gif {
@@ -85,20 +85,20 @@ impl Format {
                            -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
             words.extend(options.split_whitespace().map(str::to_owned));
         }
-        // No version, no time: what would differ between equal films.
+        // No version and no time, which would differ between equal films.
         words.extend(["-fflags", "+bitexact", "-flags:v", "+bitexact"].map(str::to_owned));
         words.extend(["-y", "-f", self.extension()].map(str::to_owned));
         words.into_iter().map(OsString::from).collect()
     }
 
-    /// The options of ffmpeg that choose the encoder and its quality. The lower the number after `-crf`, the better.
+    /// The options of ffmpeg for the encoder and its quality. A lower number after `-crf` means a better picture.
     pub(in crate::render) fn codec(self, quality: Quality) -> &'static str {
         // Each quality of VP9 is near that of H.264, by SSIM.
         match (self, quality) {
             (Format::Mp4, Quality::Draft) => "-c:v libx264 -preset veryfast -crf 28",
             // Hard to tell from the images.
             (Format::Mp4, Quality::Good) => "-c:v libx264 -preset medium -crf 18",
-            // A film to cut and encode again.
+            // For a film that is cut and encoded again.
             (Format::Mp4, Quality::Final) => "-c:v libx264 -preset slow -crf 12",
             (Format::Webm, Quality::Draft) => {
                 "-c:v libvpx-vp9 -crf 40 -b:v 0 -deadline good -cpu-used 5 -row-mt 1"
@@ -113,7 +113,7 @@ impl Format {
         }
     }
 
-    /// The longest side that an image may have, pixels: what the encoder takes.
+    /// The longest side of an image that the encoder accepts, pixels.
     pub(super) fn longest_side(self) -> u32 {
         match self {
             Format::Mp4 | Format::Webm => 16384,
@@ -130,7 +130,7 @@ impl Format {
                  setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709"
                     .to_owned()
             }
-            // The pattern of `bayer` stands still where errors that are passed on would boil, and packs best.
+            // The pattern of `bayer` stands still, whereas error diffusion flickers; it also compresses best.
             Format::Gif => format!(
                 "split[first][rest];\
                  [first]trim=end_frame={samples},palettegen=stats_mode=full[palette];\

@@ -1,25 +1,25 @@
 //! Images → film, by ffmpeg.
 //!
-//! jabuka reads the images and gives ffmpeg their pixels through a pipe: so any images make a film, whatever they are
-//! called; one that is broken is found by its name; and ffmpeg's own reader of PNG is not needed. A film has as many
-//! frames as there are images, which is checked by what ffmpeg has counted.
+//! jabuka reads the images and pipes their pixels to ffmpeg. So images with any names make a film, a broken image can be named,
+//! and ffmpeg's own PNG reader is not needed. A film has as many frames as there are images; ffmpeg's count is checked.
 //!
-//! **Colors.** The bytes are sRGB. For `.mp4` and `.webm`, they are converted by the matrix of BT.709, to the limited
-//! range, and the film says so; without that, players guess by the size. Half of the color's resolution goes (4:2:0),
-//! since nothing else plays everywhere.
+//! **Colors.** The bytes are sRGB. For `.mp4` and `.webm`, they are converted by the BT.709 matrix to the limited range, and
+//! the film is marked so; without the mark, players guess from the size. Color has half the resolution (4:2:0), since nothing
+//! else plays everywhere.
 //!
-//! **Sizes.** These two formats need even widths and heights. An odd one gets one more column or row, a copy of the last.
+//! **Sizes.** `.mp4` and `.webm` need even widths and heights. An odd one gets one more column or row, a copy of the last.
 //!
-//! **Transparency.** `.mp4` and `.webm` show what is transparent before white. A `.gif` keeps it, as far as the format can:
-//! a pixel that is at least half opaque is opaque, any other is not there.
+//! **Transparency.** `.mp4` and `.webm` show transparent pixels on white. A `.gif` keeps transparency as far as the format can:
+//! a pixel that is at least half opaque becomes opaque, any other fully transparent.
 //!
-//! **Rates.** [`Pace`] chooses the rate of a film that is given none. What is written is the rate itself: 23.976 is 2997/125. The times in a `.webm` are whole milliseconds.
-//! The frames of a `.gif` last whole hundredths of a second, and two at least, for browsers show those of one for ten. So
-//! 25 and 50 frames a second are exact, 24 are delays of 4, 4, 4, 4, 4, 5 hundredths, 30 are 3, 3, 4 — both last as long as they should — and
-//! everything above 50 is shown at 50: a second of 60 frames takes 1.2 s. [`Film::shown_rate`] tells.
+//! **Rates.** [`Pace`] chooses the rate of a film if none is given. The file has the exact rate: 23.976 is 2997/125. The times
+//! in a `.webm` are whole milliseconds. The frames of a `.gif` last whole hundredths of a second, and at least two, since
+//! browsers replace one by ten. So 25 and 50 frames a second are exact, 24 have delays of 4, 4, 4, 4, 4, 5 hundredths, 30 have
+//! 3, 3, 4; both have the right duration. Higher rates are shown at 50: a second of 60 frames takes 1.2 s. [`Film::shown_rate`]
+//! gives the shown rate.
 //!
-//! **Sameness.** The same images and the same build of ffmpeg give the same bytes, whatever the number of cores: the threads are
-//! always [as many](Format), since libx264 and libvpx depend on that. Another version of ffmpeg may give other bytes.
+//! **Sameness.** The same images and the same build of ffmpeg give the same bytes on any number of cores: the number of threads
+//! is [fixed](Format), since libx264 and libvpx depend on it. Another version of ffmpeg may give other bytes.
 
 mod error;
 mod ffmpeg;
@@ -41,7 +41,7 @@ use super::Quality;
 use super::picture::{self, Picture, Size};
 use crate::sandbox::Confinement;
 
-/// A film that is to be made.
+/// A planned film.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     path: PathBuf,
@@ -50,10 +50,10 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film of this name, whose ending says the format.
+    /// A film of this name, whose ending gives the format.
     ///
     /// # Errors
-    /// If the ending is another, or there is a folder of this name.
+    /// If the ending is unknown, or there is a folder of this name.
     pub fn new(path: impl Into<PathBuf>) -> Result<Film, FilmError> {
         let path = path.into();
         let Some(format) = Format::of(&path) else {
@@ -94,23 +94,23 @@ impl Film {
         }
     }
 
-    /// The speed at which the film shows images of a scene with this frame rate: at the requested rate, or else at one that can
-    /// be watched.
+    /// The speed at which the film shows images of a scene with this frame rate: the requested rate, or else one that people
+    /// can watch.
     pub fn pace(&self, scene_rate: f64, asked: Option<f64>) -> Pace {
         let rate = Pace::new(scene_rate, asked).rate;
         Pace::new(scene_rate, Some(self.shown_rate(rate)))
     }
 
-    /// Finds what makes the film, so that a lack of it is known before anything is rendered: a program, or `ffmpeg` where the
-    /// shell would find it. The confinement is that of all its runs.
+    /// Finds the ffmpeg for the film, so that a missing one is noticed before anything is rendered: the given program, or else
+    /// `ffmpeg` in the `PATH`. The confinement applies to all its runs.
     ///
     /// # Errors
-    /// If it is not there, or cannot make this format.
+    /// If it does not exist, or cannot make this format.
     pub fn check(&self, ffmpeg: Option<&Path>, confinement: Confinement) -> Result<Ffmpeg, FilmError> {
         Ffmpeg::find(ffmpeg, self.format, confinement)
     }
 
-    /// Whether a film can have this rate, in frames per second.
+    /// Checks that a film can have this rate, in frames per second.
     ///
     /// # Errors
     /// If it cannot.
@@ -118,7 +118,7 @@ impl Film {
         if Pace::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
     }
 
-    /// Whether a film of this format can have images of this size.
+    /// Checks that a film of this format can have images of this size.
     ///
     /// # Errors
     /// If they are too large.
@@ -130,7 +130,7 @@ impl Film {
         Err(FilmError::TooLarge { format: self.format, size, most })
     }
 
-    /// Whether the film can be written where it is to be. This makes its folder, if need be.
+    /// Checks that the film can be written to its path. Creates its folder, if needed.
     ///
     /// # Errors
     /// If no file can be written there, or another process writes it.
@@ -138,11 +138,11 @@ impl Film {
         Target::create(&self.path).map(drop)
     }
 
-    /// Makes the film of some images, in their order. `cancelled` is asked, and `progress` told how many frames are in
-    /// the film, many times a second and on this thread. A film that was there stays until the new one is whole.
+    /// Makes the film from some images, in their order. Many times a second, on this thread, it asks `cancelled` and tells
+    /// `progress` the number of frames in the film. An existing film stays until the new one is whole.
     ///
     /// # Errors
-    /// If an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` says so.
+    /// If an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` returns true.
     pub fn make(
         &self,
         images: &[PathBuf],
@@ -171,7 +171,7 @@ impl Film {
                 let fed = self.pixels(&images[index], size).map(|pixels| pipe.write_all(&pixels));
                 match fed {
                     Ok(Ok(())) => {}
-                    // ffmpeg has closed its end, and will say why.
+                    // ffmpeg has closed its end, and will report the reason.
                     Ok(Err(error)) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(()),
                     Ok(Err(error)) => return fail(stop, FilmError::io(&self.path)(error)),
                     Err(error) => return fail(stop, error),
@@ -184,9 +184,9 @@ impl Film {
         target.finish()
     }
 
-    /// Whether a run of ffmpeg has made a film of this many images.
+    /// Checks that a run of ffmpeg has made a film of this many images.
     fn judge(&self, end: ffmpeg::End, images: usize) -> Result<(), FilmError> {
-        // It ends with code 0 also where it could not write the last bytes, without which nothing can be played.
+        // ffmpeg ends with code 0 even if it could not write the last bytes, and then the film cannot be played.
         let unwritten = ["Error writing", "Error closing", "File too large", "Input/output error"];
         let full = ["No space left on device", "Disk quota exceeded"];
         let says = |words: &[&str]| words.iter().any(|word| end.said.contains(word));
@@ -206,7 +206,7 @@ impl Film {
     fn pixels(&self, path: &Path, size: Size) -> Result<Vec<u8>, FilmError> {
         let picture = Picture::read(path)?;
         if picture.size != size {
-            // It was another one a moment ago.
+            // The image has changed since its header was read.
             return Err(FilmError::Image(path.to_owned(), "it has been changed meanwhile".to_owned()));
         }
         Ok(match self.format {
@@ -216,7 +216,7 @@ impl Film {
     }
 }
 
-/// Ends the feeding of ffmpeg by an error.
+/// Ends the feeding of ffmpeg with an error.
 fn fail(stop: &AtomicBool, error: FilmError) -> Result<(), FilmError> {
     stop.store(true, Ordering::Relaxed);
     Err(error)
@@ -227,7 +227,7 @@ fn next_even(length: usize) -> usize {
     length + length % 2
 }
 
-/// A picture of three bytes a pixel with even width and height: the last column and the last row may come twice.
+/// A picture of three bytes a pixel with even width and height: the last column and the last row may be doubled.
 fn even(rgb: &[u8], (width, height): Size) -> Vec<u8> {
     let mut pixels = Vec::with_capacity(3 * next_even(width) * next_even(height));
     let last = height.saturating_sub(1);

@@ -1,4 +1,4 @@
-//! A file that is written whole or not at all, even if another program writes it.
+//! A file that appears whole or not at all, even if another program writes it.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -7,20 +7,20 @@ use std::path::{Path, PathBuf};
 
 use super::FilmError;
 
-/// A file that is made under a temporary name beside its place. Unless it is finished, nothing of it is left.
+/// A file that is made under a temporary name beside its path. If it is not finished, dropping this removes it.
 pub(in crate::render) struct Target {
     path: PathBuf,
     temporary: PathBuf,
-    /// Locked, so that two processes do not write one file; the lock ends with the process, however that ends.
+    /// Locked, so that two processes do not write the same file; the lock ends with the process, however that ends.
     file: File,
     finished: bool,
 }
 
 impl Target {
-    /// Makes the empty temporary file, and the folder if need be. What a killed run has left goes.
+    /// Makes the empty temporary file, and the folder if needed. Removes leftovers of a killed run.
     ///
     /// # Errors
-    /// If another process makes the same file, or none can be made there.
+    /// If another process makes the same file, or no file can be made there.
     pub(in crate::render) fn create(path: &Path) -> Result<Target, FilmError> {
         let io_error = || FilmError::io(path);
         if path.is_dir() {
@@ -67,7 +67,7 @@ impl Target {
         &self.file
     }
 
-    /// Puts the file in its place.
+    /// Renames the file to its final path.
     ///
     /// # Errors
     /// If it cannot be renamed.
