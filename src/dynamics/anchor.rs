@@ -4,14 +4,14 @@ use glam::{DQuat, DVec3};
 
 use super::BodyId;
 
-/// The end of a spring or a joint: a place that it is fastened to.
+/// The end of a spring or a joint: the point to which it is fastened.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
     /// A point of a body.
     Body {
         /// The body.
         id: BodyId,
-        /// The point in the frame of the body, from its centre of mass, m.
+        /// The point in the body's frame, relative to its centre of mass, m.
         at: DVec3,
     },
     /// A point of the world, m.
@@ -40,7 +40,7 @@ impl Anchor {
         matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
     }
 
-    /// The place of the end, m. The closure gives the location of a body and its orientation (`world_from_body`).
+    /// The position of the end, m. The closure returns the location and orientation (`world_from_body`) of a body.
     #[must_use]
     pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
         match self {

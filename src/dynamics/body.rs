@@ -1,29 +1,27 @@
-//! The description of one rigid body at one moment.
+//! The description of a rigid body at one moment.
 
 use glam::{DQuat, DVec3};
 
 use super::Shape;
 
-/// A rigid body at one moment, as it enters a [`World`](super::World) and as it can be read back from it.
+/// A rigid body at one moment, as it enters a [`World`](super::World) and can be read back from it.
 ///
-/// A body is a body: nothing here tells a sphere from a triad of axes but the inertia. A body with no force is a body
-/// with zero force, and a body at rest one with zero velocity.
+/// All bodies are alike: only the inertia distinguishes a sphere from an axes triad. A body without a force has zero force, and a body at
+/// rest has zero velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidBody {
     /// Mass, kg. A body whose mass is not positive does not move.
     pub mass: f64,
     /// Electric charge, C.
     pub charge: f64,
-    /// Principal moments of inertia about the centre of mass, kg m². No torque turns a body about an axis whose moment
-    /// is zero.
+    /// Principal moments of inertia about the centre of mass, kg m². No torque rotates a body about an axis whose moment is zero.
     pub inertia: DVec3,
-    /// The rotation that takes the principal axes of inertia to the frame of the body; the identity but for compounds and
-    /// meshes.
-    /// Within a world, a body turns in the frame of its principal axes.
+    /// The rotation from the principal axes of inertia to the body's frame. It is the identity, except for compounds and meshes. A world
+    /// stores the orientation of the principal axes.
     pub principal_axes: DQuat,
     /// Location of the centre of mass, m.
     pub location: DVec3,
-    /// Orientation: the rotation that takes the frame of the body to the world's (`world_from_body`).
+    /// Orientation: the rotation from the body's frame to the world's (`world_from_body`).
     pub orientation: DQuat,
     /// Velocity of the centre of mass, m/s.
     pub velocity: DVec3,
@@ -33,13 +31,13 @@ pub struct RigidBody {
     pub force: DVec3,
     /// A constant torque, world axes, N m.
     pub torque: DVec3,
-    /// A fixed body neither moves nor turns, whatever its velocity or the forces on it.
+    /// A fixed body neither moves nor rotates, whatever its velocity or the forces on it.
     pub fixed: bool,
 }
 
 impl RigidBody {
-    /// A homogeneous solid of `shape` and `mass` (kg), at rest at the origin, without charge, free of forces. A body of unbounded
-    /// shape is fixed.
+    /// A homogeneous solid of `shape` and `mass` (kg), at rest at the origin, without charge or forces. A body of unbounded shape is
+    /// fixed.
     #[must_use]
     pub fn new(shape: &Shape, mass: f64) -> Self {
         Self {
@@ -63,7 +61,7 @@ impl RigidBody {
         Self { location, ..self }
     }
 
-    /// The same body turned to `orientation` (`world_from_body`).
+    /// The same body with `orientation` (`world_from_body`).
     #[must_use]
     pub fn with_orientation(self, orientation: DQuat) -> Self {
         Self { orientation, ..self }
@@ -75,7 +73,7 @@ impl RigidBody {
         Self { velocity, ..self }
     }
 
-    /// The same body turning at `angular_velocity`, world axes, rad/s.
+    /// The same body rotating at `angular_velocity`, world axes, rad/s.
     #[must_use]
     pub fn with_angular_velocity(self, angular_velocity: DVec3) -> Self {
         Self { angular_velocity, ..self }
@@ -112,12 +110,12 @@ impl RigidBody {
     }
 }
 
-/// The name of a body within its world: its index, in the order in which bodies were added.
+/// The id of a body within its world: its index, in the order in which bodies were added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(usize);
 
 impl BodyId {
-    /// The name of the body with this index.
+    /// The id of the body with this index.
     #[must_use]
     pub const fn new(index: usize) -> Self {
         Self(index)

@@ -1,4 +1,4 @@
-//! Energy and momentum, and how well a run keeps them.
+//! Energy and momentum, and how well a run conserves them.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ pub struct Balance {
     pub kinetic: f64,
     /// Potential energy of every force that has one, J.
     pub potential: f64,
-    /// The energy brought in so far by what has no potential, by name.
+    /// The energy brought in so far by everything without a potential, by name.
     pub accounts: Accounts,
     /// Kinetic and potential energy, J.
     pub total: f64,
@@ -20,26 +20,26 @@ pub struct Balance {
     pub linear_momentum: DVec3,
     /// Angular momentum about the origin of the world, Σ x × m v + L, kg m²/s.
     pub angular_momentum: DVec3,
-    /// The error of the integration as energy shows it, without unit: (E − E₀ − all accounts) / the largest kinetic energy
-    /// observed so far; 0 as long as nothing has moved.
+    /// The dimensionless integration error of the energy: (E − E₀ − all accounts) / the largest kinetic energy so far; 0 as long as
+    /// nothing has moved.
     pub drift: f64,
 }
 
-/// Keeps the books of energy: what it ought to be, whenever somebody measures what it is.
+/// Keeps the expected energy, for comparison with measurements.
 ///
-/// E₀ is the energy that was brought in from outside: by the bodies and forces at the start, and by every later
-/// change to them. A change is booked in two parts. [`open`](Self::open) notes the energy before the first change of
-/// several, [`close`](Self::close) the energy after the last: so adding ten thousand bodies takes two measurements.
+/// E₀ is the energy brought in from outside: by the bodies and forces at the start, and by every later change to them. A change is booked
+/// in two parts. [`open`](Self::open) notes the energy before the first of several changes, [`close`](Self::close) the energy after the
+/// last. So adding ten thousand bodies takes two measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLedger {
     brought_in: f64,
-    /// The energy before the changes that are not yet booked.
+    /// The energy before the changes that are not booked yet.
     before: Option<f64>,
     largest_kinetic: f64,
 }
 
 impl EnergyLedger {
-    /// The ledger of an empty world about to be filled.
+    /// The ledger of an empty world, before bodies are added.
     #[must_use]
     pub fn new() -> Self {
         Self { brought_in: 0.0, before: Some(0.0), largest_kinetic: 0.0 }
@@ -52,13 +52,13 @@ impl EnergyLedger {
         }
     }
 
-    /// Must be called before constraints take what leads away from them: what is measured is small or large against the motion
-    /// that was given, even where none of it is left.
+    /// Must be called before constraints remove velocities that violate them. The given motion sets the scale of later measurements, even
+    /// if nothing of it remains.
     pub fn see_given(&mut self, model: &Model, state: &State) {
         self.largest_kinetic = self.largest_kinetic.max(kinetic(model, state));
     }
 
-    /// Must be called before time goes on: books the changes since [`open`](Self::open), if there were any.
+    /// Must be called before time advances: books the changes since [`open`](Self::open), if there were any.
     pub fn close(&mut self, model: &Model, time: f64, state: &State) {
         if let Some(before) = self.before.take() {
             let kinetic = kinetic(model, state);
@@ -67,7 +67,7 @@ impl EnergyLedger {
         }
     }
 
-    /// Measures all conserved quantities, and the drift against the books.
+    /// Measures all conserved quantities, and the drift from the expected energy.
     pub fn measure(&mut self, model: &Model, time: f64, state: &State) -> Balance {
         self.close(model, time, state);
         let balance = self.peek(model, time, state);
@@ -75,7 +75,7 @@ impl EnergyLedger {
         balance
     }
 
-    /// The same for a moment that leaves no trace in the books: one between two steps, that is only looked at.
+    /// Like [`measure`](Self::measure), but for a moment between two steps: it leaves the ledger unchanged.
     #[must_use]
     pub fn peek(&self, model: &Model, time: f64, state: &State) -> Balance {
         let kinetic = kinetic(model, state);
@@ -99,7 +99,7 @@ impl Default for EnergyLedger {
     }
 }
 
-/// The bodies that move as forces make them: of others, the motion costs and gives nothing.
+/// The bodies that move by forces; the motion of others does not count.
 fn free(model: &Model) -> impl Iterator<Item = usize> + '_ {
     model.inverse_mass().iter().enumerate().filter(|(_, inverse)| **inverse != 0.0).map(|(i, _)| i)
 }
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(world.balance().drift, 0.0);
     }
 
-    /// Without the booking of changes the drift would be of the size of the energies brought in: 0.1 and more.
+    /// Without booking the changes, the drift would be of the size of the energies brought in: 0.1 and more.
     #[test]
     fn changes_by_hand_are_not_drift() {
         let mut world = World::new();

@@ -1,39 +1,38 @@
 //! The physics: rigid bodies, the forces on them, and the methods that advance them.
 //!
-//! This module needs no scene and draws nothing; it can be used for itself. Units are SI, angles radians, axes
-//! right-handed.
+//! This module needs no scene and draws nothing; it can be used on its own. Units are SI, angles are in radians, axes are right-handed.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | a body at one moment, as it enters a world | [`RigidBody`], its [`Shape`] |
-//! | all that changes with time | [`State`] |
-//! | all that does not: masses, inertia, forces | [`Model`] |
-//! | what acts at one moment | [`Force`], [`Loads`] |
-//! | motion that is given | [`Motion`], its [`Kinematics`] |
-//! | when a body is there | [`Presence`] |
-//! | what holds bodies together | [`Constraint`], one type for each kind of joint |
-//! | what happens where bodies touch | [`Contacts`], [`Impact`] |
-//! | forces and constraints together, as a method of integration sees them | [`System`] |
+//! | everything that changes with time | [`State`] |
+//! | everything constant: masses, inertia, forces | [`Model`] |
+//! | loads at one moment | [`Force`], [`Loads`] |
+//! | given motion | [`Motion`], its [`Kinematics`] |
+//! | when a body is present | [`Presence`] |
+//! | joints and other constraints | [`Constraint`], one type for each kind of joint |
+//! | contacts and impacts | [`Contacts`], [`Impact`] |
+//! | forces and constraints together, for an integration method | [`System`] |
 //! | how the state advances | [`Integrator`], the table of [`METHODS`] |
-//! | what happens within a step | [`DenseOutput`] |
+//! | the motion within a step | [`DenseOutput`] |
 //! | energy, momentum, drift | [`Balance`] |
-//! | all that can be known of one moment | [`Snapshot`] |
-//! | many small bodies that a source sends out | [`ParticleSource`], [`Cloud`] |
-//! | all of it together, with a clock | [`World`] |
+//! | everything known about one moment | [`Snapshot`] |
+//! | many small bodies from a source | [`ParticleSource`], [`Cloud`] |
+//! | all of these together, with a clock | [`World`] |
 //! | many bodies in contact, at fixed steps | [`TimeStepping`] |
-//! | few bodies, by methods that choose their steps | [`Method::ahead`], its [`Accuracy`] |
-//! | what the rest of the program sees of it | [`Dynamics`] |
+//! | few bodies, by adaptive methods | [`Method::ahead`], its [`Accuracy`] |
+//! | the interface for the rest of the program | [`Dynamics`] |
 //!
 //! # Tutorial
 //!
-//! Two bodies: a sphere and a triad of axes. A body is a body: only its shape, and so its inertia, differs. The
-//! sphere begins without a force, and a body with no force is a body with zero force.
+//! Two bodies: a sphere and an axes triad. They differ only in their shapes, and so in their inertia. The sphere starts without a force,
+//! which is the same as zero force.
 //!
 //! ```
 //! use glam::DVec3;
 //! use jabuka::dynamics::{Method, RigidBody, Shape, World};
 //!
-//! // The start is known to this closure, not to the world.
+//! // The closure knows the initial state; the world does not.
 //! let build = || {
 //!     let mut world = World::new();
 //!     let sphere = RigidBody::new(&Shape::Sphere { radius: 0.5 }, 1.0)
@@ -50,7 +49,7 @@
 //! let run = || {
 //!     let (mut world, sphere, axes) = build();
 //!     world.advance_to(1.0);
-//!     // Half-way the sphere is pushed, and the method of integration exchanged for a more accurate one.
+//!     // After one second, push the sphere, and switch to a more accurate method of integration.
 //!     world.apply_force(sphere, DVec3::new(0.0, -1.0, 0.0));
 //!     world.set_integrator(Method::by_name("rk4").expect("rk4 is one of the methods"));
 //!     world.advance_to(2.0);
@@ -59,15 +58,15 @@
 //!
 //! let (mut world, sphere, axes) = run();
 //! assert_eq!(world.time(), 2.0);
-//! // Free for a second, then pushed for another: x₀ + v t, and −½ a t² from then on.
+//! // x₀ + v t in the first second, with −½ a t² added in the second.
 //! assert!((world.location(sphere) - DVec3::new(24.0, 19.5, 0.0)).length() < 1e-12);
-//! // The axes have turned by 2 rad about y.
+//! // The axes have rotated by 2 rad about y.
 //! let x_arm = world.orientation(axes) * DVec3::X;
 //! assert!((x_arm.angle_between(DVec3::X) - 2.0).abs() < 1e-9);
 //! // Euler–Cromer's first-order error shows in the energy of the first half.
 //! assert!(world.balance().drift.abs() < 1e-2);
 //!
-//! // A reset is to build the world again: the second run is equal to the first, bit for bit.
+//! // To reset a world, build it again: the second run equals the first, bit for bit.
 //! let (again, ..) = run();
 //! assert_eq!(again.state(), world.state());
 //! ```
@@ -122,42 +121,42 @@ pub use system::System;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
 
-/// Whatever advances bodies in time. The rest of the program drives it, and knows nothing of how it is done.
+/// Advances bodies in time. The rest of the program uses this interface, and does not depend on the implementation.
 pub trait Dynamics: Send {
     /// The time reached, s.
     fn time(&self) -> f64;
 
-    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
-    /// not later (or not finite) leaves all as it is.
+    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
+    /// finite) changes nothing.
     ///
-    /// `see` is told of each of `moments`, which are times (s) in rising order, later than now and not later than `t`.
-    /// Looking at moments changes nothing: the run is the same bit for bit without them.
+    /// `see` receives a snapshot for each of `moments`. These are times (s) in rising order, later than now and not later than `t`. They
+    /// do not affect the run: it is the same, bit for bit, without them.
     ///
     /// # Errors
-    /// If the run cannot go on, or a moment is not finite.
+    /// If the run cannot continue, or a moment is not finite.
     fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown>;
 
-    /// The present moment. The drift is relative to the largest kinetic energy among all snapshots so far.
+    /// The snapshot of the present moment. The drift is relative to the largest kinetic energy of all snapshots so far.
     ///
     /// # Errors
-    /// If a body is at no finite place.
+    /// If a body's position is not finite.
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown>;
 
-    /// The impacts since somebody asked last, in the order in which they happened.
+    /// The impacts since the last call, in the order in which they happened.
     fn impacts(&mut self) -> Vec<Impact> {
         Vec::new()
     }
 
-    /// The number of steps that have been made.
+    /// The number of steps so far.
     fn steps(&self) -> u64;
 
-    /// The present moment as bytes, from which [`resume`](Self::resume) goes on with the same bits; none where that is not
-    /// possible. Impacts must have been asked for.
+    /// The present moment as bytes, from which [`resume`](Self::resume) continues with the same bits; `None` if this is not possible. The
+    /// impacts must have been taken before.
     fn checkpoint(&mut self) -> Option<Vec<u8>> {
         None
     }
 
-    /// Goes on from a checkpoint of the same run; false where it is not one. Nothing may have been advanced before.
+    /// Continues from a checkpoint of the same run. Returns false if it is not one. The run must not have advanced before.
     fn resume(&mut self, _checkpoint: &[u8]) -> bool {
         false
     }

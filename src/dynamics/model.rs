@@ -1,4 +1,4 @@
-//! All that stays as it is while time goes on: what the bodies weigh, and which forces act on them.
+//! Everything that is constant in time: the masses of the bodies, and the forces on them.
 
 mod away;
 
@@ -26,22 +26,22 @@ pub struct Model {
     principal_axes: Sparse<DQuat>,
     shapes: Vec<Shape>,
     movable: Vec<bool>,
-    /// The inverse masses and moments of the bodies that are held at rest.
+    /// The inverse masses and moments of the bodies held at rest.
     frozen: BTreeMap<usize, (f64, DVec3)>,
     /// The bodies that no load moves.
     unmoved: Vec<usize>,
-    /// The constants of absent bodies. Those behind the last of them take no memory.
+    /// The constants of absent bodies. Bodies after the last absent one take no memory.
     away: Vec<Option<Box<Away>>>,
-    /// The motions that are given, and the bodies that follow them.
+    /// The given motions, with the bodies that follow them.
     motions: Vec<(usize, Arc<dyn Motion>)>,
     force: Sparse<DVec3>,
     torque: Sparse<DVec3>,
-    /// The bodies whose constant torque is not zero: few, and the only ones whose torque does work.
+    /// The bodies whose constant torque is not zero. They are few, and the only ones whose constant torque does work.
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
     constraints: Vec<Arc<dyn Constraint>>,
     effort: Effort,
-    /// The bodies that are advanced at present, if these are not all.
+    /// The bodies that are advanced at present; `None` for all.
     focus: Option<Vec<usize>>,
 }
 
@@ -70,7 +70,7 @@ impl Model {
         &self.charge
     }
 
-    /// 1/m of each body, 1/kg; 0 for one that does not move.
+    /// 1/m of each body, 1/kg; 0 for a body that does not move.
     #[must_use]
     pub fn inverse_mass(&self) -> &[f64] {
         &self.inverse_mass
@@ -82,32 +82,32 @@ impl Model {
         &self.inertia
     }
 
-    /// 1/I of each body's principal moments, 1/(kg m²); 0 where a body does not turn.
+    /// 1/I of each body's principal moments, 1/(kg m²); 0 if a body does not rotate.
     #[must_use]
     pub fn inverse_inertia(&self) -> &[DVec3] {
         &self.inverse_inertia
     }
 
-    /// The rotation of a body that takes its principal axes of inertia to its frame.
+    /// The rotation from a body's principal axes of inertia to its frame.
     #[must_use]
     pub fn principal_axes(&self, body: usize) -> DQuat {
         self.principal_axes.get(body)
     }
 
-    /// The form of a body, where it has been said: for what happens when bodies touch.
+    /// The shape of a body for contacts, if it has been set.
     #[must_use]
     pub fn shape(&self, body: usize) -> Option<&Shape> {
         self.shapes.get(body)
     }
 
-    /// Whether each body can be elsewhere at another time: it is not fixed and its mass is positive, or its motion is given.
+    /// Whether each body can change its position: its motion is given, or it is not fixed and its mass is positive.
     #[must_use]
     pub fn movable(&self) -> &[bool] {
         &self.movable
     }
 
-    /// Whether bodies that do not meet can be advanced one after another: no force and no constraint leads from one to another, and
-    /// nothing does work that is counted as it is done.
+    /// Whether bodies that do not meet can be advanced one after another: no force or constraint couples bodies, and no work is counted
+    /// as it is done.
     pub(super) fn is_local(&self) -> bool {
         self.constraints.is_empty()
             && self.motions.is_empty()
@@ -115,17 +115,18 @@ impl Model {
             && self.forces.iter().all(|force| force.is_local())
     }
 
-    /// From now on, only some bodies are advanced, in rising order; or all again. Methods may leave the others where they are.
+    /// From now on, only these bodies, in rising order, are advanced; `None` for all. Methods may leave the others unchanged.
     pub(super) fn focus(&mut self, bodies: Option<Vec<usize>>) {
         self.focus = bodies;
     }
 
-    /// The bodies that are advanced at present, in rising order, if these are not all.
+    /// The bodies that are advanced at present, in rising order; `None` for all.
     pub(super) fn in_focus(&self) -> Option<&[usize]> {
         self.focus.as_deref()
     }
 
-    /// Whether some force depends on velocities, or does work without a potential. Its value at one place is then not enough for a step.
+    /// Whether some force depends on velocities, or does work without a potential. A step then needs more than its value at the
+    /// positions.
     pub(super) fn depends_on_motion(&self) -> bool {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
     }
@@ -140,24 +141,24 @@ impl Model {
         self.forces.iter().find_map(|force| force.gravitation())
     }
 
-    /// Whether the motion of some body that is there is given.
+    /// Whether a present body follows a given motion.
     pub(super) fn has_guided(&self) -> bool {
         self.guided().next().is_some()
     }
 
-    /// Whether no body is moved by forces, be it there or not.
+    /// Whether no body, present or absent, is moved by forces.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()
             && self.inverse_mass.iter().all(|&inverse| inverse == 0.0)
             && self.away.iter().flatten().all(|away| away.is_given())
     }
 
-    /// Whether loads move a body, as long as it is not held at rest.
+    /// Whether loads move a body when it is not held at rest.
     pub(super) fn can_move(&self, body: usize) -> bool {
         self.inverse_mass[body] != 0.0 || self.frozen.contains_key(&body)
     }
 
-    /// Holds a body at rest: no load moves it, until it is let go again.
+    /// Holds a body at rest: no load moves it until it is released.
     pub(super) fn freeze(&mut self, body: usize, state: &mut State) {
         let constants = (self.inverse_mass[body], self.inverse_inertia[body]);
         self.frozen.insert(body, constants);
@@ -166,7 +167,7 @@ impl Model {
         self.unmoved.push(body);
     }
 
-    /// Lets a body go that was held at rest.
+    /// Releases a body that was held at rest.
     pub(super) fn thaw(&mut self, body: usize) {
         if let Some(constants) = self.frozen.remove(&body) {
             (self.inverse_mass[body], self.inverse_inertia[body]) = constants;
@@ -186,13 +187,13 @@ impl Model {
         self.torque.get(body)
     }
 
-    /// The forces that act, beside the bodies' own constant ones.
+    /// The forces, except the constant ones of the bodies.
     #[must_use]
     pub fn forces(&self) -> &[Arc<dyn Force>] {
         &self.forces
     }
 
-    /// Why a run cannot go on, where a force without a finite value is behind it.
+    /// Adds the cause of a breakdown, if a force without a finite value is behind it.
     pub(super) fn cause(&self, breakdown: Breakdown) -> Breakdown {
         let (Breakdown::Diverged { .. } | Breakdown::Stalled { .. }) = breakdown else { return breakdown };
         let undefined = |(force, it): (usize, &Arc<dyn Force>)| it.undefined().map(|at| (force, at));
@@ -208,7 +209,7 @@ impl Model {
         &self.constraints
     }
 
-    /// The motion of a body, if it is given.
+    /// The given motion of a body, if there is one.
     pub(super) fn motion(&self, body: usize) -> Option<Arc<dyn Motion>> {
         self.motions.iter().find(|(other, _)| *other == body).map(|(_, motion)| motion.clone())
     }
@@ -222,7 +223,7 @@ impl Model {
         self.effort = effort;
     }
 
-    /// Makes room for so many more bodies.
+    /// Reserves memory for more bodies.
     pub(super) fn reserve(&mut self, bodies: usize) {
         self.mass.reserve_exact(bodies);
         self.charge.reserve_exact(bodies);
@@ -232,13 +233,13 @@ impl Model {
         self.movable.reserve_exact(bodies);
     }
 
-    /// Takes in a body; its entry in `state` is made at the same time, so that the two cannot disagree.
+    /// Adds a body. Its entry in `state` is made at the same time, so that both always agree.
     pub(super) fn push(&mut self, body: &RigidBody, state: &mut State) {
         let index = self.len();
         let movable = !body.fixed && body.mass > 0.0;
         let inverse = |x: f64| if movable && x > 0.0 { 1.0 / x } else { 0.0 };
         let inverse_inertia = body.inertia.map(inverse);
-        // Without a turn, the product would be the same but for signs of zeros.
+        // Without a rotation, the product differs only in signs of zeros.
         let turned = body.principal_axes != DQuat::IDENTITY;
         let orientation = if turned { body.orientation * body.principal_axes } else { body.orientation };
         let orientation = orientation.normalize();
@@ -256,8 +257,8 @@ impl Model {
         self.force.set(index, body.force);
         self.set_constant_torque(index, body.torque);
 
-        // A body that does not move enters at rest: with zero loads nothing then moves it, and no method of
-        // integration needs to know that there are such bodies.
+        // A body that does not move starts at rest. Zero loads keep it there, so no integration method needs a special case for such
+        // bodies.
         let (velocity, angular_momentum) = if movable {
             let in_body = orientation.conjugate() * body.angular_velocity;
             (body.velocity, orientation * (body.inertia * in_body))
@@ -270,7 +271,7 @@ impl Model {
         state.angular_momentum.push(angular_momentum);
     }
 
-    /// From now on, a body follows a motion that is given. Its inverse mass is 0: nothing else moves it.
+    /// From now on, a body follows a given motion. Its inverse mass becomes 0, so that nothing else moves it.
     pub(super) fn drive(&mut self, body: usize, motion: Arc<dyn Motion>) {
         let is_fixed = !self.movable[body];
         let is_driven = !is_fixed && self.inverse_mass[body] == 0.0;
@@ -282,30 +283,30 @@ impl Model {
         self.motions.push((body, motion));
         self.movable[body] = true;
         self.inverse_mass[body] = 0.0;
-        // The angular velocity follows from the angular momentum by this.
+        // The angular velocity is computed from the angular momentum with this.
         self.inverse_inertia[body] =
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }
 
-    /// The bodies that are there and whose motion is given, each with that.
+    /// The present bodies with a given motion.
     fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
         let present = self.motions.iter().filter(|(i, _)| self.is_present(*i));
         present.map(|(i, motion)| (*i, &**motion))
     }
 
-    /// Sets the forces on the bodies whose motion is given to what that takes, m a.
+    /// Sets the forces on bodies with a given motion to m a, the force that this motion requires.
     pub(super) fn guide(&self, t: f64, loads: &mut Loads) {
         for (i, motion) in self.guided() {
             loads.force[i] = self.mass[i] * motion.at(t).acceleration;
         }
     }
 
-    /// Puts the bodies whose motion is given where they are at time `t`, as far as they are there.
+    /// Places all present bodies with a given motion at time `t`.
     pub fn place(&self, t: f64, state: &mut State) {
         self.guided().for_each(|(i, motion)| self.place_body(i, &motion.at(t), state));
     }
 
-    /// Gives one body the place and the motion of `given`.
+    /// Sets the position and motion of one body to `given`.
     pub(super) fn place_body(&self, i: usize, given: &Kinematics, state: &mut State) {
         let orientation = (given.orientation * self.principal_axes.get(i)).normalize();
         let in_body = orientation.conjugate() * given.angular_velocity;
@@ -319,7 +320,7 @@ impl Model {
         self.forces.push(force);
     }
 
-    /// Says the form of the next body of which it has not been said.
+    /// Sets the shape of the next body without one.
     pub(super) fn push_shape(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
@@ -342,8 +343,8 @@ impl Model {
         }
     }
 
-    /// Sums up all forces and torques at `time` into `loads`; whatever was in there is gone. What constraints take is not
-    /// among them: [`System::evaluate`](super::System::evaluate) adds it.
+    /// Sums up all forces and torques at `time` in `loads`, and replaces its contents. Constraint forces are not included:
+    /// [`System::evaluate`](super::System::evaluate) adds them.
     ///
     /// Loads on bodies that do not move are zero: whatever holds the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
@@ -351,8 +352,8 @@ impl Model {
         self.bear(state, loads);
     }
 
-    /// Sums up the forces on the bodies of a range alone, also on those that no load moves; torques and work stay as they are. False
-    /// where some force can only be evaluated for all bodies: then the loads mean nothing.
+    /// Sums up the forces on a range of bodies only, including bodies that no load moves; torques and work are unchanged. Returns false
+    /// if some force can only be evaluated for all bodies; the loads are then invalid.
     pub(super) fn sum_part(&self, bodies: Range<usize>, time: f64, state: &State, loads: &mut Loads) -> bool {
         loads.force.resize(self.len(), DVec3::ZERO);
         self.force.write_part(&mut loads.force, bodies.clone());
@@ -360,7 +361,7 @@ impl Model {
         self.forces.iter().all(|force| force.apply_to(bodies.clone(), &moment, loads))
     }
 
-    /// The sum of all forces and torques, also on bodies that no load moves.
+    /// The sum of all forces and torques, including those on bodies that no load moves.
     pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
         if self.sum_in_focus(time, state, loads) {
             return;
@@ -377,8 +378,8 @@ impl Model {
         }
     }
 
-    /// The same for the bodies that are advanced at present; the loads on others mean nothing then. False where all are advanced, or where some
-    /// force can only be evaluated for all.
+    /// The same for the bodies in focus; the loads on others are then invalid. Returns false if all bodies are advanced, or some force
+    /// can only be evaluated for all.
     fn sum_in_focus(&self, time: f64, state: &State, loads: &mut Loads) -> bool {
         let Some(bodies) = self.in_focus().filter(|_| !self.turns_bodies() && !self.depends_on_motion())
         else {
@@ -394,10 +395,10 @@ impl Model {
         })
     }
 
-    /// Takes away the loads on bodies that no load moves, since whatever holds or guides them bears these.
+    /// Removes the loads on bodies that no load moves, since their support or guide bears them.
     pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
-            // The guide of the body bears the loads on it, and does their work with the opposite sign.
+            // The guide of a body bears the loads on it, and does their work with the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
             loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }
@@ -418,7 +419,7 @@ impl Model {
         self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
     }
 
-    /// The velocity and the angular velocity that an impulse and its moment about the centre of mass give a body.
+    /// The velocity and the angular velocity that a body gets from an impulse and its moment about the centre of mass.
     pub(super) fn respond(&self, i: usize, state: &State, (push, moment): (DVec3, DVec3)) -> (DVec3, DVec3) {
         let inverse_mass = self.inverse_mass[i];
         if inverse_mass == 0.0 {
@@ -428,7 +429,7 @@ impl Model {
         (inverse_mass * push, turn * (inverse * (turn.conjugate() * moment)))
     }
 
-    /// The orientation of a body (`world_from_body`); a state holds that of its principal axes.
+    /// The orientation of a body (`world_from_body`). A state stores that of its principal axes.
     #[must_use]
     pub fn world_from_body(&self, body: usize, state: &State) -> DQuat {
         let (orientation, axes) = (state.orientation[body], self.principal_axes(body));
@@ -441,7 +442,7 @@ impl Model {
         let inverse = self.inverse_inertia[i];
         let angular_momentum = state.angular_momentum[i];
         if is_isotropic(inverse) {
-            // All axes are principal axes: R cancels.
+            // With equal moments, all axes are principal axes, so R cancels.
             return inverse.x * angular_momentum;
         }
         let world_from_body = state.orientation[i];
@@ -454,11 +455,11 @@ pub(super) fn is_isotropic(moments: DVec3) -> bool {
     moments.x == moments.y && moments.y == moments.z
 }
 
-/// A quantity of the bodies that most scenes do not have: those behind the last body that has it take no memory.
+/// A quantity that most bodies do not have. Bodies after the last one with it take no memory.
 #[derive(Clone, Default)]
 struct Sparse<T>(Vec<T>);
 
-/// The value of a quantity for a body that has none.
+/// The default value of a quantity.
 trait Nothing: Copy + PartialEq {
     const NOTHING: Self;
 }
@@ -485,7 +486,7 @@ impl<T: Nothing> Sparse<T> {
         }
     }
 
-    /// Writes the values of so many bodies.
+    /// Writes the values of the first `bodies` bodies.
     fn write(&self, out: &mut Vec<T>, bodies: usize) {
         out.clone_from(&self.0);
         out.resize(bodies, T::NOTHING);

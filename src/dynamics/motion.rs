@@ -1,4 +1,4 @@
-//! Motion that is given, and not a consequence of forces.
+//! Given motion, which does not follow from forces.
 
 use glam::{DQuat, DVec3};
 
@@ -17,7 +17,7 @@ pub struct Kinematics {
     pub angular_velocity: DVec3,
 }
 
-/// A motion that is given: where a body is at any time, whatever acts on it.
+/// A given motion: the position of a body at any time, regardless of forces.
 pub trait Motion: Send + Sync {
     /// The pose and the motion of the body at time `t`, s. Velocities and acceleration must be the derivatives of the pose.
     fn at(&self, t: f64) -> Kinematics;

@@ -1,18 +1,18 @@
-//! When bodies are there: their births and deaths.
+//! The presence of bodies: their births and deaths.
 
 use std::sync::Arc;
 
-/// The times at which a body is there: always, or during some intervals. Both ends belong to an interval.
+/// The times at which a body is present: always, or during some intervals. Both ends belong to an interval.
 ///
-/// A body that is not there does not move, has no energy and no momentum, and no force acts on it or comes from it.
+/// An absent body does not move, has no energy and no momentum, and neither exerts nor feels forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Presence(Option<Arc<[[f64; 2]]>>);
 
 impl Presence {
-    /// A body that is always there.
+    /// A body that is always present.
     pub const ALWAYS: Presence = Presence(None);
 
-    /// A body that is there during these intervals (s), which follow each other and do not touch.
+    /// A body that is present during these intervals (s). They are in rising order, and do not touch.
     #[must_use]
     pub fn during(intervals: &[[f64; 2]]) -> Presence {
         if let [[start, end]] = *intervals
@@ -24,19 +24,19 @@ impl Presence {
         Presence(Some(intervals.into()))
     }
 
-    /// Whether the body is always there.
+    /// Whether the body is always present.
     #[must_use]
     pub fn is_always(&self) -> bool {
         self.0.is_none()
     }
 
-    /// The intervals in which the body is there, s.
+    /// The intervals in which the body is present, s.
     #[must_use]
     pub fn intervals(&self) -> &[[f64; 2]] {
         self.0.as_deref().unwrap_or(&[[f64::NEG_INFINITY, f64::INFINITY]])
     }
 
-    /// Whether the body is there at time `t`, s.
+    /// Whether the body is present at time `t`, s.
     #[must_use]
     pub fn at(&self, t: f64) -> bool {
         let Some(intervals) = &self.0 else { return true };
@@ -44,20 +44,20 @@ impl Presence {
         begun > 0 && t <= intervals[begun - 1][1]
     }
 
-    /// Whether the body is there at some time from `start` to `end`, s.
+    /// Whether the body is present at some time from `start` to `end`, s.
     #[must_use]
     pub fn meets(&self, start: f64, end: f64) -> bool {
         self.intervals().iter().any(|[from, to]| *from <= end && start <= *to)
     }
 
-    /// The first time at which the body is there that is not before `t`, s.
+    /// The first time from `t` on at which the body is present, s.
     #[must_use]
     pub fn first_from(&self, t: f64) -> Option<f64> {
         let mut ahead = self.intervals().iter().filter(|[_, end]| *end >= t);
         ahead.next().map(|[start, _]| start.max(t))
     }
 
-    /// The body is there when both say so.
+    /// The intersection: the body is present when both say so.
     #[must_use]
     pub fn and(&self, other: &Presence) -> Presence {
         match (&self.0, &other.0) {
@@ -75,8 +75,8 @@ impl Presence {
     }
 }
 
-/// A change of a body's presence. At the same time, births come before deaths, so a body whose interval is a single moment is
-/// present at that moment.
+/// A change of a body's presence. At equal times, births come before deaths, so a body whose interval is a single moment is present at
+/// that moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Change {
     Birth,
@@ -91,36 +91,36 @@ struct Event {
     body: usize,
 }
 
-/// The births and deaths that are to come in a run.
+/// The future births and deaths of a run.
 #[derive(Clone, Default)]
 pub(super) struct Calendar {
-    /// In the order of their times, once it is sorted.
+    /// In order of time, once sorted.
     events: Vec<Event>,
-    /// How many of them are over.
+    /// The number of past events.
     over: usize,
     is_sorted: bool,
 }
 
-/// A time in which nobody comes or goes, and the moments in it.
+/// An interval without births or deaths, and the moments in it.
 pub(super) struct Leg<'a> {
-    /// When it ends, s.
+    /// The time of its end, s.
     pub(super) end: f64,
     /// The moments before its end, s.
     pub(super) within: &'a [f64],
-    /// The moments at its end, when those that are born then are there already, and those that die then are there still.
+    /// The moments at its end, when bodies born then are already present, and bodies that die then are still present.
     pub(super) at_end: &'a [f64],
     /// The moments after it.
     pub(super) later: &'a [f64],
 }
 
 impl Calendar {
-    /// Notes the births and deaths of a body after time `t`; whether the body is there now.
+    /// Notes the births and deaths of a body after time `t`. Returns whether the body is present now.
     pub(super) fn note(&mut self, body: usize, presence: &Presence, t: f64) -> bool {
         self.events.drain(..std::mem::take(&mut self.over));
         self.is_sorted = false;
         for &[start, end] in presence.intervals() {
             for (time, change) in [(start, Change::Birth), (end, Change::Death)] {
-                // A death at this very moment is still to come: the body is there now.
+                // A death at time `t` itself is still to come: the body is present now.
                 if time > t && time < f64::INFINITY || time == t && change == Change::Death {
                     self.events.push(Event { time, change, body });
                 }
@@ -135,7 +135,7 @@ impl Calendar {
         self.events.get(self.over).map(|event| event.time)
     }
 
-    /// The way to time `t` up to the next birth or death, and which of the moments that somebody wants to see, in rising order, are on it.
+    /// The interval up to the next birth or death, but at most to `t`, with the requested moments (in rising order) in it.
     pub(super) fn leg<'a>(&mut self, t: f64, moments: &'a [f64]) -> Leg<'a> {
         let end = self.next().map_or(t, |next| next.min(t));
         let (within, rest) = moments.split_at(moments.partition_point(|&moment| moment < end));
@@ -143,13 +143,13 @@ impl Calendar {
         Leg { end, within, at_end, later }
     }
 
-    /// The changes when time `t` is reached: a body born then is present, and one that dies then still is. Each body is given
-    /// with its presence.
+    /// The changes when time `t` is reached: a body born then is present, and one that dies then still is. Each body comes with its new
+    /// presence.
     pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
     }
 
-    /// The changes when time goes on from `t`: a body that dies then is no longer present.
+    /// The changes when time continues from `t`: a body that dies then is no longer present.
     pub(super) fn depart(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time <= t)
     }
@@ -180,7 +180,7 @@ impl Calendar {
         self.over
     }
 
-    /// Goes to where so many births and deaths are over.
+    /// Skips to a number of past births and deaths.
     pub(super) fn set_over(&mut self, over: usize) {
         self.sort();
         self.over = over.min(self.events.len());
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(calendar.next(), Some(1.0));
         assert_eq!(calendar.arrive(1.0), [(1, true)]);
         assert_eq!(calendar.depart(1.0), [(0, false), (1, false)]);
-        // Changes in between come together.
+        // Several changes are reported together.
         assert_eq!(calendar.arrive(9.0), [(1, true), (1, false)]);
         assert_eq!(calendar.next(), None);
     }

@@ -9,11 +9,11 @@ use super::{Balance, BodyId, ContactSnapshot, Loads, Model, Reaction, State, Und
 pub struct Snapshot {
     /// The time, s.
     pub time: f64,
-    /// The bodies that are there, in the order of their ids.
+    /// The present bodies, in the order of their ids.
     pub bodies: Vec<BodySnapshot>,
     /// The reactions of constraints on the bodies, in the order in which they were added.
     pub reactions: Vec<Reaction>,
-    /// The places where bodies touch and stay in touch, in the order of their ids.
+    /// The lasting contacts, in the order of the ids of their bodies.
     pub contacts: Vec<ContactSnapshot>,
     /// The greatest penetration of bodies, m; 0 if contacts are exact, or there are none.
     pub penetration: f64,
@@ -28,18 +28,18 @@ pub struct BodySnapshot {
     pub id: usize,
     /// Its centre of mass, m.
     pub location: DVec3,
-    /// The rotation that takes its own axes to the world's.
+    /// The rotation from its own axes to the world's.
     pub orientation: DQuat,
     /// Its velocity, m/s.
     pub velocity: DVec3,
     /// Its angular velocity in world axes, rad/s.
     pub angular_velocity: DVec3,
-    /// The sum of the forces on it, N; m a where its motion is given.
+    /// The sum of the forces on it, N; m a if its motion is given.
     pub force: DVec3,
 }
 
 impl BodySnapshot {
-    /// The bodies that are there, in the order of their ids. `loads` has the sums of the forces on them.
+    /// The present bodies, in the order of their ids. `loads` has the sums of the forces on them.
     pub(super) fn of_all(model: &Model, state: &State, loads: &Loads) -> Vec<BodySnapshot> {
         let body = |id: usize| BodySnapshot {
             id,
@@ -53,33 +53,33 @@ impl BodySnapshot {
     }
 }
 
-/// Why a run cannot go on.
+/// The reason why a run cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
-    /// A body is at no finite place, or has no finite velocity: the method cannot follow this motion at this step.
+    /// A body's position or velocity is not finite: the method cannot follow this motion with this step.
     Diverged {
         /// The body.
         body: BodyId,
         /// The time, s.
         time: f64,
     },
-    /// A force has no finite value on a body, and so neither has its motion.
+    /// A force on a body has no finite value, so its motion has none either.
     Undefined {
-        /// The number of the force, in the order in which forces were added.
+        /// The index of the force, in the order in which forces were added.
         force: usize,
-        /// On which body, when and where.
+        /// The body, the time and the position.
         at: Undefined,
     },
     /// A constraint cannot be kept.
     Broken {
-        /// Its number, in the order in which constraints were added.
+        /// Its index, in the order in which constraints were added.
         constraint: usize,
         /// The time, s.
         time: f64,
         /// The error of the joint, in metres, or in radians for a rotation.
         missing: f64,
     },
-    /// Two bodies are within each other where contacts begin.
+    /// Two bodies overlap when contacts begin.
     Overlapping {
         /// The bodies.
         bodies: [BodyId; 2],
@@ -95,7 +95,7 @@ pub enum Breakdown {
         /// The time, s.
         time: f64,
     },
-    /// Impacts follow each other without end.
+    /// Impacts follow each other endlessly.
     Jammed {
         /// The bodies of the last impact.
         bodies: [BodyId; 2],
@@ -105,16 +105,16 @@ pub enum Breakdown {
 }
 
 impl Snapshot {
-    /// A body, if it is there.
+    /// A body, if it is present.
     #[must_use]
     pub fn body(&self, id: usize) -> Option<&BodySnapshot> {
         find(&self.bodies, id)
     }
 
-    /// The snapshot, unless a body is at no finite place.
+    /// The snapshot, unless a body's position or velocity is not finite.
     ///
     /// # Errors
-    /// Names the first body that is not.
+    /// Names the first such body.
     pub fn checked(self) -> Result<Snapshot, Breakdown> {
         match self.bodies.iter().find(|body| !body.is_finite()) {
             None => Ok(self),
@@ -123,9 +123,9 @@ impl Snapshot {
     }
 }
 
-/// The body of an id among some, in the order of their ids.
+/// The body with an id, from a list in the order of ids.
 pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> {
-    // Most runs have all bodies all the time.
+    // In most runs, all bodies are always present.
     match bodies.get(id) {
         Some(body) if body.id == id => Some(body),
         _ => bodies.binary_search_by_key(&id, |body| body.id).ok().map(|place| &bodies[place]),
@@ -133,7 +133,7 @@ pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> 
 }
 
 impl BodySnapshot {
-    /// Whether the body is at a finite place and moves at a finite velocity.
+    /// Whether the body's position and velocity are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.location.is_finite()
@@ -142,7 +142,7 @@ impl BodySnapshot {
             && self.angular_velocity.is_finite()
     }
 
-    /// The place and velocity of a point of the body. The point is given in the body's own axes, from its centre of mass, m.
+    /// The position and velocity of a point of the body. The point is given in the body's own axes, relative to its centre of mass, m.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         if at == DVec3::ZERO {

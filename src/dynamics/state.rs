@@ -1,38 +1,38 @@
-//! All that changes as time goes on.
+//! Everything that changes with time.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 /// The state of all bodies at one moment: one list for each quantity, one entry for each body.
 ///
-/// Rotation is kept as angular momentum, not angular velocity: it is what torque changes, and a free body keeps it
-/// exactly. [`Model::angular_velocity`](super::Model::angular_velocity) gives the other.
+/// Rotation is stored as angular momentum instead of angular velocity: torque changes it directly, and a free body conserves it exactly.
+/// [`Model::angular_velocity`](super::Model::angular_velocity) gives the angular velocity.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Locations of the centres of mass, m.
     pub location: Vec<DVec3>,
     /// Velocities of the centres of mass, m/s.
     pub velocity: Vec<DVec3>,
-    /// Orientations of the principal axes of inertia, unit quaternions; but for compounds, `world_from_body`.
-    /// [`World::orientation`](super::World::orientation) is that of any body.
+    /// Orientations of the principal axes of inertia, unit quaternions. They equal `world_from_body`, except for compounds and meshes.
+    /// [`World::orientation`](super::World::orientation) is right for all bodies.
     pub orientation: Vec<DQuat>,
     /// Angular momenta, each about the body's own centre of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,
-    /// The energy that has been brought in so far by what has no potential. It is integrated along with the motion, so
-    /// that energy can be balanced to the accuracy of the method.
+    /// The energy brought in so far by everything without a potential. It is integrated along with the motion, so that energy balances to
+    /// the accuracy of the method.
     pub accounts: Accounts,
 }
 
-/// The energy brought in so far by each thing that has no potential, J; negative where energy was taken out. To add an
-/// account, add a field here, in [`NAMES`](Self::NAMES), and in the two functions below.
+/// The energy brought in so far by everything without a potential, J; negative if energy was removed. To add an account, add a field
+/// here, in [`NAMES`](Self::NAMES), and in the two functions below.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accounts {
     /// The work of the forces without a potential: the integral of their power over time.
     pub work: f64,
     /// The work of the motors of joints.
     pub motors: f64,
-    /// The energy lost when a joint hits a limit or a rope becomes taut; never positive. In time stepping, it also holds the
-    /// energy that joints take and give as they yield.
+    /// The energy lost when a joint hits a limit or a rope becomes taut; never positive. In time-stepping, it also holds the energy that
+    /// yielding joints absorb and release.
     pub limits: f64,
     /// The energy lost at impacts; never positive.
     pub impacts: f64,
@@ -75,7 +75,7 @@ impl Accounts {
         Self { work, motors, limits, impacts, friction }
     }
 
-    /// Adds `factor` times each entry of others: with powers (W) and a time (s), what they bring in meanwhile.
+    /// Adds `factor` times each entry of `others`: for powers (W) and a time (s), the energy brought in during that time.
     pub fn add(&mut self, factor: f64, others: Accounts) {
         let (own, others) = (self.to_array(), others.to_array());
         *self = Accounts::from_array(std::array::from_fn(|i| own[i] + factor * others[i]));
@@ -89,7 +89,7 @@ impl Accounts {
 }
 
 impl State {
-    /// Makes room for so many more bodies.
+    /// Reserves memory for more bodies.
     pub(super) fn reserve(&mut self, bodies: usize) {
         self.location.reserve_exact(bodies);
         self.velocity.reserve_exact(bodies);
@@ -97,7 +97,7 @@ impl State {
         self.angular_momentum.reserve_exact(bodies);
     }
 
-    /// Takes over some bodies from another state of as many bodies, or all if none are named; and its accounts.
+    /// Copies some bodies, or all if `None`, from another state of as many bodies, and its accounts.
     pub(super) fn take_over(&mut self, source: &State, bodies: Option<&[usize]>) {
         let Some(bodies) = bodies else {
             self.clone_from(source);
@@ -125,7 +125,7 @@ impl State {
     }
 }
 
-// Written by hand for the sake of `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
+// Written by hand for `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
 impl Clone for State {
     fn clone(&self) -> Self {
         Self {

@@ -1,19 +1,19 @@
-//! A motion that is known at some times: keyframes, or the record of another simulation.
+//! A motion given at some times: keyframes, or the record of another simulation.
 
 use glam::{DQuat, DVec3};
 
 use super::{Kinematics, Motion};
 
-/// How the motion goes from one known place to the next.
+/// The interpolation between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Straight and evenly: velocities jump.
+    /// Linear interpolation: velocities jump.
     Linear,
     /// Interpolation by cubic Hermite polynomials: velocities are continuous.
     Cubic,
 }
 
-/// A place at a time.
+/// A pose at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
     /// The time, s.
@@ -22,33 +22,33 @@ pub struct Key {
     pub location: DVec3,
     /// The orientation (`world_from_body`).
     pub orientation: DQuat,
-    /// The velocity (m/s), where it is known.
+    /// The velocity (m/s), if known.
     pub velocity: Option<DVec3>,
-    /// The angular velocity (world axes, rad/s), where it is known.
+    /// The angular velocity (world axes, rad/s), if known.
     pub angular_velocity: Option<DVec3>,
 }
 
-/// A motion through known places. Before the first and after the last, the body rests there.
+/// A motion through given poses. Before the first and after the last, the body is at rest there.
 #[derive(Clone, Debug)]
 pub struct Track {
     keys: Vec<Key>,
     interpolation: Interpolation,
-    /// With cubic interpolation: the slope of location and orientation at each key.
+    /// For cubic interpolation: the slopes of location and orientation at each key.
     slopes: Vec<(DVec3, DQuat)>,
 }
 
 impl Track {
     /// The motion through some keys, whose times must rise.
     ///
-    /// Where a key of a cubic track has no velocity, the slope is that of the parabola through it and its neighbours;
-    /// at both ends, `at_rest` says that it is 0, and not that of the first or last two keys.
+    /// If a key of a cubic track has no velocity, its slope is that of the parabola through it and its neighbours. At both ends,
+    /// `at_rest` sets this slope to 0 instead of that between the two end keys.
     #[must_use]
     pub fn new(keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
         Track::with_gaps(keys, &[], interpolation, at_rest)
     }
 
-    /// The same track with gaps. Each gap is given by the number of the key behind it, in rising order. The slopes of each part
-    /// between gaps depend on that part alone.
+    /// The same track with gaps. Each gap is given by the index of the key after it, in rising order. The slopes of each part between
+    /// gaps depend on that part alone.
     #[must_use]
     pub fn with_gaps(
         mut keys: Vec<Key>,
@@ -56,7 +56,7 @@ impl Track {
         interpolation: Interpolation,
         at_rest: bool,
     ) -> Track {
-        // q and −q are the same orientation; neighbours are written so that the way between them is the short one.
+        // q and −q are the same orientation. The signs are chosen so that the rotation between neighbours is the shorter one.
         for i in 1..keys.len() {
             if keys[i].orientation.dot(keys[i - 1].orientation) < 0.0 {
                 keys[i].orientation = -keys[i].orientation;
@@ -70,7 +70,7 @@ impl Track {
         Track { keys, interpolation, slopes }
     }
 
-    /// The times of the first and the last key, s; none if there is no key.
+    /// The times of the first and the last key, s; `None` if there is no key.
     #[must_use]
     pub fn span(&self) -> Option<[f64; 2]> {
         Some([self.keys.first()?.time, self.keys.last()?.time])
@@ -120,7 +120,7 @@ impl Motion for Track {
         };
         let (Some(a), Some(b)) = (after.checked_sub(1).map(|i| &self.keys[i]), self.keys.get(after)) else {
             let end = if after == 0 { self.keys.first() } else { self.keys.last() };
-            // At the very end, the body still moves.
+            // At the exact end, the body still moves.
             return match end {
                 Some(last) if after > 1 && last.time == t => self.between(after - 2, t),
                 Some(key) => rest(key),
@@ -146,7 +146,7 @@ impl Motion for Track {
     }
 }
 
-/// A quaternion that is not of unit length, with its derivatives with respect to time.
+/// A quaternion of any length, with its time derivatives.
 struct Turning {
     quaternion: DQuat,
     rate: DQuat,
@@ -154,8 +154,8 @@ struct Turning {
 }
 
 impl Turning {
-    /// With w = Q' Q* / |Q|², the angular velocity is twice its vector part, and the acceleration
-    /// 2 vec(Q'' Q*) / |Q|² − 2 Re(w) ω: the length of Q turns nothing.
+    /// With w = Q' Q* / |Q|², the angular velocity is twice its vector part, and the angular acceleration is 2 vec(Q'' Q*) / |Q|² − 2
+    /// Re(w) ω. The length of Q has no effect on the rotation.
     fn acceleration(&self) -> DVec3 {
         let per_square = 1.0 / self.quaternion.length_squared();
         let conjugate = self.quaternion.conjugate() * per_square;
@@ -189,7 +189,7 @@ impl Track {
         let Turning { quaternion, rate, .. } = self.turning(i, t);
         let length = quaternion.length();
         let orientation = quaternion * (1.0 / length);
-        // The part of the rate that turns; the rest lengthens, which the division by the length undoes.
+        // The part of the rate that rotates. The rest changes the length, which the division by the length undoes.
         let turning = rate * (1.0 / length) * orientation.conjugate();
         Kinematics {
             location: a.location * h00 + m0 * h10 + b.location * h01 + m1 * h11,
@@ -200,7 +200,7 @@ impl Track {
         }
     }
 
-    /// How it turns between a key and the next, where the interpolation is cubic.
+    /// The rotation between a key and the next with cubic interpolation.
     fn turning(&self, i: usize, t: f64) -> Turning {
         let (a, b) = (&self.keys[i], &self.keys[i + 1]);
         let duration = b.time - a.time;
@@ -216,7 +216,7 @@ impl Track {
     }
 }
 
-/// The cubic Hermite polynomials: of the place at the beginning, the slope there, the place at the end, the slope there.
+/// The cubic Hermite polynomials: for the value and the slope at the start, then for the value and the slope at the end.
 fn hermite(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
     [(1.0 + 2.0 * s) * r * r, s * r * r, s * s * (3.0 - 2.0 * s), -s * s * r]
@@ -237,7 +237,7 @@ fn hermite_curvature(s: f64) -> [f64; 4] {
 mod tests {
     use super::*;
 
-    /// A body on a circle that turns with it.
+    /// A body that moves on a circle and rotates with it.
     fn key(t: f64, known: bool) -> Key {
         let (sin, cos) = libm::sincos(t);
         Key {
@@ -250,12 +250,12 @@ mod tests {
     }
 
     fn circle(interpolation: Interpolation, known: bool, step: f64) -> Track {
-        // More than a full turn, so that quaternions change their sign.
+        // More than a full rotation, so that quaternions change their sign.
         let keys = (0..).map(|i| f64::from(i) * step).take_while(|t| *t <= 8.0);
         Track::new(keys.map(|t| key(t, known)).collect(), interpolation, false)
     }
 
-    /// The largest error of the place, between keys in the middle of the track.
+    /// The largest position error between keys in the middle of the track.
     fn error(track: &Track) -> f64 {
         let times = (0..1000).map(|i| 2.0 + f64::from(i) * 0.004);
         let off = |t: f64| {
@@ -266,7 +266,7 @@ mod tests {
         times.map(off).fold(0.0, f64::max)
     }
 
-    /// Halving the step divides the error by 2ᵖ: p is 2 for lines, 3 for slopes of parabolas, 4 for known slopes.
+    /// Halving the step divides the error by 2ᵖ: p is 2 for linear interpolation, 3 for slopes of parabolas, 4 for known slopes.
     #[test]
     fn it_goes_through_its_keys_and_is_as_accurate_between_as_its_order_says() {
         use Interpolation::{Cubic, Linear};
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// Compares with difference quotients over 2e-6. Rounding makes them wrong by 1e-16 / 1e-6.
+    /// Compares with difference quotients over 2e-6, whose rounding error is 1e-16 / 1e-6.
     #[test]
     fn velocities_are_the_derivatives_of_the_place() {
         const H: f64 = 1e-6;
@@ -317,7 +317,7 @@ mod tests {
         assert!(track.at(8.0).velocity.length() > 0.9, "at the end it still moves");
         let one = Track::new(vec![key(1.0, false)], Interpolation::Cubic, true);
         assert_eq!(one.at(1.0).location, key(1.0, false).location);
-        // At rest at both ends, a way between two keys is that of a smooth step.
+        // At rest at both ends, the path between two keys is a smooth step.
         let two = Track::new(vec![key(0.0, false), key(1.0, false)], Interpolation::Cubic, true);
         assert_eq!((two.at(0.0).velocity, two.at(1.0).velocity), (DVec3::ZERO, DVec3::ZERO));
         let middle = (key(0.0, false).location + key(1.0, false).location) / 2.0;

@@ -1,4 +1,4 @@
-//! Bodies, forces, a method of integration and a clock.
+//! Bodies, forces, an integration method and a clock.
 
 mod advance;
 mod apart;
@@ -26,13 +26,13 @@ use super::{
     System,
 };
 
-/// The longest timestep where none is set, s.
+/// The default for the longest timestep, s.
 const DEFAULT_STEP: f64 = 1.0 / 240.0;
 
 /// Bodies that move under forces, advanced by one of the [`METHODS`].
 ///
-/// A world does not know where it began: to reset it, build it again. A clone goes on exactly as the original would, and
-/// neither touches the other.
+/// A world does not know its initial state: to reset it, build it again. A clone continues exactly as the original would, and the two are
+/// independent.
 #[derive(Clone)]
 pub struct World {
     time: f64,
@@ -42,32 +42,32 @@ pub struct World {
     method: &'static Method,
     integrator: Box<dyn Integrator>,
     solver: Solver,
-    /// Whether the constraints hold at the state.
+    /// Whether the state satisfies the constraints.
     is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// The bodies that touch each other, if they do.
+    /// Contacts between bodies, if bodies collide.
     collider: Option<Collider>,
-    /// Those that are held at rest.
+    /// The bodies held at rest.
     rest: Rest,
-    /// The contacts of those that time-stepping advances, for somebody who looks; else nothing.
+    /// The contacts of bodies under time-stepping, only filled when a snapshot is taken.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
-    /// Room for the loads at one moment.
+    /// Working memory for the loads at one moment.
     loads: Loads,
     /// The end of the present step, s.
     end: f64,
-    /// Whether it is known what each contact does; after a step in groups, it is not.
+    /// Whether the modes of all contacts are decided; false after a step in groups.
     is_decided: bool,
-    /// What is known of the contacts of each group.
+    /// The solvers of the groups' contacts.
     parts: Vec<Solver>,
-    /// In this many steps, groups are looked for again.
+    /// The number of steps until groups are searched again.
     together: u32,
-    /// Room for the state before a step that is looked into.
+    /// Working memory for the state before a step, for moments within it.
     before: State,
 }
 
-/// What a world consists of, but for its method and its constraints.
+/// The parts of a world, except its method and its constraints.
 pub(super) struct Parts {
     pub(super) time: f64,
     pub(super) step: f64,
@@ -106,42 +106,42 @@ impl World {
         }
     }
 
-    /// What it consists of, for another engine.
+    /// Its parts, for another engine.
     pub(super) fn into_parts(self) -> Parts {
         let World { time, step, model, state, ledger, calendar, .. } = self;
         Parts { time, step, model, state, ledger, calendar }
     }
 
-    /// Makes room for so many more bodies.
+    /// Reserves memory for more bodies.
     pub fn reserve(&mut self, bodies: usize) {
         self.model.reserve(bodies);
         self.state.reserve(bodies);
     }
 
-    /// Adds a body, at any time.
+    /// Adds a body. This is allowed at any time.
     pub fn add(&mut self, body: RigidBody) -> BodyId {
         self.about_to_change();
         self.model.push(&body, &mut self.state);
         BodyId::new(self.model.len() - 1)
     }
 
-    /// Adds bodies' forms, in the order in which the bodies were added.
+    /// Adds the shapes of bodies, in the order in which the bodies were added.
     pub fn add_shapes(&mut self, shapes: impl IntoIterator<Item = Shape>) {
         shapes.into_iter().for_each(|shape| self.model.push_shape(shape));
     }
 
-    /// From now on, a body follows a motion that is given; it still acts on others. Its kinetic energy and its momentum
-    /// are not counted, and what guides it does work.
+    /// From now on, a body follows a given motion; it still acts on others. Its kinetic energy and momentum are not counted, and its
+    /// guide does work.
     pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
         self.follow(body, Arc::new(motion));
     }
 
-    /// Like [`World::drive`], by a motion that others may share.
+    /// Like [`World::drive`], with a motion that can be shared.
     pub fn follow(&mut self, body: BodyId, motion: Arc<dyn Motion>) {
         self.about_to_change();
         let (i, is_present) = (body.index(), self.model.is_present(body.index()));
         if is_present {
-            // This body alone: placing all guided bodies here would make adding n of them take n² placements.
+            // Only this body: placing all guided bodies here would take n² placements for n bodies.
             self.model.place_body(i, &motion.at(self.time), &mut self.state);
             self.model.drive(i, motion);
         } else {
@@ -151,11 +151,10 @@ impl World {
         }
     }
 
-    /// From now on, a body is there only when `presence` says so. One that comes is as it was when it went: one that has not
-    /// been there yet is as it was [added](World::add). Its energy comes and goes with it, and is no drift.
+    /// From now on, a body is present only when `presence` says so. It returns in the state in which it left; before its first
+    /// appearance, that is the state in which it was [added](World::add). Its energy comes and goes with it, without drift.
     ///
-    /// A step ends at each birth and death, but where the motion of all bodies is given: there the bodies change at the end
-    /// of the step.
+    /// A step ends at each birth and death. If the motion of all bodies is given, births and deaths take effect at the end of the step.
     pub fn limit(&mut self, body: BodyId, presence: &Presence) {
         self.about_to_change();
         let i = body.index();
@@ -166,30 +165,30 @@ impl World {
         }
     }
 
-    /// Adds a force, at any time.
+    /// Adds a force. This is allowed at any time.
     pub fn add_force(&mut self, force: impl Force + 'static) {
         self.add_shared_force(Arc::new(force));
     }
 
-    /// Adds a force that others may hold as well, at any time.
+    /// Adds a shared force. This is allowed at any time.
     pub fn add_shared_force(&mut self, force: Arc<dyn Force>) {
         self.about_to_change();
         self.model.push_force(force);
     }
 
-    /// Adds a constraint, at any time. Where it does not hold, the bodies are moved the shortest way to where it does, and
-    /// their velocities lose what leads away from there.
+    /// Adds a constraint. This is allowed at any time. If it is violated, the bodies are moved the shortest distance to satisfy it, and
+    /// the violating components of their velocities are removed.
     pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
         self.add_shared_constraint(Arc::new(constraint));
     }
 
-    /// Adds a constraint that others may hold as well, at any time.
+    /// Adds a shared constraint. This is allowed at any time.
     pub fn add_shared_constraint(&mut self, constraint: Arc<dyn Constraint>) {
         self.about_to_change();
         self.model.push_constraint(constraint);
     }
 
-    /// From now on, bodies touch each other as `contacts` says. Their shapes are those of [`add_shapes`](Self::add_shapes).
+    /// From now on, bodies touch each other by the rules of `contacts`. Their shapes are those of [`add_shapes`](Self::add_shapes).
     pub fn collide(&mut self, contacts: Contacts) {
         self.about_to_change();
         self.collider = Some(Collider::new(contacts));
@@ -207,7 +206,7 @@ impl World {
         self.model.set_constant_torque(body.index(), torque);
     }
 
-    /// Must stand before every change by hand: the books of energy and the integrator rely on it.
+    /// Must be called before every manual change: the energy ledger and the integrator rely on it.
     fn about_to_change(&mut self) {
         self.let_all_go();
         self.about_to_change_some();
@@ -216,7 +215,7 @@ impl World {
         }
     }
 
-    /// The same, where nothing changes for those that are held at rest.
+    /// The same if nothing changes for bodies held at rest.
     fn about_to_change_some(&mut self) {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
@@ -225,7 +224,7 @@ impl World {
         self.is_settled = false;
     }
 
-    /// After changes by hand, before anything is measured or time goes on.
+    /// Must be called after manual changes, before anything is measured or time advances.
     fn settle(&mut self) {
         if !self.is_settled {
             self.is_settled = true;
@@ -237,18 +236,18 @@ impl World {
             system.start(self.time, &mut self.state, &mut self.loads);
             self.is_decided = true;
             self.begin_contacts();
-            // What this gives and takes is booked with the change itself.
+            // This energy is booked with the change itself.
             self.state.accounts = accounts;
         }
     }
 
-    /// Integrates by `method` from now on.
+    /// Selects the integration method from now on.
     pub fn set_integrator(&mut self, method: &'static Method) {
         self.method = method;
         self.integrator = (method.create)();
     }
 
-    /// The method of integration in use.
+    /// The current integration method.
     #[must_use]
     pub fn integrator(&self) -> &'static Method {
         self.method
@@ -278,8 +277,8 @@ impl World {
         self.model.angular_velocity(body.index(), &self.state)
     }
 
-    /// The resultant force on each body at this moment, N. It is evaluated for this call, zero for bodies that do not
-    /// move, and m a for those whose motion is given.
+    /// The resultant force on each body at this moment, N. Each call evaluates it. It is zero for bodies that do not move, and m a for
+    /// those with a given motion.
     pub fn forces(&mut self) -> &[DVec3] {
         self.settle();
         let mut copy = self.decided();
@@ -295,7 +294,7 @@ impl World {
         &self.loads.force
     }
 
-    /// By how much constraints do not hold: the largest value of all their equations, in metres or, of a turn, in radians.
+    /// The largest violation of all constraint equations, in metres, or in radians for rotations.
     pub fn violation(&mut self) -> f64 {
         self.settle();
         self.solver.violation(&self.model, self.time, &self.state)
@@ -308,7 +307,7 @@ impl World {
         self.ledger.measure(&self.model, self.time, &self.state)
     }
 
-    /// From now on, the interactions of pairs are counted there.
+    /// From now on, pair interactions are counted in `effort`.
     pub fn watch(&mut self, effort: &Effort) {
         self.model.watch(effort.clone());
     }
@@ -325,7 +324,7 @@ impl World {
         self.state.is_empty()
     }
 
-    /// What stays as it is while time goes on: masses, inertia and forces.
+    /// Everything that is constant in time: masses, inertia and forces.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
@@ -393,7 +392,7 @@ impl Dynamics for World {
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
-        // Whoever looks changes nothing.
+        // A snapshot must not change the world.
         let mut copy = self.decided();
         let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);

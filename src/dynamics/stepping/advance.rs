@@ -1,4 +1,4 @@
-//! Time integration with the engine: equal steps, births and deaths between them, and moments within them.
+//! Time integration with the engine: equal steps, births and deaths between steps, and moments within them.
 
 use glam::DVec3;
 
@@ -7,10 +7,10 @@ use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::{TimeStepping, bodies, set_step, spin};
 
-/// Angular velocities are the same where they differ by no more than this part.
+/// Angular velocities count as equal if their relative difference is below this.
 const SAME: f64 = 1e-14;
 
-/// Bodies may be so deep within each other at the start, as a part of the thickness of the thinnest.
+/// The largest allowed overlap at the start, as a fraction of the thickness of the thinnest body.
 const DEEPEST: f64 = 0.1;
 
 impl TimeStepping {
@@ -67,7 +67,7 @@ impl TimeStepping {
         Ok(())
     }
 
-    /// A part of the way through the step that was made last: places in between, with the velocities that led to its end.
+    /// The state after a fraction of the last step: interpolated positions, with the velocities at its end.
     fn look_within(&self, part: f64) -> (State, Balance) {
         let (before, mut within) = (&self.before, self.state.clone());
         for i in 0..within.len() {
@@ -82,7 +82,7 @@ impl TimeStepping {
         (within, balance)
     }
 
-    /// Makes one step.
+    /// Makes a single step.
     fn make_step(&mut self, begin: f64, end: f64, dt: f64) -> Result<(), Breakdown> {
         self.ledger.close(&self.model, begin, &self.state);
         self.model.place(begin, &mut self.state);
@@ -109,7 +109,7 @@ impl TimeStepping {
         Ok(())
     }
 
-    /// Bodies that are deep within each other at the start are a mistake: they would shoot apart.
+    /// Bodies that overlap deeply at the start are a mistake: they would shoot apart.
     fn check_start(&mut self, time: f64) -> Result<(), Breakdown> {
         let allowed = DEEPEST * self.engine.integration_parameters.length_unit;
         let Some((bodies, depth)) = self.deepest().filter(|(_, depth)| *depth > allowed) else {
@@ -122,7 +122,7 @@ impl TimeStepping {
         Err(failure)
     }
 
-    /// Tells the engine what acts on the bodies, and how they turn.
+    /// Passes the loads and the rotations of the bodies to the engine.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, .. } = self;
         for (i, handle) in handles.iter().enumerate() {
@@ -140,7 +140,7 @@ impl TimeStepping {
                 spin::leading(from, to, dt)
             };
             books.mean[i].1 = turning;
-            // Fast bodies must not pass through moving ones; the engine sees to those at rest.
+            // Fast bodies must not pass through moving ones. The engine by itself prevents this only for those at rest.
             let is_fast = dt * state.velocity[i].length() > half_thickness[i];
             let Some(body) = engine.bodies.get(*handle) else { continue };
             let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
@@ -165,7 +165,7 @@ impl TimeStepping {
         }
     }
 
-    /// Reads what has become of the bodies.
+    /// Reads the results of a step from the engine.
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, .. } = self;
         books.motors = joints.motor_pushes(engine, state);
@@ -184,15 +184,15 @@ impl TimeStepping {
             if body.is_ccd_enabled()
                 && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
             {
-                // It was stopped at a surface, or a little within it. What is within is soft, and the speed would carry it through: so it
-                // is put a little before the surface.
+                // The engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so its speed would carry
+                // it through. So it is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
                 moved.push((*handle, pose));
             }
             state.location[i] = pose.translation;
             state.orientation[i] = pose.rotation;
             state.velocity[i] = body.linvel();
-            // Contacts and joints act on the inertia at the beginning of the step.
+            // Contacts and joints act on the inertia at the start of the step.
             let change = body.angvel() - books.mean[i].1;
             books.turned[i] = DVec3::ZERO;
             if change != DVec3::ZERO {
@@ -210,7 +210,7 @@ impl TimeStepping {
         }
     }
 
-    /// Lets bodies come and go.
+    /// Adds and removes bodies at births and deaths.
     fn change(&mut self, due: &[(usize, bool)]) {
         if due.is_empty() {
             return;

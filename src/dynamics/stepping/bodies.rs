@@ -11,12 +11,12 @@ use super::super::{Model, State};
 use super::mixing::Mixing;
 use super::{plane, shape};
 
-/// Which bodies are moved by forces, be they there at present or not.
+/// For each body, present or absent, whether forces move it.
 pub(super) fn moving(model: &Model) -> Vec<bool> {
     (0..model.len()).map(|i| model.is_moved_by_forces(i)).collect()
 }
 
-/// The thickness of the thinnest body that moves and touches others, m. It says what is near, and what is fast.
+/// The thickness of the thinnest body that moves and touches others, m. It sets the scale of near and fast.
 pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool]) -> f64 {
     let touches = |i: &usize| moves[*i] && contacts.surfaces.get(*i).is_some_and(Option::is_some);
     let thickness = |i: usize| Some(2.0 * model.shape(i)?.half_thickness()?);
@@ -24,13 +24,13 @@ pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool])
     thinnest.filter(|length| *length > 0.0).unwrap_or(1.0)
 }
 
-/// Half of what each body is thick, m; none for what has no form.
+/// Half of the thickness of each body, m; infinite for bodies without a shape.
 pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
     let of = |i: usize| model.shape(i).and_then(Shape::half_thickness).unwrap_or(f64::INFINITY);
     (0..model.len()).map(of).collect()
 }
 
-/// Puts all bodies into the engine. Those that are not there yet are switched off.
+/// Adds all bodies to the engine. Absent bodies are disabled.
 pub(super) fn insert(
     engine: &mut PhysicsWorld,
     model: &mut Model,
@@ -65,7 +65,7 @@ pub(super) fn insert(
     handles
 }
 
-/// A body without its form, in the frame of its principal axes.
+/// A body without its shape, in the frame of its principal axes.
 fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
     let builder = if !model.movable()[i] {
         RigidBodyBuilder::fixed()
@@ -87,7 +87,7 @@ fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
         .additional_mass_properties(mass)
         .can_sleep(false)
         .allow_fast_rotation(true)
-        // The way bodies turn comes from us, see `spin`.
+        // `spin` computes the rotation of bodies.
         .gyroscopic_forces_enabled(false)
 }
 

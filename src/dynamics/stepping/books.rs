@@ -1,4 +1,4 @@
-//! Accounts of contacts and joints: energies for the balance, and impacts.
+//! Energy accounts of contacts and joints, and impacts.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
@@ -15,7 +15,7 @@ use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
 use super::touch::{self, Push, Touch};
 
-/// Bodies that approach by less than this many of their thicknesses in a second have no impact.
+/// Bodies have no impact if they approach by less than this many thicknesses per second.
 const SLOW: f64 = 0.03;
 
 /// The motion of a body: its velocity, m/s, and its angular velocity, rad/s.
@@ -23,27 +23,27 @@ pub(super) type Motion = (DVec3, DVec3);
 
 /// The books of contacts.
 pub(super) struct Books {
-    /// The motion of each body: before the step, and its mean within the step.
+    /// The motion of each body: before the step, and its mean in the step.
     pub(super) before: Vec<Motion>,
     pub(super) mean: Vec<Motion>,
-    /// The place of each body before the step, m.
+    /// The position of each body before the step, m.
     pub(super) places: Vec<DVec3>,
-    /// The bodies that touched something, or came near it, in the step that was made last.
+    /// The bodies that touched something, or came near it, in the last step.
     touched: Vec<bool>,
-    /// The bodies that joints hold.
+    /// The bodies held by joints.
     held: Vec<bool>,
     /// The change of angular momentum of each constrained body by contacts and joints in the last step, N m s.
     pub(super) turned: Vec<DVec3>,
     /// The impulses of motors in the last step.
     pub(super) motors: Vec<MotorPush>,
     impacts: Vec<Impact>,
-    /// Colliders that have come near each other, and have not pushed yet.
+    /// Pairs of colliders that have come near each other, and have not pushed yet.
     pub(super) near: Vec<[ColliderHandle; 2]>,
     pub(super) events: Events,
     slow: f64,
 }
 
-/// The engine's events: pairs that come near each other or part.
+/// The engine's events: pairs that come near each other or separate.
 #[derive(Default)]
 pub(super) struct Events(Mutex<Vec<CollisionEvent>>);
 
@@ -64,15 +64,15 @@ impl EventHandler for Events {
     fn handle_soft_body_tear_event(&self, _: &SoftBodySet, _: &SoftBodyTearEvent) {}
 }
 
-/// The pairs that push in a step, among those that have come near each other and have not pushed before.
+/// The pairs that push in a step, among those that were near each other and had not pushed before.
 struct Pushing {
-    /// Whether a collider is near another, by its number. Few are, so few pairs have to be looked up.
+    /// For each collider, whether it is near another. Few are, so few pairs have to be looked up.
     is_near: Vec<bool>,
     pairs: HashSet<[ColliderHandle; 2]>,
 }
 
 impl Pushing {
-    /// None yet of some pairs.
+    /// An empty set for the given pairs.
     fn among(near: &[[ColliderHandle; 2]]) -> Pushing {
         let mut pushing = Pushing { is_near: Vec::new(), pairs: HashSet::new() };
         for collider in near.as_flattened() {
@@ -85,7 +85,7 @@ impl Pushing {
         pushing
     }
 
-    /// Sees a pair that pushes.
+    /// Adds a pair that pushes.
     fn see(&mut self, pair: &ContactPair) {
         let pair = [pair.collider1, pair.collider2];
         if pair.iter().all(|collider| self.is_near.get(number(*collider)) == Some(&true)) {
@@ -99,7 +99,7 @@ impl Pushing {
     }
 }
 
-/// The number of a collider.
+/// The index of a collider.
 fn number(collider: ColliderHandle) -> usize {
     collider.into_raw_parts().0 as usize
 }
@@ -122,7 +122,7 @@ impl Books {
         }
     }
 
-    /// Whether there are impacts that nobody has taken.
+    /// Whether there are impacts that have not been taken.
     pub(super) fn has_impacts(&self) -> bool {
         !self.impacts.is_empty()
     }
@@ -131,13 +131,13 @@ impl Books {
         std::mem::take(&mut self.impacts)
     }
 
-    /// Books what contacts and joints have done in the step that was made last, and the impacts in it. `time` is that of its end, s.
+    /// Books the work of contacts and joints in the last step, and its impacts. `time` is that of its end, s.
     ///
-    /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, whatever
-    /// else acts at the same time. What is left over between two bodies is lost; what a guided body puts in is work.
+    /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, whatever else
+    /// acts at the same time. The sum over two bodies is the loss; the contribution of a guided body is work.
     ///
-    /// The engine also moves bodies out of each other, or lets them sink in, without a velocity that would stay. Forces with a potential do work
-    /// on that way, which contacts take or give as well.
+    /// The engine also separates overlapping bodies, or lets them sink in, without a lasting velocity. Forces with a potential do work on
+    /// that displacement, which contacts absorb or release as well.
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
@@ -176,14 +176,14 @@ impl Books {
             let account = if self.touched[i] { &mut accounts.impacts } else { &mut pulled };
             *account -= (loads.force[i] - driven.on(i)).dot(shift);
             if self.held[i] && model.inverse_mass()[i] != 0.0 {
-                // All that is no force on it comes from contacts and joints.
+                // Changes that are not due to its force come from contacts and joints.
                 let change = model.mass()[i] * (state.velocity[i] - self.before[i].0) - dt * loads.force[i];
                 pulled += change.dot(self.mean[i].0) + self.turned[i].dot(self.mean[i].1);
             }
         }
         let motors: f64 = self.motors.iter().map(|push| push.work(|body| self.mean[body])).sum();
         accounts.motors += motors;
-        // The remainder is that of joints: they yield and hit limits, and guides at their ends do work through them.
+        // The rest comes from joints: they yield and hit limits, and guides at their ends do work through them.
         let others = pulled - pressed - motors;
         if joints.has_guide {
             accounts.work += others;
@@ -206,7 +206,7 @@ impl Books {
         Some([rate(0)?, rate(1)?])
     }
 
-    /// Notes which pairs have come near each other in the last step, and which have parted.
+    /// Updates which pairs have come near each other in the last step, and which have separated.
     fn note_near(&mut self) {
         let events = std::mem::take(&mut *self.events.0.lock().unwrap_or_else(PoisonError::into_inner));
         for event in events {
@@ -219,7 +219,7 @@ impl Books {
         }
     }
 
-    /// Finds the impacts of pairs that have come near each other, and that have pushed now.
+    /// Finds the impacts of near pairs that have pushed now.
     fn find_impacts(&mut self, engine: &PhysicsWorld, pushing: &Pushing, time: f64) {
         let mut near = std::mem::take(&mut self.near);
         near.retain(|pair| {
@@ -232,7 +232,7 @@ impl Books {
         self.near = near;
     }
 
-    /// Notes the impact of a pair, if it has pushed at last; whether it has.
+    /// Notes the impact of a pair if it has pushed. Returns whether it has.
     fn note_impact(&mut self, pair: &ContactPair, time: f64) -> bool {
         let (mut hardest, mut fastest) = (0.0, 0.0_f64);
         let (mut impulse, mut energy) = (DVec3::ZERO, 0.0);

@@ -1,7 +1,7 @@
-//! A moment of a run as bytes, from which the run goes on with the same bits.
+//! A moment of a run as bytes, from which the run continues with the same bits.
 //!
-//! It holds all that changes with time: the state, the books, which bodies are there, and the engine with its contacts. All else
-//! follows from the scene.
+//! A checkpoint holds everything that changes with time: the state, the accounts, the presence of bodies, and the engine with its
+//! contacts. The rest follows from the scene.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::super::{EnergyLedger, State};
 use super::TimeStepping;
 
-/// All that changes with time but the engine.
+/// Everything that changes with time, except the engine.
 #[derive(Serialize, Deserialize)]
 struct Moment {
     time: f64,
@@ -19,14 +19,14 @@ struct Moment {
     ledger: EnergyLedger,
     /// The number of past births and deaths.
     over: usize,
-    /// The bodies that are not there, with the velocity (m/s) and the angular momentum (kg m²/s) with which they will come.
+    /// The absent bodies, with the velocity (m/s) and the angular momentum (kg m²/s) of their return.
     away: Vec<(usize, DVec3, DVec3)>,
-    /// Colliders that have come near each other, and have not pushed yet.
+    /// Pairs of colliders that have come near each other, and have not pushed yet.
     near: Vec<[ColliderHandle; 2]>,
 }
 
 impl TimeStepping {
-    /// The present moment; none after a failure, or where impacts wait to be asked for.
+    /// Saves the present moment. `None` after a failure, or while impacts have not been taken.
     pub(super) fn save(&mut self) -> Option<Vec<u8>> {
         if self.failure.is_some() || self.books.has_impacts() {
             return None;
@@ -43,7 +43,7 @@ impl TimeStepping {
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
 
-    /// Goes on from a moment that was saved; false where it is not one of this run.
+    /// Continues from a saved moment. Returns false if it does not belong to this run.
     pub(super) fn load(&mut self, bytes: &[u8]) -> bool {
         let Ok((moment, engine)) = postcard::from_bytes::<(Moment, PhysicsWorld)>(bytes) else {
             return false;

@@ -1,7 +1,7 @@
 //! The work of forces without a potential.
 //!
-//! The engine holds a force over a step. So its work is its product with the mean velocity of the step, and not with that at the beginning: a
-//! servo that begins to pull at rest has done nothing by the latter.
+//! The engine holds a force constant over a step. So its work uses the mean velocity of the step, not that at the start: with the latter,
+//! a servo that starts to pull at rest would do no work.
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use super::super::force::Moment;
 use super::super::{Accounts, Loads, Model, State, WorkAccount};
 use super::books::Motion;
 
-/// What forces without a potential do in a step.
+/// The loads of forces without a potential in a step.
 #[derive(Clone, Default)]
 pub(super) struct Driven {
-    /// The loads of all of them that share an account.
+    /// The summed loads of each account.
     alone: Vec<(WorkAccount, Loads)>,
 }
 
 impl Driven {
-    /// The beginning of a step: finds what these forces do to the bodies, and takes their power out of `loads`.
+    /// Called at the start of a step: evaluates these forces, and removes their power from `loads`.
     pub(super) fn begin(&mut self, model: &Model, time: f64, state: &State, loads: &mut Loads) {
         for (_, alone) in &mut self.alone {
             alone.power = Accounts::default();
@@ -34,7 +34,7 @@ impl Driven {
         }
     }
 
-    /// The loads of an account, on some number of bodies.
+    /// The loads of an account, for a number of bodies.
     fn loads_of(&mut self, account: WorkAccount, bodies: usize) -> &mut Loads {
         let known = self.alone.iter().position(|(of, _)| *of == account);
         let place = known.unwrap_or_else(|| {
@@ -45,7 +45,7 @@ impl Driven {
         &mut self.alone[place].1
     }
 
-    /// The work of these forces in a step of `dt` (s), in which the bodies moved like this on average.
+    /// The work of these forces in a step of `dt` (s), with the mean motion of the bodies.
     pub(super) fn work(&self, dt: f64, mean: &[Motion]) -> Accounts {
         let mut accounts = Accounts::default();
         for (account, alone) in &self.alone {
@@ -58,7 +58,7 @@ impl Driven {
         accounts
     }
 
-    /// The force of all of them on a body, N.
+    /// The sum of these forces on a body, N.
     pub(super) fn on(&self, body: usize) -> DVec3 {
         self.alone.iter().map(|(_, alone)| alone.force[body]).sum()
     }

@@ -1,4 +1,4 @@
-//! Joints as the engine has them: it solves for them together with the contacts, by impulses.
+//! Joints in the engine, which solves them together with the contacts, by impulses.
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
@@ -9,11 +9,11 @@ use rapier3d_f64::prelude::{
 use super::super::{Anchor, Ball, BodyId, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State};
 use super::books::Motion;
 
-/// The stiffness of the motor that keeps the length of a rod, N/m, and that of one that keeps a speed, N s/m or N m s: so stiff that the
-/// step alone says how soft they are.
+/// The stiffness of the motor that keeps the length of a rod, N/m, and of one that keeps a speed, N s/m or N m s. It is so large that the
+/// step alone determines the softness.
 const RIGID: f64 = 1e30;
 
-/// A joint of two bodies, of a kind that the engine has.
+/// A joint of two bodies, of a kind that the engine supports.
 #[derive(Clone, Debug)]
 pub struct Link {
     /// Its kind.
@@ -25,43 +25,43 @@ pub struct Link {
 /// The kinds of links.
 #[derive(Clone, Debug)]
 pub enum LinkKind {
-    /// Two points stay together.
+    /// Two points coincide.
     Ball(Ball),
-    /// Two points stay together, and one axis is common. Its motor keeps a speed, if it has one.
+    /// Two points coincide, and one axis is common. An optional motor keeps a speed.
     Hinge(Hinge),
-    /// One body moves along an axis of the other. Its motor keeps a speed, if it has one.
+    /// One body moves along an axis of the other. An optional motor keeps a speed.
     Slider(Slider),
     /// Two bodies move as one.
     Fixed(Fixed),
-    /// Two points keep their distance.
+    /// The distance of two points is constant.
     Rod(Rod),
-    /// The distance of two points does not grow.
+    /// The distance of two points is limited.
     Rope(Rope),
 }
 
 /// The joints of a run.
 pub(super) struct Joints {
     handles: Vec<ImpulseJointHandle>,
-    /// The numbers of the bodies at the ends of each; none: the world.
+    /// The indices of the bodies at both ends; `None` for the world.
     bodies: Vec<[Option<usize>; 2]>,
-    /// The free axis of each that has a motor.
+    /// The free axis of each joint with a motor.
     motors: Vec<Option<JointAxis>>,
-    /// Whether a body whose motion is given is at an end of some joint.
+    /// Whether any joint has an end at a body with a given motion.
     pub(super) has_guide: bool,
 }
 
-/// The impulse of a motor on the first body within a step, N s or N m s, and the row that it acts by.
+/// The impulse of a motor on the first body within a step, N s or N m s, and the coefficients of its row.
 pub(super) struct MotorPush {
     bodies: [Option<usize>; 2],
     impulse: f64,
-    /// The direction of a motor that moves along an axis; zero for one that turns.
+    /// The direction of a linear motor; zero for a rotary one.
     direction: DVec3,
-    /// For each body, what its angular velocity is multiplied with.
+    /// For each body, the coefficients of its angular velocity.
     arms: [DVec3; 2],
 }
 
 impl MotorPush {
-    /// The energy that the motor has given, J; the closure gives the mean motion of a body within the step.
+    /// The energy from the motor, J. The closure returns the mean motion of a body in the step.
     pub(super) fn work(&self, mean: impl Fn(usize) -> Motion) -> f64 {
         let rate = |side: usize| {
             let Some((velocity, turning)) = self.bodies[side].map(&mean) else { return 0.0 };
@@ -71,7 +71,7 @@ impl MotorPush {
     }
 }
 
-/// An end of a link: its body in the engine, and the rotation from the axes of the body to the engine's.
+/// An end of a link: its body in the engine, and the rotation from the body's axes to the engine's.
 struct End {
     body: RigidBodyHandle,
     turn: DQuat,
@@ -79,7 +79,7 @@ struct End {
 }
 
 impl LinkKind {
-    /// The axis of the motor that keeps its speed, if it has one.
+    /// The axis of the motor that keeps a speed, if there is one.
     fn motor(&self) -> Option<JointAxis> {
         let of = |freedom: &Freedom, axis: JointAxis| {
             matches!(freedom.motor, Some(Motor::Speed { .. })).then_some(axis)
@@ -106,7 +106,7 @@ impl LinkKind {
 }
 
 impl Joints {
-    /// Puts all links into the engine.
+    /// Adds all links to the engine.
     pub(super) fn insert(
         engine: &mut PhysicsWorld,
         links: &[Link],
@@ -139,17 +139,17 @@ impl Joints {
         Joints { handles, bodies: ends, motors, has_guide }
     }
 
-    /// For each of so many bodies, whether a joint holds it.
+    /// For each of `bodies` bodies, whether a joint holds it.
     pub(super) fn held(&self, bodies: usize) -> Vec<bool> {
         let mut held = vec![false; bodies];
         self.bodies.iter().flatten().flatten().for_each(|&body| held[body] = true);
         held
     }
 
-    /// What the motors have done in the step that was made last. `state` is that of its beginning.
+    /// The impulses of the motors in the last step. `state` is that of its start.
     ///
-    /// A motor is the first row that the engine makes of a joint, so its impulse acts along its axis. The rows behind it are made
-    /// orthogonal to each other, and their impulses have no such meaning.
+    /// A motor is the first row that the engine makes for a joint, so its impulse acts along its axis. The later rows are made orthogonal
+    /// to each other, so their impulses have no such meaning.
     pub(super) fn motor_pushes(&self, engine: &PhysicsWorld, state: &State) -> Vec<MotorPush> {
         let with_motor = self.motors.iter().enumerate().filter_map(|(k, axis)| Some((k, (*axis)?)));
         let push = |(k, axis): (usize, JointAxis)| {
@@ -173,15 +173,15 @@ impl Joints {
         with_motor.filter_map(push).collect()
     }
 
-    /// How many there are.
+    /// The number of joints.
     pub(super) fn len(&self) -> usize {
         self.handles.len()
     }
 }
 
-/// A link as the engine has it.
+/// A link in the form of the engine.
 fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
-    // The first axis of a joint of the engine is the one that is free.
+    // The first axis of an engine joint is the free one.
     let frames = |axis: DVec3, turned: DQuat| {
         let own = DQuat::from_rotation_arc(DVec3::X, axis);
         [Pose::from_parts(one.at, one.turn * own), Pose::from_parts(two.at, two.turn * turned * own)]
@@ -208,7 +208,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
             joint
         }
         LinkKind::Rod(rod) => {
-            // The engine has no joint for a distance that neither grows nor shrinks, but a motor without limit keeps one.
+            // The engine has no joint for a constant distance, but a motor without limit keeps one.
             let mut joint = build(JointAxesMask::empty(), frames(DVec3::X, DQuat::IDENTITY));
             joint.coupled_axes = JointAxesMask::LIN_AXES;
             joint.set_motor_model(JointAxis::LinX, MotorModel::ForceBased);
@@ -218,7 +218,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
     }
 }
 
-/// Limits and motors of the axis that is free.
+/// Adds limits and a motor on the free axis.
 fn free(mut joint: GenericJoint, axis: JointAxis, freedom: &Freedom) -> GenericJoint {
     if let Some(limits) = freedom.limits {
         joint.set_limits(axis, limits);

@@ -1,4 +1,4 @@
-//! How surfaces behave together, as the engine is told.
+//! The rules by which the engine mixes two surfaces.
 
 use std::collections::BTreeSet;
 
@@ -11,28 +11,28 @@ use super::super::contact::{Contacts, Surface};
 
 /// Which bodies pass through each other, and how surfaces mix.
 ///
-/// The engine knows the rules for mixing that scenes have, the larger restitution and the geometric mean of the frictions, but not
-/// the one for a surface that says nothing: there the other's value counts. Pairs of which that matters are asked about at every step,
-/// which costs time. So all are avoided that can be.
+/// The engine supports the scene's rules for mixing, the larger restitution and the geometric mean of the frictions. It does not support
+/// surfaces without a value, for which the other's value counts. Pairs where this matters need a callback at every step, which costs
+/// time. So callbacks are avoided where possible.
 pub(super) struct Mixing {
     surfaces: Vec<Surface>,
     apart: BTreeSet<(usize, usize)>,
-    /// The friction that the engine knows of each body.
+    /// The friction of each body in the engine.
     known: Vec<f64>,
-    /// The bodies of which some pair is mixed here.
+    /// The bodies that need a callback for some pair.
     asked: Vec<bool>,
 }
 
 impl Mixing {
-    /// Prepares the mixing for the given contacts. `moves` says which bodies move by forces; a pair touches only if one of its
-    /// bodies does.
+    /// Prepares the mixing for the given contacts. `moves` says which bodies move by forces; a pair touches only if one of its bodies
+    /// does.
     pub(super) fn new(contacts: &Contacts, moves: &[bool]) -> Mixing {
         let surfaces: Vec<Surface> =
             contacts.surfaces.iter().map(|surface| surface.unwrap_or_default()).collect();
         let is_there = |i: &usize| contacts.surfaces[*i].is_some();
         let movers = || (0..surfaces.len()).filter(is_there).filter(|i| moves[*i]);
         let neither = Surface::default().meet(&Surface::default()).friction;
-        // Where all that moves says the same, each of the others gets the value whose mean with that is what it should be.
+        // If all moving bodies have the same value, each other body gets the value whose mean with it is right.
         let common = movers().next().map(|i| surfaces[i]);
         let common = common.filter(|first| movers().all(|i| surfaces[i].friction == first.friction));
         let known = |i: usize| {
@@ -53,7 +53,7 @@ impl Mixing {
         Mixing { surfaces, apart: contacts.apart.clone(), known, asked }
     }
 
-    /// Says of a collider how it behaves.
+    /// Sets the surface of a collider.
     pub(super) fn describe(&self, body: usize, collider: ColliderBuilder) -> ColliderBuilder {
         let mut hooks = ActiveHooks::empty();
         if self.asked[body] {
@@ -65,14 +65,14 @@ impl Mixing {
         collider
             .friction(self.known[body])
             .friction_combine_rule(CoefficientCombineRule::GeometricMean)
-            // What says nothing counts as 0, which the other's value is never below.
+            // An unset value counts as 0, which is never above the other's.
             .restitution(self.surfaces[body].restitution.unwrap_or(0.0))
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .active_hooks(hooks)
     }
 }
 
-/// The body of a collider: its number is with the collider.
+/// The body of a collider, whose index is stored in the collider.
 pub(super) fn body_of(colliders: &ColliderSet, collider: ColliderHandle) -> Option<usize> {
     Some(colliders.get(collider)?.user_data as usize)
 }

@@ -1,11 +1,11 @@
-//! Time stepping: contacts of many bodies at once, at fixed steps.
+//! Time-stepping: contacts of many bodies at once, at fixed steps.
 //!
-//! Where hundreds of bodies touch, impacts cannot be followed one by one. Here all contacts of a step are solved together, as
-//! inequalities of velocities, by a few sweeps over all of them. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small
-//! Steps in Physics Simulation*, SCA 2019. The engine is rapier. It finds contacts, and solves for contacts and joints; forces,
-//! energies, guided bodies, births and deaths are those of every [`World`], whose bodies it takes over.
+//! Among hundreds of touching bodies, impacts cannot be followed one by one. Here all contacts of a step are solved together, as
+//! inequalities of velocities, by a few sweeps over all of them. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small Steps
+//! in Physics Simulation*, SCA 2019. The engine is rapier. It finds contacts, and solves contacts and joints. Forces, energies, guided
+//! bodies, births and deaths are those of every [`World`], whose bodies it takes over.
 //!
-//! A step is one of Euler–Cromer: without contacts and joints it gives the same numbers. All forces are evaluated at its beginning.
+//! A step is one of Euler–Cromer: without contacts and joints, it gives the same numbers. All forces are evaluated at its start.
 
 mod advance;
 mod bodies;
@@ -35,14 +35,14 @@ use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, Wo
 
 pub use joint::{Link, LinkKind};
 
-/// How often all contacts of a step are solved, one after another: with the correction of places, and then without. Friction is solved for in the
-/// latter alone: with two of them, a block creeps down an incline that should hold it.
+/// The number of sweeps over all contacts in a step: first with position correction, then without. Friction is solved only in the latter:
+/// with two of them, a block creeps down an incline that should hold it.
 const SWEEPS: usize = 2;
 const FINAL_SWEEPS: usize = 4;
-/// The damping of contacts, by that which just lets nothing swing.
+/// The damping of contacts, relative to critical damping.
 const DAMPING: f64 = 10.0;
 
-/// What is fast is stopped so near another body, or so deep within it, in typical lengths.
+/// Fast bodies stop this near another body, or this deep within it, in typical lengths.
 const SLOP: f64 = 0.002;
 
 /// Bodies that move under forces and touch each other, advanced by steps of equal length in which all contacts are solved
@@ -55,11 +55,11 @@ pub struct TimeStepping {
     state: State,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// What finds and solves contacts.
+    /// The engine, which finds and solves contacts.
     engine: PhysicsWorld,
     /// The bodies of the model in the engine.
     handles: Vec<RigidBodyHandle>,
-    /// Half of what a body is thick, m: what moves by more within a step is fast.
+    /// Half of each body's thickness, m. A body that moves by more within a step is fast.
     half_thickness: Vec<f64>,
     mixing: Mixing,
     joints: Joints,
@@ -67,16 +67,16 @@ pub struct TimeStepping {
     driven: Driven,
     /// Whether snapshots list the contacts.
     shows_contacts: bool,
-    /// Room for the loads at one moment.
+    /// Working memory for the loads at one moment.
     loads: Loads,
-    /// The state before the last step, for looks within it.
+    /// The state before the last step, for moments within it.
     before: State,
     failure: Option<Breakdown>,
 }
 
 impl TimeStepping {
-    /// Takes over the bodies of a world with their forces, motions and lifetimes. They touch each other as `contacts` says, and
-    /// `links` hold them together; constraints of the world itself do not count.
+    /// Takes over the bodies of a world with their forces, motions and lifetimes. They touch each other by the rules of `contacts`, and
+    /// `links` join them. Constraints of the world itself are ignored.
     #[must_use]
     pub fn new(world: World, contacts: &Contacts, links: &[Link]) -> TimeStepping {
         let parts = world.into_parts();
@@ -122,25 +122,25 @@ impl TimeStepping {
     }
 }
 
-/// What the engine does in a step. `length` is the thickness of the thinnest body that moves, m.
+/// The engine's parameters. `length` is the thickness of the thinnest moving body, m.
 fn parameters(length: f64) -> IntegrationParameters {
     IntegrationParameters {
         length_unit: length,
-        // One step of ours is one of the engine: so all forces are evaluated again for each, and all impulses can be read.
+        // Each step is one step of the engine, so that forces are evaluated for each, and all impulses can be read.
         num_solver_iterations: 1,
         num_internal_pgs_iterations: SWEEPS,
         num_internal_stabilization_iterations: FINAL_SWEEPS,
         normalized_allowed_linear_error: SLOP,
-        // Bodies may be as fast as they are.
+        // Speeds are not limited.
         normalized_max_linear_velocity: f64::MAX,
-        // Bodies that fall by their own thickness get out of each other at about the speed that they fall with.
+        // Bodies that fall by their own thickness separate at about the speed of their fall.
         normalized_max_corrective_velocity: 3.0 / length.sqrt(),
         warmstart_joints: true,
         ..IntegrationParameters::default()
     }
 }
 
-/// Makes the step of the engine, and with it the stiffness of contacts.
+/// Sets the step of the engine, and with it the stiffness of contacts.
 fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
     let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
     parameters.dt = dt;

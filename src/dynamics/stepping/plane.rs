@@ -1,4 +1,4 @@
-//! Planes without end.
+//! Infinite planes.
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, Pose, SharedShape};
@@ -6,24 +6,24 @@ use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, Pose,
 use super::super::shape::Shape;
 use super::shape::Solid;
 
-/// The edges of the block that stands for a plane, in typical lengths of the scene.
+/// The edges of the block that replaces a plane, in typical lengths of the scene.
 const EDGE: f64 = 1e6;
-/// A plane is along an axis of the world where its normal is off by no more than this.
+/// A plane counts as aligned with a world axis if its normal deviates by no more than this.
 const ALIGNED: f64 = 1e-12;
 
-/// The group of solids that a block meets in closed form.
+/// The group of solids whose contacts with a block have a closed form.
 const SIMPLE: Group = Group::GROUP_1;
-/// The group of all others.
+/// The group of all other solids.
 const OTHER: Group = Group::GROUP_2;
-/// The groups of planes are their own: planes do not meet.
+/// Planes have their own group, since planes do not touch each other.
 const PLANE: Group = Group::GROUP_3;
 
-/// The solids of a plane, each with what it meets. The normal and the orientation of its body say where it faces; `meets_others` says whether
-/// anything moves that is neither sphere nor box.
+/// The solids of a plane, each with the groups that it touches. The normal and the orientation of its body give its direction.
+/// `meets_others` says whether any moving body is neither sphere nor box.
 ///
-/// The engine has half-spaces, but compares each with every body there is, near or far: four walls and a ground cost as much as
-/// the rest of the step. Where a plane faces along an axis of the world, a block stands for it, which only meets what is near.
-/// Spheres and boxes meet the block exactly. Others are compared with the half-space, which is exact for them.
+/// The engine has half-spaces, but compares each with every body, near or far: four walls and a ground cost as much as the rest of the
+/// step. So a block replaces a plane that is aligned with a world axis: it is compared only with near bodies. Spheres and boxes touch the
+/// block exactly. Other shapes are compared with the half-space, which is exact for them.
 pub(super) fn solids(
     normal: DVec3,
     orientation: DQuat,
@@ -37,7 +37,7 @@ pub(super) fn solids(
         return vec![(half_space, groups(PLANE, SIMPLE | OTHER))];
     }
     let half = 0.5 * EDGE * length;
-    // The block has its edges along the axes of the world.
+    // The edges of the block are parallel to the world axes.
     let turn = orientation.conjugate();
     let block = (Pose::from_parts(-half * normal, turn), SharedShape::cuboid(half, half, half));
     let mut all = vec![(block, groups(PLANE, SIMPLE))];
@@ -47,12 +47,12 @@ pub(super) fn solids(
     all
 }
 
-/// Whether a shape meets the block in closed form.
+/// Whether contacts of a shape with the block have a closed form.
 pub(super) fn is_simple(shape: &Shape) -> bool {
     matches!(shape, Shape::Sphere { .. } | Shape::Box { .. })
 }
 
-/// What the solids of a shape that is no plane meet.
+/// The groups that the solids of a shape touch, unless it is a plane.
 pub(super) fn groups_of(shape: &Shape) -> InteractionGroups {
     let own = if is_simple(shape) { SIMPLE } else { OTHER };
     groups(own, SIMPLE | OTHER | PLANE)

@@ -1,4 +1,4 @@
-//! Shapes as the engine knows them.
+//! Shapes in the form of the engine.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -9,23 +9,23 @@ use rapier3d_f64::prelude::{Pose, SharedShape};
 
 use super::super::shape::{Mesh, Shape, cone_base};
 
-/// A frustum is a pyramid of so many sides. Its corners lie as far outside as the middles of its sides lie inside, by a quarter
-/// of a percent of the radius.
+/// The number of sides of the pyramid that replaces a frustum. Its corners lie as far outside as the middles of its sides lie inside, by
+/// a quarter of a percent of the radius.
 const SIDES: u32 = 32;
-/// A hull that has no more than this more volume than a mesh is the mesh: it is convex.
+/// A mesh counts as convex if its hull has at most this fraction more volume.
 const CONVEX: f64 = 1e-3;
-/// A torus is a ring of capsules, which deviate from it by this part of the radius of its tube.
+/// A ring of capsules replaces a torus. It deviates by this fraction of the tube's radius.
 const TORUS: f64 = 0.01;
 
 /// A solid of the engine in the frame of its body.
 pub(super) type Solid = (Pose, SharedShape);
 
-/// The solids of which a shape consists, in its own frame. A plane has none here: see [`plane`](super::plane). What moves must be
-/// solid; what does not may be a surface.
+/// The solids that make up a shape, in its own frame. A plane has none here: see [`plane`](super::plane). Moving shapes must be solid;
+/// others may be surfaces.
 pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
     let mut all = Vec::new();
     collect(shape, moves, Pose::IDENTITY, &mut all);
-    // As one, so that the engine sees which of their contacts belong together.
+    // As one compound, so that the engine knows which of their contacts belong together.
     if all.len() > 1 && all.iter().all(|(_, solid)| solid.as_composite_shape().is_none()) {
         return vec![(Pose::IDENTITY, SharedShape::compound(all))];
     }
@@ -42,7 +42,7 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
         }
         Shape::RoundedBox { size, rounding } => {
             let half = 0.5 * size - rounding;
-            // A box that is round all over has no flat face left in some direction; the engine needs a little of one.
+            // A fully rounded box has no flat face in some direction; the engine needs a small one.
             let half = half.max(DVec3::splat(1e-9 * rounding));
             all.push((pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
         }
@@ -74,10 +74,10 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
     }
 }
 
-/// Wedges around the axis: of a face with more than four corners, the engine sees four.
+/// Wedges around the axis, because the engine uses only four corners of a face.
 fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = SharedShape> {
     let base = cone_base(radius, top_radius, height);
-    // Between the circle around the polygon and the one within it.
+    // Between the circumscribed and the inscribed circle of the polygon.
     let outer = 2.0 / (1.0 + libm::cos(PI / f64::from(SIDES)));
     let corner = move |i: u32, radius: f64, y: f64| {
         let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(SIDES));
@@ -90,9 +90,9 @@ fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = Sh
     })
 }
 
-/// Capsules around the ring.
+/// Capsules along the ring.
 fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
-    // A chord is off its arc by radius · (1 − cos(π/n)), half of which is left where the chord is moved out by the other half.
+    // A chord deviates from its arc by radius · (1 − cos(π/n)). Moving it outwards by half of that leaves the other half.
     let deviation = (2.0 * TORUS * tube_radius / radius).min(0.1);
     let sides = (PI / libm::acos(1.0 - deviation)).ceil().clamp(12.0, 96.0);
     let ring = radius * 2.0 / (1.0 + libm::cos(PI / sides));
@@ -104,11 +104,11 @@ fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
         .map(move |i| SharedShape::capsule(corner(f64::from(i)), corner(f64::from(i) + 1.0), tube_radius))
 }
 
-/// A mesh that moves is its hull, if it is convex, or convex parts of it; one that does not is its triangles.
+/// A moving mesh becomes its hull, if it is convex, or convex parts. A mesh at rest becomes its triangles.
 fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<Solid> {
     let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| scale * *vertex).collect();
     if !moves {
-        // Seen from outside of a closed surface, what is within it is inside; an open one has two sides.
+        // A closed surface has an inside; an open one has two sides.
         let flags = match mesh.flaw() {
             None => TriMeshFlags::FIX_INTERNAL_EDGES,
             Some(_) => TriMeshFlags::MERGE_DUPLICATE_VERTICES,

@@ -1,4 +1,4 @@
-//! What can be known of a moment.
+//! Snapshots of a moment.
 
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
@@ -6,7 +6,7 @@ use super::TimeStepping;
 use super::touch::{Point, Touch};
 
 impl TimeStepping {
-    /// The bodies as they are, or as they are in another state; contacts and joints as in the step that was made last.
+    /// The bodies as they are, or as they are in `state`, with the contacts and joints of the last step.
     pub(super) fn picture(&mut self, time: f64, balance: Balance, state: Option<&State>) -> Snapshot {
         let Self { model, state: own, loads, .. } = self;
         let seen = state.unwrap_or(own);
@@ -22,7 +22,7 @@ impl TimeStepping {
         Snapshot { time, bodies, reactions, contacts, penetration: self.penetration(), balance }
     }
 
-    /// Adds the mean forces of contacts in the step that was made last.
+    /// Adds the mean forces of contacts in the last step.
     fn add_contact_forces(&mut self) {
         let Self { engine, model, loads, steps, .. } = self;
         if *steps == 0 {
@@ -41,7 +41,7 @@ impl TimeStepping {
         }
     }
 
-    /// Where bodies touched in the step that was made last.
+    /// The contacts of the last step.
     fn contacts(&self) -> Vec<ContactSnapshot> {
         let dt = self.engine.integration_parameters.dt;
         let mut all = Vec::new();
@@ -59,7 +59,7 @@ impl TimeStepping {
                     place: self.state.location[one] + point.arms[0],
                     normal: sign * touch.normal(),
                     force: sign * point.impulse / dt * touch.normal(),
-                    // Friction is that of all points together: each has its share by how hard it presses.
+                    // Friction is that of all points together. Each point gets its share by its normal impulse.
                     friction: sign * point.impulse / push.impulse / dt * push.friction,
                 }));
             }
@@ -68,13 +68,13 @@ impl TimeStepping {
         all
     }
 
-    /// How deep bodies are within each other at most, m.
+    /// The greatest penetration of bodies, m.
     #[must_use]
     pub fn penetration(&self) -> f64 {
         self.deepest().map_or(0.0, |(_, depth)| depth.max(0.0))
     }
 
-    /// The two bodies that are deepest within each other, and how deep, m.
+    /// The pair with the greatest penetration, and its depth, m.
     pub(super) fn deepest(&self) -> Option<([usize; 2], f64)> {
         let Self { engine, model, state, .. } = self;
         let pose = |i: usize| model.movable()[i].then(|| super::bodies::pose(state, i));

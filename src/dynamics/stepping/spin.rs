@@ -1,14 +1,14 @@
-//! How free bodies turn within a step of the engine.
+//! The rotation of free bodies within a step of the engine.
 
 use glam::{DQuat, DVec3};
 
-/// A body does not turn by more than this within a step, rad; what turns faster is turned this far.
+/// The largest rotation within a step, rad. Faster bodies rotate only this far.
 const LARGEST: f64 = 3.0;
 
-/// The angular velocity (world axes, rad/s) with which the engine turns a body from one orientation to another within `dt`.
+/// The angular velocity (world axes, rad/s) with which the engine rotates a body from one orientation to another within `dt`.
 ///
-/// The engine advances orientations along a straight line, q + ½ ω q dt, and normalises. So it turns by 2 atan(½ ω dt), and ω is
-/// 2 tan(½ φ)/dt for a turn by φ.
+/// The engine advances orientations along a straight line, q + ½ ω q dt, and normalises. So it rotates by 2 atan(½ ω dt), and a rotation
+/// by φ needs ω = 2 tan(½ φ)/dt.
 pub(super) fn leading(from: DQuat, to: DQuat, dt: f64) -> DVec3 {
     let turn = to * from.conjugate();
     let turn = if turn.w < 0.0 { -turn } else { turn };

@@ -1,22 +1,22 @@
-//! What the engine knows about two bodies that touch.
+//! The engine's data on two bodies that touch.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{
     ContactData, ContactManifold, ContactPair, PairContacts, Pose, RigidBodyHandle, SolverContact,
 };
 
-/// The engine solves for no more points of a touch than these.
+/// The largest number of points of a touch for which the engine solves.
 const MOST_POINTS: usize = 4;
 
 /// The contact of two bodies, on a common normal.
 #[derive(Clone, Copy)]
 pub(super) struct Touch<'a> {
-    /// The numbers of the bodies.
+    /// The indices of the bodies.
     pub(super) bodies: [usize; 2],
     manifold: &'a ContactManifold,
 }
 
-/// A point of a touch: the impulse along the normal, and the ways to it from the centres of the bodies.
+/// A point of a touch: the impulse along the normal, and the vectors to it from the centres of the bodies.
 pub(super) struct Point {
     pub(super) impulse: f64,
     pub(super) arms: [DVec3; 2],
@@ -33,12 +33,12 @@ pub(super) struct Push {
     pub(super) friction: DVec3,
     /// The moment of friction about the normal, N m s.
     pub(super) twist: f64,
-    /// The ways from the centres of the bodies to where friction acts, m.
+    /// The vectors from the centres of the bodies to the point where friction acts, m.
     pub(super) arms: [DVec3; 2],
 }
 
 impl<'a> Touch<'a> {
-    /// All of a pair.
+    /// All touches of a pair.
     pub(super) fn of_pair(pair: &'a ContactPair) -> impl Iterator<Item = Touch<'a>> {
         manifolds(pair).iter().filter_map(Touch::new)
     }
@@ -68,14 +68,14 @@ impl<'a> Touch<'a> {
         let points = &self.manifold.points;
         let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
         contacts.filter_map(move |contact| {
-            // The contact says which point it belongs to. To read it takes time, and one point leaves no choice.
+            // The contact knows the index of its point. Reading it takes time, and a single point needs no index.
             let index = if points.len() == 1 { 0 } else { contact.contact_indices()[0] as usize };
             points.get(index).map(|point| &point.data)
         })
     }
 
-    /// The penetration of the bodies, m; negative if they are apart. The closure gives the pose of a body, or `None` if the body
-    /// is fixed.
+    /// The penetration of the bodies, m; negative if they are apart. The closure returns the pose of a body, or `None` if the body is
+    /// fixed.
     pub(super) fn depth(&self, pose: impl Fn(usize) -> Option<Pose>) -> f64 {
         let poses = self.bodies.map(pose);
         let place = |side: usize, anchor: DVec3| poses[side].map_or(anchor, |pose| pose * anchor);
@@ -108,7 +108,7 @@ impl<'a> Touch<'a> {
             }
         }
         push.arms = push.arms.map(|arm| arm / count);
-        // A single point has no arm to twist with.
+        // A single point has no arm for a twist.
         push.twist = if count > 1.0 { first.warmstart_twist_impulse } else { 0.0 };
         push
     }
@@ -121,10 +121,11 @@ fn manifolds(pair: &ContactPair) -> &[ContactManifold] {
     }
 }
 
-/// Calls `look` with each touch that has pushed, and with its pair, in the order of `pairs`. Calls `meet` with each touch, pushing or not.
+/// Calls `look` with each touch that has pushed, and with its pair, in the order of `pairs`. Calls `meet` with each touch, pushing or
+/// not.
 ///
-/// The engine keeps contacts all over the memory. Each of the short loops reads one more step of the way to them for many at once, so
-/// the processor need not wait for one after another.
+/// The engine's contacts are scattered over the memory. Each of the short loops follows one more pointer for many contacts at once, so
+/// that the processor need not wait for each in turn.
 pub(super) fn visit<'a>(
     pairs: impl Iterator<Item = &'a ContactPair>,
     mut meet: impl FnMut(&Touch<'a>),

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::super::super::*;
 use super::{GRAVITY, STEP, Scene, cube, run};
 
-/// A block at rest on an incline, where friction could just hold it and just could not.
+/// A block at rest on an incline, with friction just above and just below the limit.
 #[test]
 fn friction_holds_up_to_its_angle() {
     let friction = 0.5_f64;
@@ -26,7 +26,7 @@ fn friction_holds_up_to_its_angle() {
     }
 }
 
-/// v²/(2 μ g) to the end, where friction has taken all of ½ m v².
+/// The block stops after v²/(2 μ g), when friction has taken all of ½ m v².
 #[test]
 fn what_friction_takes_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -43,7 +43,7 @@ fn what_friction_takes_is_booked() {
     assert!(end.balance.drift.abs() < 0.01);
 }
 
-/// Ten boxes of 1 m. They sink into each other a little, and stay where they are.
+/// Ten boxes of 1 m. They sink into each other slightly, and stay in place.
 #[test]
 fn ten_boxes_stand_for_a_minute() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -68,8 +68,8 @@ fn ten_boxes_stand_for_a_minute() {
     println!("penetration {} m, drift {}", stepping.penetration(), end.balance.drift);
 }
 
-/// While a wall of bricks sinks in, its energy is off by as much as Euler–Cromer's is, which takes forces at the beginning of a step and
-/// velocities at its end: −½ Δt Σ F·v. All that contacts take is booked.
+/// While a wall of bricks sinks in, its energy error is that of Euler–Cromer, which uses forces at the start of a step and velocities at
+/// its end: −½ Δt Σ F·v. All energy that contacts take is booked.
 #[test]
 fn a_wall_that_settles_loses_what_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -93,7 +93,7 @@ fn a_wall_that_settles_loses_what_is_booked() {
     assert!(largest > 1e-3, "{largest}");
 }
 
-/// A ball of 2,000 m/s against a wall of 1 cm: within a step it flies 8 m.
+/// A ball at 2,000 m/s hits a wall of 1 cm: it flies 8 m within a step.
 #[test]
 fn what_is_fast_does_not_pass_through_a_thin_wall() {
     for fixed in [true, false] {
@@ -111,7 +111,7 @@ fn what_is_fast_does_not_pass_through_a_thin_wall() {
     }
 }
 
-/// A ball with restitution 1 that falls from 1 m, with steps of 1/240 s. The warning of the check has these figures.
+/// A ball with restitution 1 falls from 1 m, with steps of 1/240 s. The check's warning has these figures.
 #[test]
 fn a_rebound_loses_as_much_height_as_the_warning_says() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -131,7 +131,7 @@ fn a_rebound_loses_as_much_height_as_the_warning_says() {
     assert!((90..=98).contains(&heights.len()), "{}", heights.len());
 }
 
-/// A torus and a frustum rest where their shapes say.
+/// A torus and a frustum rest at the heights of their shapes.
 #[test]
 fn shapes_that_are_fitted_are_right_to_a_percent() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -146,7 +146,7 @@ fn shapes_that_are_fitted_are_right_to_a_percent() {
     assert!((frustum - base).abs() < 0.001, "{frustum} {base}");
 }
 
-/// Two boxes of 1 m that are 0.8 m apart, and two that are 0.98 m apart.
+/// Two boxes of 1 m at a distance of 0.8 m, and two at 0.98 m.
 #[test]
 fn bodies_that_overlap_at_the_start_are_a_mistake() {
     for (apart, is_wrong) in [(0.8, true), (0.98, false)] {
@@ -164,7 +164,8 @@ fn bodies_that_overlap_at_the_start_are_a_mistake() {
     }
 }
 
-/// Five floors of cards that lean against each other at 20° from upright. Friction alone holds them: with a tenth of it, they slide apart.
+/// Five floors of cards that lean against each other at 20° from upright. Friction alone holds them: with a tenth of it, they slide
+/// apart.
 #[test]
 fn a_house_of_cards_stands_by_friction() {
     const FLOORS: u32 = 5;
@@ -205,7 +206,7 @@ fn a_house_of_cards_stands_by_friction() {
     }
 }
 
-/// Twenty dominoes of which the first is pushed: all have fallen in the end, one after another.
+/// Twenty dominoes. The first is pushed, and all fall one after another.
 #[test]
 fn dominoes_fall_to_the_last() {
     let mut scene = Scene::default().with_ground(0.0);

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::super::super::*;
 use super::{GRAVITY, Scene, run};
 
-/// A bob 1 m below a point, turned out by some angle, rad, about z.
+/// A bob 1 m below a point, rotated by some angle, rad, about z.
 fn bob(scene: &mut Scene, angle: f64) -> ([Anchor; 2], DVec3) {
     let at = DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
     let bob = scene.add(Shape::Sphere { radius: 0.1 }, |body| body.with_location(at));
@@ -16,7 +16,8 @@ fn swing(scene: &Scene, kind: LinkKind) -> TimeStepping {
     TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &[Link { kind, collides: false }])
 }
 
-/// A pendulum of 30° for 20 s, with steps of 1/240 s: a rod keeps its energy to a percent, and so its height; pins and ropes lose a little.
+/// A pendulum of 30° for 20 s, with steps of 1/240 s. A rod keeps its energy, and so its height, within a percent; pins and ropes lose a
+/// little.
 #[test]
 fn pendulums_keep_their_length_and_most_of_their_energy() {
     let angle = std::f64::consts::FRAC_PI_6;
@@ -39,14 +40,14 @@ fn pendulums_keep_their_length_and_most_of_their_energy() {
                 highest = highest.max(at.y);
             }
         }
-        // Of the energy above the lowest point.
+        // As a fraction of the energy above the lowest point.
         let lost = (start.y - highest) / (1.0 + start.y);
         println!("{name}: {lost} of the energy lost, length off by {worst} m");
         assert!(lost.abs() < loss && worst < 1e-4, "{name} {lost} {worst}");
     }
 }
 
-/// A hinge falls onto its limit, and a motor turns a wheel to its speed and no further.
+/// A hinge falls onto its limit. A motor brings a wheel to its speed and no further.
 #[test]
 fn limits_stop_a_hinge_and_motors_turn_it() {
     let mut scene = Scene::default();
@@ -71,7 +72,7 @@ fn limits_stop_a_hinge_and_motors_turn_it() {
     }
 }
 
-/// What slides down an inclined rail falls with g sin α.
+/// A body on an inclined rail falls with g sin α.
 #[test]
 fn a_slider_runs_along_its_axis() {
     let mut scene = Scene::default();
@@ -85,7 +86,8 @@ fn a_slider_runs_along_its_axis() {
     assert!(end.reject_from_normalized(axis).length() < 1e-4, "{end}");
 }
 
-/// A wheel that a motor brings to 3 rad/s has ½ · ½ · 9 J; a cart that a motor pushes up a slope has ½ v² and the height. All of it is the motor's.
+/// A wheel that a motor brings to 3 rad/s has ½ · ½ · 9 J; a cart that a motor pushes up a slope has ½ v² and the height. All of this
+/// energy comes from the motors.
 #[test]
 fn what_motors_give_is_booked() {
     let mut scene = Scene::default();
@@ -109,8 +111,8 @@ fn what_motors_give_is_booked() {
     assert!(end.balance.drift.abs() < 0.01, "{}", end.balance.drift);
 }
 
-/// A servo's target jumps away from a rod that rests. What the servo does in the first steps is what the rod has then: the work of each step is the
-/// torque times the mean turning.
+/// A servo's target jumps away from a rod at rest. In the first steps, the rod's energy equals the servo's work: for each step, the
+/// torque times the mean rotation.
 #[test]
 fn what_servos_give_is_booked() {
     #[derive(Debug)]
@@ -137,7 +139,7 @@ fn what_servos_give_is_booked() {
     }
 }
 
-/// A chain of eight links falls from level, and swings over the ground. Its joints take energy, which is booked; what is left is the error of
+/// A chain of eight links falls from level, and swings over the ground. Its joints take energy, which is booked. The rest is the error of
 /// Euler–Cromer.
 #[test]
 fn what_joints_take_is_booked() {
