@@ -1,4 +1,4 @@
-//! How time goes on: steps of the method's own, births and deaths between them, and looks within them.
+//! Time integration: steps chosen by the method, births and deaths between them, and moments within them.
 
 use super::super::{Breakdown, Snapshot};
 use super::{Ahead, Field, Scales, Stepper, Time};
@@ -32,13 +32,13 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// The present moment, which leaves no trace in the books.
+    /// The snapshot of the present moment; it leaves the energy ledger unchanged.
     fn peek(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         self.picture(balance).checked()
     }
 
-    /// Lets bodies come and go.
+    /// Adds and removes bodies at births and deaths.
     fn change(&mut self, due: &[(usize, bool)]) {
         if !due.is_empty() {
             self.ledger.open(&self.model, self.time, &self.state);
@@ -47,7 +47,7 @@ impl<S: Stepper> Ahead<S> {
         }
     }
 
-    /// Puts the bodies where they are at time `t`, which is at or after the one asked for before, and not beyond the next birth or death.
+    /// Moves the bodies to time `t`. It is not before the last requested time, and not after the next birth or death.
     fn go_to(&mut self, t: f64) -> Result<(), Breakdown> {
         if !self.is_begun {
             self.begin();
@@ -60,7 +60,7 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// Hands the bodies over to the method.
+    /// Passes the bodies to the method.
     fn begin(&mut self) {
         self.is_begun = true;
         self.ledger.close(&self.model, self.time, &self.state);
@@ -74,13 +74,13 @@ impl<S: Stepper> Ahead<S> {
         now.1.begin(&mut Field { model, bodies, scales, stage, loads }, now.0);
     }
 
-    /// Makes one step. `wanted` is the time that has to be reached, s.
+    /// Makes one step. `wanted` is the time that must be reached, s.
     fn make_step(&mut self, wanted: f64) -> Result<(), Breakdown> {
         let stop = self.stop();
         let Ahead { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
         let longest = now.until(stop);
         if method.proposal().min(longest) >= now.until(wanted) {
-            // It will be looked into.
+            // A moment within the step will be requested.
             before.0 = *now;
             before.1.clone_from(method);
         }
@@ -93,7 +93,7 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// The time at which the next step has to end, s.
+    /// The time at which the next step must end, s.
     fn stop(&mut self) -> f64 {
         let now = self.now.0.seconds();
         let next = self.calendar.next().unwrap_or(f64::INFINITY);
@@ -101,7 +101,7 @@ impl<S: Stepper> Ahead<S> {
         next.min(end)
     }
 
-    /// Finds the bodies at the time that has been asked for, which is within the step that was made last.
+    /// Finds the bodies at the requested time, which lies within the last step.
     fn look(&mut self) {
         let Ahead { model, bodies, scales, stage, loads, now, before, branch, state, time, .. } = self;
         let field = &mut Field { model, bodies, scales, stage, loads };

@@ -1,4 +1,4 @@
-//! Which bodies a method advances, and how what acts on them becomes slopes.
+//! The bodies that a method advances, and their slopes under the loads.
 
 use glam::{DQuat, DVec3};
 
@@ -6,23 +6,23 @@ use super::super::integrator::{orientation_rate, turn_freely};
 use super::super::model::is_isotropic;
 use super::super::{Loads, Model, State};
 
-/// The bodies that change with time, by how they do.
+/// The bodies that change with time, by kind.
 #[derive(Clone, Default)]
 pub(super) struct Bodies {
-    /// Those that forces move.
+    /// Bodies moved by forces.
     pub(super) moving: Vec<usize>,
-    /// Those whose orientation and angular momentum have to be integrated.
+    /// Bodies whose orientation and angular momentum must be integrated.
     pub(super) turning: Vec<usize>,
-    /// Those that nothing can turn and that turn evenly, each with its orientation at the beginning.
+    /// Bodies without torque and with uniform rotation, each with its orientation at the start.
     spinning: Vec<(usize, DQuat)>,
-    /// Whether something without a potential acts, whose work is integrated along.
+    /// Whether anything without a potential acts, so that its work must be integrated.
     pub(super) works: bool,
     /// Whether a force depends on velocities.
     pub(super) feels_motion: bool,
 }
 
 impl Bodies {
-    /// Sorts the bodies of a model. What is not there, fixed or guided is among none of them.
+    /// Sorts the bodies of a model into these lists. Absent, fixed and guided bodies are in none of them.
     pub(super) fn sort(&mut self, model: &Model, state: &State) {
         let can_turn = model.turns_bodies();
         self.moving.clear();
@@ -45,7 +45,7 @@ impl Bodies {
         self.works = self.feels_motion || model.has_guided();
     }
 
-    /// Turns the bodies that turn evenly to where they are so many seconds after the beginning.
+    /// Rotates the uniformly rotating bodies to their orientation `elapsed` seconds after the start.
     pub(super) fn spin(&self, model: &Model, elapsed: f64, state: &mut State) {
         for &(i, start) in &self.spinning {
             let momentum = state.angular_momentum[i];
@@ -54,22 +54,22 @@ impl Bodies {
     }
 }
 
-/// What a method sees of the world, with room to work in.
+/// The method's view of the world, with working memory.
 pub(super) struct Field<'a> {
     /// Masses and forces.
     pub(super) model: &'a Model,
-    /// Which bodies are advanced.
+    /// The bodies that are advanced.
     pub(super) bodies: &'a Bodies,
-    /// How large a motion is.
+    /// The scales of the motion.
     pub(super) scales: &'a Scales,
-    /// Where the bodies are at present.
+    /// The current stage of the bodies.
     pub(super) stage: &'a mut State,
-    /// What acts on them there.
+    /// The loads at that stage.
     pub(super) loads: &'a mut Loads,
 }
 
 impl Field<'_> {
-    /// Finds what acts on the bodies where they are, at time `t`, s.
+    /// Evaluates the loads on the bodies at the stage, at time `t`, s.
     pub(super) fn evaluate(&mut self, t: f64) {
         self.model.place(t, self.stage);
         self.model.evaluate(t, self.stage, self.loads);
@@ -86,20 +86,20 @@ impl Field<'_> {
     }
 }
 
-/// What is smaller than this part of the whole is measured by the whole.
+/// Values below this fraction of the whole motion are measured by the whole.
 const SMALL: f64 = 0.1;
 
-/// How large the motion is, so that what is small against it can be told.
+/// The scales of the motion, to recognise values that are small against it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scales {
-    /// A tenth of how far the bodies are from their mean place, as a root mean square; of one alone, how large it is, m.
+    /// A tenth of the root-mean-square distance of the bodies from their mean position, or of the size of the largest body, m.
     pub(super) length: f64,
-    /// A tenth of the speed of the fastest, or of what it will be after such a way, m/s.
+    /// A tenth of the largest speed, or of the speed that the forces give over the length above, m/s.
     pub(super) speed: f64,
 }
 
 impl Scales {
-    /// Those of the bodies that are there, under these loads.
+    /// The scales of the present bodies under these loads.
     pub(super) fn of(bodies: &Bodies, model: &Model, state: &State, loads: &Loads) -> Scales {
         let there = || (0..model.len()).filter(|&i| model.is_present(i));
         #[allow(clippy::cast_precision_loss, reason = "no scene has 2^53 bodies")]

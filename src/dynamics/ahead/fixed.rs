@@ -1,11 +1,11 @@
-//! A method that chooses its own steps, made to take those that it is given.
+//! Fixed steps with a method that otherwise chooses its own.
 
 use super::super::{Integrator, Loads, State, System};
 use super::bodies::{Bodies, Field, Scales};
 use super::stepper::Stepper;
 use super::time::Time;
 
-/// Steps of a given length by a method that would choose others. It begins anew at each of them, so it costs more than it has to.
+/// Makes steps of a given length by an adaptive method. The method restarts at each step, so it costs more than necessary.
 #[derive(Clone)]
 pub(in super::super) struct Fixed<S> {
     method: S,

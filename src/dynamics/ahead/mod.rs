@@ -1,8 +1,8 @@
-//! Methods whose steps know nothing of frames: they choose them by the error, or by what keeps it bounded.
+//! Methods with steps that are independent of frames: chosen by the error, or constant to keep it bounded.
 //!
-//! A step ends where the motion is not smooth — at a birth, a death, at the end of the run — and nowhere else. A moment that somebody wants to
-//! see lies within a step; it is found by a branch: a copy of the bodies at the beginning of the step, which makes a shorter one to exactly that
-//! moment. It is as accurate as the run, and changes nothing of it: the run is the same, bit for bit, whatever is looked at.
+//! A step ends where the motion is not smooth — at a birth, a death, or the end of the run — and nowhere else. A requested moment within
+//! a step is computed by a branch: a copy of the bodies at the start of the step makes a shorter step to exactly that moment. It is as
+//! accurate as the run, and does not affect it: the run is the same, bit for bit, whichever moments are requested.
 
 mod advance;
 mod bodies;
@@ -28,12 +28,12 @@ use super::{Breakdown, Dynamics, EnergyLedger, Loads, Method, Model, Snapshot, S
 
 use fixed::Fixed;
 
-/// How accurate a method is that chooses its own steps, and how long the run is.
+/// The accuracy of a method that chooses its own steps, and the end of the run.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {
-    /// The error that a step may have, by the size of the motion; each method says what that is.
+    /// The allowed error of a step, relative to the size of the motion; each method defines it in detail.
     pub tolerance: f64,
-    /// The time at which the run ends, s: no step goes beyond it, as long as nobody asks for more.
+    /// The time at which the run ends, s. No step goes beyond it, unless a later time is requested.
     pub end: f64,
 }
 
@@ -74,7 +74,7 @@ pub(super) const WISDOM_HOLMAN: Method = Method {
     }),
 };
 
-/// The tolerance of a method whose steps are given: it says nothing then.
+/// The tolerance for methods with fixed steps, which do not use it.
 const FOR_FIXED_STEPS: f64 = 1e-9;
 
 fn take_over(world: World, method: impl Stepper + 'static, end: f64) -> Box<dyn Dynamics> {
@@ -84,24 +84,24 @@ fn take_over(world: World, method: impl Stepper + 'static, end: f64) -> Box<dyn 
 /// Bodies that move under forces, advanced by a method that chooses its own steps.
 struct Ahead<S> {
     model: Model,
-    /// The bodies at the time that has been asked for.
+    /// The bodies at the requested time.
     state: State,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// The time that has been asked for, s.
+    /// The requested time, s.
     time: f64,
     end: f64,
     steps: u64,
-    /// Whether the method has the bodies; not at the start, and not after a birth or a death.
+    /// Whether the method holds the bodies; false at the start, and after a birth or a death.
     is_begun: bool,
-    /// The method at the end of the step that was made last, and at its beginning.
+    /// The method at the end of the last step, and at its start.
     now: (Time, S),
     before: (Time, S),
-    /// Room for a branch.
+    /// Working memory for a branch.
     branch: S,
     bodies: Bodies,
     scales: Scales,
-    /// Room for the bodies at a stage, and for what acts on them.
+    /// Working memory for the bodies at a stage, and for their loads.
     stage: State,
     loads: Loads,
 }

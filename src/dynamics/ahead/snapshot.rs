@@ -1,10 +1,10 @@
-//! What can be known of a moment.
+//! Snapshots of a moment.
 
 use super::super::{Balance, BodySnapshot, Snapshot};
 use super::Ahead;
 
 impl<S> Ahead<S> {
-    /// The bodies as they are at the time that has been asked for.
+    /// The snapshot at the requested time.
     pub(super) fn picture(&mut self, balance: Balance) -> Snapshot {
         let Ahead { model, state, loads, time, .. } = self;
         model.evaluate(*time, state, loads);

@@ -1,16 +1,16 @@
-//! A time that many steps have led to.
+//! A time that is the sum of many steps.
 
-/// A time, s, as a sum of two numbers: ten thousand steps of different lengths would add up to a rounding error that a planet
-/// at its perihelion shows. Source: D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2, theorem B.
+/// A time, s, as a sum of two numbers. The rounding errors of ten thousand different steps would otherwise be visible for a planet at its
+/// perihelion. Source: D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Time {
     seconds: f64,
-    /// What is missing to it.
+    /// The remainder.
     rest: f64,
 }
 
 impl Time {
-    /// Exactly so many seconds.
+    /// Exactly this many seconds.
     pub(super) fn at(seconds: f64) -> Time {
         Time { seconds, rest: 0.0 }
     }
@@ -20,12 +20,12 @@ impl Time {
         self.seconds
     }
 
-    /// How long it is until then, s.
+    /// The duration from this time to another, s.
     pub(super) fn until(self, seconds: f64) -> f64 {
         (seconds - self.seconds) - self.rest
     }
 
-    /// The time after so many seconds.
+    /// The time after a duration, s.
     pub(super) fn after(self, duration: f64) -> Time {
         let (seconds, rest) = exact_sum(self.seconds, duration);
         let (seconds, rest) = exact_sum(seconds, rest + self.rest);
@@ -33,7 +33,7 @@ impl Time {
     }
 }
 
-/// The sum of two numbers, and what is lost of it by rounding.
+/// The sum of two numbers, and its rounding error.
 fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
@@ -44,7 +44,8 @@ fn exact_sum(a: f64, b: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// A million steps of 0.1 s: plain sums are off by 1e-6 s then, and these by the error of 0.1 alone, a million times 5.6e-18 s.
+    /// A million steps of 0.1 s. A plain sum has an error of 1e-6 s. This sum has only the error of 0.1 itself, a million times 5.6e-18
+    /// s.
     #[test]
     fn rounding_errors_do_not_add_up() {
         let mut time = Time::at(0.0);

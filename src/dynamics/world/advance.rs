@@ -1,30 +1,30 @@
-//! How a world advances: steps, births and deaths on the way, and looks between two steps.
+//! Time integration of a world: steps, births and deaths, and moments between steps.
 
 use super::super::{Snapshot, State, Step, System};
 use super::World;
 use super::event::Counts;
 use super::picture::picture;
 
-/// How far an interval may exceed a whole number of steps (relatively) and still count as that number: decimal
-/// fractions have rounding errors, and 0.1 s are ten steps of 0.01 s.
+/// The largest relative excess over a whole number of steps that is ignored. Decimal fractions have rounding errors, and 0.1 s are ten
+/// steps of 0.01 s.
 const STEP_TOLERANCE: f64 = 1e-9;
 
-/// The fewest equal steps of an interval (s) that are not longer than the longest allowed, s; at least 1, at most `u32::MAX`.
+/// The smallest number of equal steps of an interval (s) with a longest allowed step, s; at least 1, at most `u32::MAX`.
 pub(in super::super) fn steps_of(interval: f64, longest: f64) -> u32 {
     let steps = (interval / longest * (1.0 - STEP_TOLERANCE)).ceil();
-    // The conversion saturates, so this holds for every number, and for what is not one.
+    // The conversion saturates, so the result is right for every number, and for NaN.
     (steps as u32).max(1)
 }
 
 impl World {
-    /// The number of equal steps that [`advance_to`](Self::advance_to) makes of an interval (s): the fewest that are not
-    /// longer than the longest allowed; at least 1, at most `u32::MAX`.
+    /// The number of equal steps that [`advance_to`](Self::advance_to) makes in an interval (s): the smallest that respects the longest
+    /// allowed step; at least 1, at most `u32::MAX`.
     #[must_use]
     pub fn steps_within(&self, interval: f64) -> u32 {
         steps_of(interval, self.step)
     }
 
-    /// Makes one step of `dt` seconds, however long. Bodies that come or go meanwhile do so at its end.
+    /// Makes one step of `dt` seconds, of any length. Births and deaths within it take effect at its end.
     pub fn step(&mut self, dt: f64) {
         self.depart();
         self.step_from(self.time, dt, &[], &mut |_| {});
@@ -102,8 +102,8 @@ impl World {
         }
     }
 
-    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. There is no way back: a `t` that is
-    /// not later (or not finite) leaves all as it is.
+    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
+    /// finite) changes nothing.
     pub fn advance_to(&mut self, t: f64) {
         self.advance_seeing(t, &[], &mut |_| {});
     }
@@ -115,7 +115,7 @@ impl World {
         if self.calendar.next().is_none_or(|next| next > t) {
             self.advance_evenly(t, moments, see);
         } else if self.model.is_given() {
-            // Steps mean nothing here, and one for each birth would make n bodies cost n². A copy goes ahead to the moments.
+            // Intermediate steps are not needed here, and one for each birth would make n bodies cost n². A copy advances to the moments.
             let mut copy = None;
             for &moment in moments {
                 let ahead = copy.get_or_insert_with(|| self.clone());
@@ -141,24 +141,24 @@ impl World {
         }
     }
 
-    /// Advances to time `t`, and lets come and go at its end who does meanwhile.
+    /// Advances to time `t`; births and deaths until then take effect at its end.
     fn advance_through(&mut self, t: f64) {
         self.depart();
         self.advance_evenly(t, &[], &mut |_| {});
         self.arrive();
     }
 
-    /// Time goes on: lets go who was there until now.
+    /// Leaves the present time: removes the bodies that die now.
     fn depart(&mut self) {
         let due = self.calendar.depart(self.time);
         self.change(&due);
     }
 
-    /// A time is reached: lets come who is born now.
+    /// Arrives at a time: adds the bodies that are born now.
     fn arrive(&mut self) {
         let due = self.calendar.arrive(self.time);
         self.change(&due);
-        // At once, so that the books do not depend on who looks at this moment.
+        // At once, so that the ledger does not depend on snapshots of this moment.
         self.settle();
         self.ledger.close(&self.model, self.time, &self.state);
     }
@@ -176,7 +176,7 @@ impl World {
         self.model.let_come_and_go(due, &mut self.state);
     }
 
-    /// The present moment, which leaves no trace in the books.
+    /// The snapshot of the present moment; it leaves the energy ledger unchanged.
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         let mut copy = self.decided();
@@ -192,7 +192,7 @@ impl World {
         let mut left = moments;
         let mut reached = start;
         for k in 0..steps {
-            // Not start + dt + dt + …: rounding errors would add up.
+            // Instead of start + dt + dt + …, whose rounding errors would add up.
             let begin = start + f64::from(k) * dt;
             let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
             reached = begin + dt;
@@ -201,13 +201,13 @@ impl World {
             self.step_from(begin, dt, within, see);
         }
         self.time = t;
-        // Exactly there, and not where the sum of the steps has it.
+        // Sets the exact time, without the rounding error of the sum of steps.
         if reached.to_bits() != t.to_bits() {
             self.model.place(t, &mut self.state);
         }
     }
 
-    /// Looks at some moments of the step that was made last.
+    /// Calls `see` for some moments of the last step.
     fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         if moments.is_empty() {
             return;

@@ -1,24 +1,24 @@
-//! Steps in which groups of bodies that do not meet are advanced one after another.
+//! Steps in which separate groups of bodies are advanced one after another.
 //!
-//! An event ends a piece of a step for all bodies that are advanced together. Where many bodies touch others far from each other, each
-//! event would cost the time of all. So bodies that meet nobody make one step, and each group in which something happens makes its own.
+//! An event ends a piece of a step for all bodies that are advanced together. With many separate contacts, each event would cost the time
+//! of all bodies. So bodies without contacts make one step, and each group with events makes its own.
 
 use super::World;
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::contact::{Collider, Parting};
 use crate::dynamics::{Snapshot, State};
 
-/// The fewest groups that are advanced on their own.
+/// The smallest number of groups that are advanced separately.
 const GROUPS: usize = 4;
 
-/// How often a step is made again with larger groups, because bodies of two of them met.
+/// How often a step is repeated with larger groups, because bodies of two groups met.
 const ATTEMPTS: u32 = 8;
 
-/// After a step with fewer groups, all bodies are advanced together for this many steps before groups are looked for again.
+/// After a step with fewer groups, all bodies are advanced together for this many steps before groups are searched again.
 const TOGETHER: u32 = 8;
 
 impl World {
-    /// Makes a step in groups, if there are enough of them. Otherwise nothing has changed.
+    /// Makes a step in groups, if there are enough. Otherwise changes nothing.
     pub(super) fn step_apart(
         &mut self,
         t: f64,
@@ -38,7 +38,7 @@ impl World {
         self.integrator.discontinuity();
         self.fly(t, dt);
         let flown = self.state.clone();
-        // Pairs of bodies that met although they were in two groups.
+        // Pairs of bodies from different groups that met.
         let mut met = Vec::new();
         for attempt in 0..ATTEMPTS {
             let Some(collider) = &mut self.collider else { break };
@@ -71,8 +71,8 @@ impl World {
         false
     }
 
-    /// Advances the groups in which something happens, after a step of all bodies in which nobody meets anybody. Where somebody was struck so
-    /// hard that it may have met another group, all is as before: gives the pairs that may have met, as far as they are known.
+    /// Advances the groups with events, after a step of all bodies without contacts. If an impact is so strong that a body may have met
+    /// another group, everything is restored. Returns the known pairs that may have met.
     fn advance_groups(
         &mut self,
         t: f64,
@@ -133,7 +133,7 @@ impl World {
         Ok(())
     }
 
-    /// The same world, in which it is known what each contact does, for somebody who looks.
+    /// A copy of the world with decided modes of all contacts, for snapshots.
     pub(super) fn decided(&self) -> Option<World> {
         let is_crowded = self.collider.as_ref().is_some_and(Collider::is_crowded);
         if self.is_decided && !is_crowded {
@@ -153,7 +153,7 @@ impl World {
         Some(copy)
     }
 
-    /// Finds out what each contact does, where that is not known.
+    /// Decides the modes of all contacts that are not decided yet.
     pub(super) fn decide_all(&mut self, t: f64) {
         if !self.is_decided {
             self.decide_contacts(t);

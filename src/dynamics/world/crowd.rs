@@ -1,17 +1,17 @@
-//! When bodies are advanced by time-stepping: where their events do not end within a step, or no forces are found that fit.
+//! Bodies under time-stepping: their events would not end within a step, or no consistent forces were found.
 
 use super::World;
 use super::event::Event;
 use crate::dynamics::energy::mechanical;
 
 impl World {
-    /// Whether a touch concerns what is advanced by time-stepping.
+    /// Whether an event is a touch of bodies under time-stepping.
     pub(super) fn is_in_crowd(&self, event: Event) -> bool {
         let Event::Touch(bodies) = event else { return false };
         self.collider.as_ref().is_some_and(|collider| collider.is_in_crowd(bodies))
     }
 
-    /// From now on until the end of the step, these bodies and all that touches them are advanced by time-stepping.
+    /// Until the end of the step, advances these bodies and everything that touches them by time-stepping.
     pub(super) fn crowd(&mut self, t: f64, bodies: &[usize]) {
         while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return };
@@ -20,7 +20,7 @@ impl World {
         }
     }
 
-    /// Whether an event is one of a heap, whose events are not followed one by one. Gives its bodies.
+    /// The bodies of an event if it belongs to a heap, whose events are not followed one by one.
     pub(super) fn heap_of(&mut self, event: Event, bodies: &[usize]) -> Vec<usize> {
         match (event, &mut self.collider) {
             (Event::Row(_), Some(collider)) => collider.heap_of(bodies, self.solver.contacts(), &self.model),
@@ -28,7 +28,7 @@ impl World {
         }
     }
 
-    /// The bodies that an event is about.
+    /// The bodies of an event.
     pub(super) fn bodies_of(&self, event: Event) -> Vec<usize> {
         match event {
             Event::Touch(bodies) => bodies.to_vec(),
@@ -36,7 +36,7 @@ impl World {
         }
     }
 
-    /// Whether bodies hit, grip or release each other so often that these events are followed no longer one by one.
+    /// Whether bodies hit, grip or release each other so often that these events are no longer followed one by one.
     pub(super) fn happens_too_often(&self, event: Event, bodies: &[usize]) -> bool {
         let Some(collider) = &self.collider else { return false };
         match event {
@@ -45,15 +45,15 @@ impl World {
         }
     }
 
-    /// Whether no forces were found for the piece that has just been made, at whose end the time is `t`, s.
+    /// Whether no forces were found for the last piece, which ends at time `t`, s.
     pub(super) fn is_unsolved(&self, t: f64) -> bool {
         let is_finite = || self.state.location.iter().all(|location| location.is_finite());
         !self.solver.contacts().is_empty()
             && (self.solver.is_unsolved() || self.solver.has_failed() || !is_finite() || t.is_nan())
     }
 
-    /// Goes back to the beginning of the piece that has just been made, at time `t`, s. What is in touch is advanced by time-stepping from
-    /// there. Returns whether something was.
+    /// Returns to the start of the last piece, at time `t`, s. From there, bodies in contact are advanced by time-stepping. Returns
+    /// whether there were any.
     pub(super) fn go_back(&mut self, t: f64) -> bool {
         let mut bodies: Vec<usize> =
             self.solver.contacts().iter().flat_map(|contact| contact.bodies).collect();
@@ -69,7 +69,7 @@ impl World {
         is_new
     }
 
-    /// The end of a step: nothing is advanced by time-stepping any more, unless it is to be for some steps.
+    /// Called at the end of a step: ends time-stepping, unless it lasts for some steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
         let places = match collider.end_course(&self.model, t, &mut self.state) {
@@ -94,7 +94,7 @@ impl World {
         self.solver.close_all(&self.model, t, &mut self.state);
         self.state.accounts.impacts += mechanical(&self.model, t, &self.state) - before;
         if is_due {
-            // They are held now.
+            // They now belong to the contacts again.
             self.is_decided = false;
         } else {
             self.meet_at_rest(t);
@@ -111,8 +111,8 @@ mod tests {
     use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface};
     use super::*;
 
-    /// A ball of the crowd comes near a wall at 1 m/s and touches it within a part of the step. It leaves the wall at that moment, with the
-    /// speed that Newton's law gives it, and the impact is noted: without forces, all is as in closed form, to rounding.
+    /// A ball under time-stepping approaches a wall at 1 m/s and touches it within a part of the step. It leaves the wall at that moment,
+    /// with the speed of Newton's law, and the impact is noted. Without forces, the result equals the closed form, up to rounding.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {
@@ -156,8 +156,8 @@ mod tests {
         }
     }
 
-    /// Eight balls touch each other. A ninth one is very near, but belongs to another group: none moves. What advances the first group leaves it
-    /// alone: its motion would be lost, while its energy would be booked.
+    /// Eight balls touch each other. A ninth is very near, but belongs to another group; no ball moves. Advancing the first group must
+    /// not change the ninth ball: its motion would be lost, but its energy would be booked.
     #[test]
     fn what_is_advanced_by_time_stepping_leaves_other_groups_alone() {
         let mut world = World::new();

@@ -1,9 +1,9 @@
-//! What can be seen of a world at one moment.
+//! Snapshots of a world.
 
 use super::rest::Rest;
 use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Loads, Model, Snapshot, State, System};
 
-/// All that can be known of a moment; `loads` is room to work in.
+/// The snapshot of a moment; `loads` is working memory.
 pub(super) fn picture(
     system: &mut System<'_>,
     time: f64,
@@ -25,7 +25,7 @@ pub(super) fn picture(
     Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
 }
 
-/// Adds the forces at contacts of the crowd to the loads.
+/// Adds the contact forces of bodies under time-stepping to the loads.
 pub(super) fn push_crowd(contacts: &[ContactSnapshot], model: &Model, loads: &mut Loads) {
     for contact in contacts {
         let force = contact.force + contact.friction;

@@ -1,4 +1,4 @@
-//! A step in pieces that end at events: where bodies touch, a rope becomes taut, a limit is reached, or a motor has its speed.
+//! A step in pieces that end at events: bodies touch, a rope becomes taut, a limit is reached, or a motor reaches its speed.
 
 use std::collections::BTreeSet;
 
@@ -6,18 +6,18 @@ use super::World;
 use super::event::Event;
 use crate::dynamics::{BodyId, Breakdown, System};
 
-/// Trials until the time of an event is known to the last bit; each halves what is left at least every second time.
+/// The number of trials that find the time of an event to the last bit; the interval is halved at least in every second trial.
 const TRIALS: usize = 120;
 
-/// Times that differ by less than this part of a step are the same.
+/// Times that differ by less than this fraction of a step count as equal.
 const INSTANT: f64 = 1e-13;
 
-/// Trials until two bodies touch; each squares what is left.
+/// The number of trials until two bodies touch; each squares the error.
 const TOUCHES: usize = 12;
 
 impl World {
-    /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Gives how long it has been, and the event.
-    /// Where there can be events, `before` is the state at its beginning.
+    /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Returns its length, and the event. If events are
+    /// possible, `before` holds the state at its start.
     pub(super) fn make_piece(&mut self, t: f64, dt: f64) -> (f64, Option<Event>) {
         let has_events = System::new(&self.model, &mut self.solver).has_events();
         if !has_events && self.collider.is_none() {
@@ -40,12 +40,12 @@ impl World {
         (length, Some(Event::Row(row)))
     }
 
-    /// Makes a step that has just been made anew where bodies touch within it, so that it ends there.
+    /// If bodies touch within the last step, repeats it so that it ends there.
     fn find_touch(&mut self, t: f64, dt: f64) -> Option<(f64, [usize; 2])> {
         let Self { model, state, before, solver, collider, .. } = self;
         let (first, bodies) =
             collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
-        // They part until `early` or later, and come nearer at `late`: a rebound can be lower than a rounding of the gap.
+        // The bodies separate until `early` or later, and approach at `late`: a rebound can be lower than the rounding error of the gap.
         let (mut early, mut late, mut length) = (0.0, first, first);
         for _ in 0..TOUCHES {
             self.try_step(t, length);
@@ -69,12 +69,13 @@ impl World {
         Some((late, bodies))
     }
 
-    /// The gap of two bodies and its rate, as [`Collider::gap`](crate::dynamics::contact::Collider::gap) has them.
+    /// The gap of two bodies and its rate, as defined by [`Collider::gap`](crate::dynamics::contact::Collider::gap).
     fn gap(&self, bodies: [usize; 2]) -> Option<(f64, f64)> {
         self.collider.as_ref()?.gap(&self.model, &self.state, bodies)
     }
 
-    /// An event: takes its impulses, and finds out which constraints push from then on. Returns whether it was a touch that struck nothing.
+    /// Handles an event: applies its impulses, and decides which constraints push from then on. Returns whether it was a touch without an
+    /// impact.
     pub(super) fn pass(&mut self, event: Event, t: f64) -> bool {
         match event {
             Event::Row(row) => self.solver.note_change(&self.model, row),
@@ -92,21 +93,21 @@ impl World {
         false
     }
 
-    /// Bodies touch, or part: strikes those that come nearer, and finds out which stay in touch. Where no forces are found that fit, the
-    /// bodies are advanced by time-stepping. Returns whether something was struck.
+    /// Handles bodies that touch or separate: applies impacts to those that approach, and finds those that stay in touch. If no
+    /// consistent forces are found, the bodies are advanced by time-stepping. Returns whether there was an impact.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
         let has_struck = self.meet_once(t, is_touch, true);
         self.crowd_undecided(t);
         has_struck
     }
 
-    /// The same for bodies that come to rest: finds out what all contacts do, also those of heaps.
+    /// The same for bodies that come to rest: decides the modes of all contacts, including those of heaps.
     pub(super) fn meet_at_rest(&mut self, t: f64) {
         self.meet_once(t, false, false);
         self.crowd_undecided(t);
     }
 
-    /// Finds out what contacts do of which nothing else is known.
+    /// Decides the modes of contacts that are not determined otherwise.
     pub(super) fn decide_contacts(&mut self, t: f64) {
         self.is_decided = true;
         self.decide(t);
@@ -153,18 +154,18 @@ impl World {
         let have_changed = self.solver.take_contacts(strike.closed);
         self.solver.leave(collider.crowded());
         if is_touch && !have_changed && !is_crowded && !self.solver.concerns(&strike.struck) {
-            // What holds bodies has nothing to do with it.
+            // Constraints are not involved.
             return has_struck;
         }
         self.decide(t);
         if have_changed {
-            // A gap that is left would be closed within the next step, however short that is.
+            // A remaining gap would close within the next step, however short that is.
             self.solver.close_gaps(&self.model, t, &mut self.state);
         }
         has_struck
     }
 
-    /// Where contacts begin: nothing may be within another, and what touches is struck or stays in touch.
+    /// Starts contacts: bodies must not overlap; touching bodies have impacts or stay in touch.
     pub(super) fn begin_contacts(&mut self) {
         let Some(collider) = &mut self.collider else { return };
         let closed = self.solver.contacts();
@@ -175,7 +176,7 @@ impl World {
         self.meet(self.time, false);
     }
 
-    /// Notes that a run cannot go on, since something happens again and again.
+    /// Reports that a run cannot continue, because an event occurs again and again.
     pub(super) fn give_up(&mut self, event: Event, time: f64) {
         match event {
             Event::Row(row) => self.solver.give_up(&self.model, row, time),
@@ -185,7 +186,7 @@ impl World {
         }
     }
 
-    /// Makes a step of all bodies as the forces and the constraints move them.
+    /// Makes a step of all bodies under forces and constraints.
     pub(super) fn fly(&mut self, t: f64, dt: f64) {
         let mut system = System::new(&self.model, &mut self.solver);
         system.set_out(t, dt, &self.state);
@@ -206,31 +207,31 @@ impl World {
     fn margin(&mut self, t: f64) -> (f64, usize) {
         let margin = System::new(&self.model, &mut self.solver).margin(t, &self.state, &mut self.loads);
         let Some(collider) = &self.collider else { return margin };
-        // More places of bodies that touch: they have no row of their own.
+        // More points of touching bodies, which have no rows of their own.
         let places = collider.margin(&self.model, &self.state, self.solver.contacts()) + 1.0;
         if places < margin.0 { (places, margin.1) } else { margin }
     }
 
-    /// Makes the step shorter until it ends just after the event: the margin at its end is a function of its length, of which the
-    /// root is found by the Illinois method with bisections. Source: M. Dowell & P. Jarratt, BIT 11 (1971) 168.
+    /// Shortens the step until it ends just after the event. The margin at its end is a function of its length; the root is found by the
+    /// Illinois method with bisections. Source: M. Dowell & P. Jarratt, BIT 11 (1971) 168.
     fn find_event(&mut self, t: f64, end: (f64, f64, usize)) -> (f64, usize) {
         let (mut early, mut early_margin) = (0.0, 1.0);
         let (mut late, mut late_margin, mut row) = end;
         let (mut width, mut was_late) = (late, None);
-        // An end that stays a second time counts half.
+        // An end that stays for a second time gets half the weight.
         let mut weights = [1.0; 2];
         let mut later: Option<(f64, f64)> = None;
         for trial in 0..TRIALS {
-            // An event that is over by what is tolerated is found.
+            // The event is found if the margin is within the tolerance.
             if late_margin >= -1.0 {
                 break;
             }
             let middle = 0.5 * (early + late);
-            // Where the last three trials have not halved what is left, this one does.
+            // If the last three trials have not halved the interval, this one does.
             let is_slow = trial % 3 == 2 && late - early > 0.5 * std::mem::replace(&mut width, late - early);
             let (a, b) = (weights[0] * early_margin, weights[1] * late_margin);
             let secant = (early * b - late * a) / (b - a);
-            // A place that has not been there before appears with its event: only what is late tells when that is.
+            // A new contact point appears with its event, so only the late end tells its time.
             let beyond = later.filter(|_| trial % 3 == 0).map(|(length, margin)| {
                 let slope = (margin - late_margin) / (length - late);
                 let root = late - (late_margin + 0.5) / slope;
@@ -257,26 +258,26 @@ impl World {
             weights[usize::from(!is_late)] *= halved;
             was_late = Some(is_late);
         }
-        // What happens at once has nothing before it.
+        // An immediate event has no piece before it.
         let length = if late <= INSTANT * end.0 { 0.0 } else { late };
         self.try_piece(t, length);
         (length, row)
     }
 
-    /// The state `dt` after the beginning of the piece, made by one step; its margin.
+    /// The margin of the state `dt` after the start of the piece, made by one step.
     fn try_piece(&mut self, t: f64, dt: f64) -> (f64, usize) {
         self.try_step(t, dt);
         self.margin(t + dt)
     }
 
-    /// The state `dt` after the beginning of the piece, made by one step.
+    /// Makes the state `dt` after the start of the piece, by one step.
     fn try_step(&mut self, t: f64, dt: f64) {
         self.state.take_over(&self.before, self.model.in_focus());
         if dt == 0.0 {
             return;
         }
         self.integrator.discontinuity();
-        // What went wrong in a step that was too long does not count.
+        // Failures in a step that was too long do not count.
         self.solver.take_failure();
         self.make_step(t, dt);
     }

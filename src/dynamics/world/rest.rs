@@ -1,8 +1,7 @@
-//! Bodies at rest on each other, which take no part in the computation until something disturbs them.
+//! Bodies at rest on each other, which are skipped until something disturbs them.
 //!
-//! A heap that lies still costs as much as one that falls, as long as its contacts are followed. Once all bodies that hold each other have
-//! rested for some steps, they are held where they are: like fixed bodies, but with their weight. What touches them, or changes the forces on
-//! them, lets them go again.
+//! A heap at rest costs as much as a falling one as long as its contacts are followed. Once all bodies of a group have rested for some
+//! steps, they are held in place: like fixed bodies, but with their weight. A touch or a change of forces releases them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,34 +12,35 @@ use super::World;
 use crate::dynamics::contact::{Closed, Collider};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
-/// Bodies that have been at rest for so many steps are held.
+/// The number of steps at rest after which bodies are held.
 const CALM: u32 = 8;
 
-/// At rest is what moves slower than this part of the fastest approach so far, or of what forces change within a step.
+/// A body is at rest if it is slower than this fraction of the fastest approach so far, or of the change of velocity by forces within a
+/// step.
 const STILL: f64 = 1e-8;
 
-/// What time-stepping brings to rest creeps so many times faster.
+/// Under time-stepping, a body at rest may creep this many times faster.
 const CREEP: f64 = 100.0;
 
-/// Loads are the same where they differ by less than this part.
+/// Loads count as equal if their relative difference is below this.
 const SAME: f64 = 1e-9;
 
 /// The bodies that are held at rest.
 #[derive(Clone, Default)]
 pub(super) struct Rest {
-    /// For how many steps each body has been at rest.
+    /// For each body, the number of steps at rest.
     calm: Vec<u32>,
     islands: Vec<Island>,
 }
 
-/// Bodies that hold each other.
+/// A group of bodies that hold each other.
 #[derive(Clone)]
 struct Island {
     bodies: BTreeSet<usize>,
     contacts: Vec<Arc<Closed>>,
-    /// What can be seen of the contacts.
+    /// The contacts for snapshots.
     seen: Vec<ContactSnapshot>,
-    /// The force and the torque on each of the bodies, without those of contacts.
+    /// The force and the torque on each of the bodies, without contact forces.
     loads: Vec<(DVec3, DVec3)>,
 }
 
@@ -55,7 +55,7 @@ impl Rest {
         self.islands.iter().map(|island| &island.bodies)
     }
 
-    /// Whether all of some bodies can be held at the end of this step, if they are at rest.
+    /// Whether all of these bodies can be held at the end of this step, if they are at rest.
     pub(super) fn are_due(&self, bodies: &BTreeSet<usize>) -> bool {
         let calm = |body: &usize| self.calm.get(*body).copied().unwrap_or(0);
         bodies.iter().map(calm).min().is_some_and(|least| least % CALM == CALM - 1)
@@ -67,7 +67,7 @@ impl Rest {
 }
 
 impl World {
-    /// The end of a step: holds the bodies that have been at rest for long enough.
+    /// Called at the end of a step: holds the bodies that have rested long enough.
     pub(super) fn hold_still(&mut self, t: f64) {
         let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
@@ -77,7 +77,7 @@ impl World {
             let slow = if collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
-        // Those that cannot be held yet are looked at again later.
+        // Groups that cannot be held yet are tried again later.
         let is_due =
             |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
         let new =
@@ -98,8 +98,8 @@ impl World {
         self.meet_at_rest(t);
     }
 
-    /// Makes islands of bodies that time-stepping brought to rest. The forces at their contacts are found by sweeps as well: to follow by events
-    /// which of the many contacts of a heap push takes long, and often fails.
+    /// Makes islands of bodies that time-stepping brought to rest. Sweeps find the forces at their contacts as well: deciding by events
+    /// which of a heap's many contacts push takes long, and often fails.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         self.is_decided &= islands.is_empty();
         let make = |bodies: BTreeSet<usize>| {
@@ -134,14 +134,14 @@ impl World {
         islands.into_iter().map(make).collect()
     }
 
-    /// Takes the contacts of some bodies out of those that are followed.
+    /// Removes the contacts of some bodies from those that are followed.
     fn take_out(&mut self, bodies: &BTreeSet<usize>) -> Vec<Arc<Closed>> {
         let (taken, left) = self.solver.contacts().iter().cloned().partition(|contact| contact.is_of(bodies));
         self.solver.take_contacts(left);
         taken
     }
 
-    /// Bodies with their contacts, as they are seen, and with the loads that were summed up last.
+    /// An island of bodies, with its contacts for snapshots, and the last sums of loads.
     fn island(
         &self,
         bodies: BTreeSet<usize>,
@@ -152,14 +152,14 @@ impl World {
         Island { bodies, contacts, seen, loads }
     }
 
-    /// The bodies that hold each other and have all been at rest for long enough.
+    /// The groups of bodies that hold each other and have all rested long enough.
     fn calm_islands(&self) -> Vec<BTreeSet<usize>> {
         let can_move = |body: &usize| self.model.inverse_mass()[*body] != 0.0;
         let is_calm = |body: &usize| self.rest.calm[*body] >= CALM;
         let mut islands: Vec<(BTreeSet<usize>, bool)> = Vec::new();
         for contact in self.solver.contacts() {
             let bodies: BTreeSet<usize> = contact.bodies.into_iter().filter(can_move).collect();
-            // What lies on a body whose motion is given moves with it.
+            // Bodies on a body with a given motion move with it.
             let is_still = contact.bodies.iter().all(|body| self.model.motion(*body).is_none())
                 && bodies.iter().all(is_calm);
             let (same, others) = islands
@@ -181,7 +181,7 @@ impl World {
         calm.map(|(bodies, _)| bodies).collect()
     }
 
-    /// The beginning of a step: lets go of bodies on which other forces act than before.
+    /// Called at the start of a step: releases bodies whose loads have changed.
     pub(super) fn check_rest(&mut self, t: f64) {
         if self.rest.islands.is_empty() {
             return;
@@ -205,7 +205,7 @@ impl World {
         }
     }
 
-    /// Lets go of the bodies that hold some of these. Returns whether there were some.
+    /// Releases the groups that contain any of these bodies. Returns whether there were any.
     pub(super) fn let_go(&mut self, bodies: &[usize]) -> bool {
         if !bodies.iter().any(|&body| self.rest.holds(body)) {
             return false;
@@ -229,7 +229,7 @@ impl World {
         true
     }
 
-    /// Goes back to a state in which more was held.
+    /// Restores a state in which more bodies were held.
     pub(super) fn hold_again(&mut self, held: Rest) {
         let freed = held.islands.iter().flat_map(|island| &island.bodies);
         for &body in freed.filter(|body| !self.rest.holds(**body)) {
@@ -238,7 +238,7 @@ impl World {
         self.rest = held;
     }
 
-    /// Lets go of bodies that some hold, or that these are.
+    /// Releases the groups that contain these bodies or are in touch with them.
     pub(super) fn let_held_by_go(&mut self, bodies: &[usize]) {
         let is_held_by = |contact: &Arc<Closed>| contact.bodies.iter().any(|body| bodies.contains(body));
         let islands = self.rest.islands.iter().filter(|island| island.contacts.iter().any(is_held_by));
@@ -246,14 +246,14 @@ impl World {
         self.let_go(&held);
     }
 
-    /// Lets go of all bodies.
+    /// Releases all bodies.
     pub(super) fn let_all_go(&mut self) {
         let all: Vec<usize> =
             self.rest.islands.iter().flat_map(|island| island.bodies.iter().copied()).collect();
         self.let_go(&all);
     }
 
-    /// Lets go of the bodies that something touches which is not held. Returns whether there were some.
+    /// Releases bodies in touch with a body that is not held. Returns whether there were any.
     pub(super) fn let_touched_go(&mut self) -> bool {
         let Some(collider) = self.collider.as_mut().filter(|_| !self.rest.islands.is_empty()) else {
             return false;

@@ -1,5 +1,5 @@
-//! All that changes as one list of numbers: the places of all bodies that move, their velocities, for each body that turns its orientation and
-//! its angular momentum, and the work that has been done.
+//! The whole state as one list of numbers: the positions of all moving bodies, their velocities, the orientation and angular momentum of
+//! each rotating body, and the work done so far.
 
 use std::ops::Range;
 
@@ -8,10 +8,10 @@ use glam::{DQuat, DVec3};
 use super::super::super::State;
 use super::super::bodies::Field;
 
-/// The numbers of a body that turns.
+/// The numbers of a rotating body.
 const OF_TURN: usize = 7;
 
-/// Where things stand in the list: velocities, turns, and the work.
+/// The start of each part in the list: velocities, rotations, and the work.
 fn places(field: &Field<'_>) -> [usize; 3] {
     let (moving, turning) = (field.bodies.moving.len(), field.bodies.turning.len());
     [3 * moving, 6 * moving, 6 * moving + OF_TURN * turning]
@@ -56,7 +56,7 @@ fn triples(values: &[f64]) -> impl Iterator<Item = DVec3> {
     values.as_chunks::<3>().0.iter().map(|&triple| triple.into())
 }
 
-/// Brings orientations back to unit length.
+/// Normalizes the orientations.
 pub(super) fn normalize(field: &Field<'_>, values: &mut [f64]) {
     let [_, turns, work] = places(field);
     for turn in values[turns..work].as_chunks_mut::<OF_TURN>().0 {
@@ -97,8 +97,8 @@ pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &
     }
 }
 
-/// Shows each body with the ranges of its numbers, and how large these are before and after a step; at the end, the work as if it were a
-/// body's.
+/// Calls `see` for each body with the ranges of its numbers, and their sizes before and after a step. The work comes last, like another
+/// body.
 pub(super) fn each_body(
     field: &Field<'_>,
     before: &[f64],

@@ -1,4 +1,4 @@
-//! The method of Dormand and Prince of order 8, which chooses its steps by estimates of orders 5 and 3.
+//! The eighth-order method of Dormand and Prince, which chooses its steps by error estimates of orders 5 and 3.
 
 mod coefficients;
 mod flat;
@@ -13,29 +13,30 @@ use coefficients::{
     STAGE_11, STAGE_12, TIMES, Weight,
 };
 
-/// A step is made shorter than the error allows, so that it is seldom made in vain.
+/// A step is this factor shorter than the error allows, so that few steps are rejected.
 const SAFETY: f64 = 0.9;
-/// A step is at least so many times as long as the one before, and at most.
+/// The smallest and largest ratio of a step to the one before.
 const SHRINKS: f64 = 1.0 / 3.0;
 const GROWS: f64 = 6.0;
 
-/// Twelve stages a step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential Equations I*, 2nd edition (1993), II.10;
-/// the choice of steps: II.4.
+/// Twelve stages per step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential Equations I*, 2nd edition (1993),
+/// II.10; the choice of steps: II.4.
 ///
-/// The error of a step is allowed to be `tolerance` of each body's distance from the origin, speed and so on; where these are small, of the size of
-/// the whole motion ([`Scales`](super::bodies::Scales)). A body with a large error is not hidden by many with small ones: the largest counts.
+/// The allowed error of a step is `tolerance` times each body's distance from the origin, speed and so on. If these are small, it is
+/// relative to the size of the whole motion ([`Scales`](super::bodies::Scales)). The largest error of all bodies counts, so that many
+/// small errors cannot hide it.
 #[derive(Default)]
 pub(super) struct Dop853 {
     tolerance: f64,
-    /// All that changes: places, velocities, orientations with angular momenta, work.
+    /// The state: positions, velocities, orientations with angular momenta, work.
     values: Vec<f64>,
     /// The slopes of the stages; the first is that of the values.
     slopes: [Vec<f64>; 12],
-    /// Room for a stage.
+    /// Working memory for a stage.
     stage: Vec<f64>,
-    /// How long the next step is, s.
+    /// The length of the next step, s.
     proposal: f64,
-    /// Since when bodies turn evenly that nothing turns, s.
+    /// The time since the orientations of uniformly rotating bodies were stored, s.
     elapsed: f64,
 }
 
@@ -44,7 +45,7 @@ impl Dop853 {
         Dop853 { tolerance, ..Dop853::default() }
     }
 
-    /// Finds the values a step later, and leaves them in the room for a stage. The slope at the end is not known yet.
+    /// Computes the values after a step, and stores them in `stage`. The slope at the end is not computed yet.
     fn try_step(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
         self.find_slope(field, now, h, 1, STAGE_2);
         self.find_slope(field, now, h, 2, STAGE_3);
@@ -60,7 +61,7 @@ impl Dop853 {
         self.follow(h, END);
     }
 
-    /// The slope of one stage, which follows from those before.
+    /// The slope of one stage, from those before.
     fn find_slope<const N: usize>(
         &mut self,
         field: &mut Field<'_>,
@@ -73,7 +74,7 @@ impl Dop853 {
         flat::find_slope(field, now.seconds() + TIMES[number] * h, &self.stage, &mut self.slopes[number]);
     }
 
-    /// Goes along slopes, from the values to the stage.
+    /// Computes the stage from the values and weighted slopes.
     fn follow<const N: usize>(&mut self, h: f64, weights: [Weight; N]) {
         let Dop853 { values, slopes, stage, .. } = self;
         let slopes = weights.map(|(number, _)| &slopes[number][..values.len()]);
@@ -86,7 +87,7 @@ impl Dop853 {
         }
     }
 
-    /// The error of the step to the stage by what is allowed, and the body that has it: at most 1 is allowed.
+    /// The error of the step relative to the allowed error, and its body. At most 1 is allowed.
     fn error(&self, field: &Field<'_>, h: f64) -> (f64, BodyId) {
         let Dop853 { values, slopes, stage, tolerance, .. } = self;
         let sum = |weights: &[Weight], i: usize| -> f64 {
@@ -112,7 +113,7 @@ impl Dop853 {
         worst
     }
 
-    /// Takes the stage as what is.
+    /// Accepts the stage as the new state.
     fn accept(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
         std::mem::swap(&mut self.values, &mut self.stage);
         flat::normalize(field, &mut self.values);
@@ -120,9 +121,9 @@ impl Dop853 {
         self.elapsed += h;
     }
 
-    /// A length for the first step. Source: Hairer, Nørsett & Wanner, II.4.
+    /// The length of the first step. Source: Hairer, Nørsett & Wanner, II.4.
     fn first_step(&mut self, field: &mut Field<'_>, now: Time) -> f64 {
-        // Both in units of what is allowed; a value is about one by the tolerance.
+        // Both are relative to the allowed error; in these units, a value is about 1/tolerance.
         let rate = self.largest(field, |dop, i| dop.slopes[0][i]);
         if rate == 0.0 {
             return f64::INFINITY;
@@ -135,7 +136,7 @@ impl Dop853 {
         (100.0 * guess).min(eighth_root(0.01 / (steepest * self.tolerance)).min(100.0) * guess)
     }
 
-    /// The largest of some quantity, in units of what is allowed.
+    /// The largest value of a quantity, relative to the allowed error.
     fn largest(&self, field: &Field<'_>, of: impl Fn(&Dop853, usize) -> f64) -> f64 {
         let mut largest: f64 = 0.0;
         flat::each_body(field, &self.values, &self.values, |_, parts| {
@@ -175,7 +176,7 @@ impl Stepper for Dop853 {
             if error <= 1.0 {
                 self.accept(field, now, h);
                 let factor = SAFETY / eighth_root(error);
-                // Where the step was cut, more was allowed.
+                // The step was shortened although the error allowed a longer one.
                 self.proposal = (h * factor.clamp(SHRINKS, most)).max(if most > 1.0 {
                     h.min(self.proposal)
                 } else {
@@ -203,7 +204,7 @@ impl Stepper for Dop853 {
     }
 }
 
-// By hand, since stages need not be copied, and room that is there can be used again.
+// Written by hand, since stages need not be copied, and allocated memory can be reused.
 impl Clone for Dop853 {
     fn clone(&self) -> Self {
         let mut clone = Dop853::default();

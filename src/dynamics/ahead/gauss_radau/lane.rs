@@ -1,10 +1,10 @@
-//! Three numbers that are advanced together: a place with its velocity, or something else with its slope.
+//! Three numbers that are advanced together: a position with its velocity, or another quantity with its slope.
 
 use glam::DVec3;
 
 use super::nodes::{BINOMIALS, NODES, OF_PLACE, OF_VALUE, PER_DISTANCE, POWERS, PRODUCTS, TERMS, Weights};
 
-/// A sum, and what it has lost by rounding. Source: W. Kahan, Commun. ACM 8 (1965) 40.
+/// A sum and its rounding error. Source: W. Kahan, Commun. ACM 8 (1965) 40.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sum {
     pub(super) value: DVec3,
@@ -23,26 +23,27 @@ impl Sum {
         self.value = sum;
     }
 
-    /// The sum with a little more.
+    /// The sum plus a small term.
     fn with(self, more: DVec3) -> DVec3 {
         self.value + (self.rest + more)
     }
 }
 
-/// A value whose slope within a step is s₀ + b₁ h + … + b₇ h⁷ at the part h of it, and, of a velocity, the place that it leads to.
+/// A value whose slope at the fraction h of a step is s₀ + b₁ h + … + b₇ h⁷. If the value is a velocity, its lane also holds the
+/// position.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Lane {
     pub(super) place: Sum,
     pub(super) value: Sum,
-    /// The slope at the beginning of the step.
+    /// The slope at the start of the step.
     pub(super) slope: DVec3,
     /// The coefficients b.
     pub(super) b: [DVec3; TERMS],
-    /// The same slope by the products of the nodes.
+    /// The same slope, in terms of products of the nodes.
     g: [DVec3; TERMS],
-    /// What the step before has led one to expect of b.
+    /// The prediction of b from the last step.
     expected: [DVec3; TERMS],
-    /// b of the step that was made last, and what was expected of it.
+    /// b of the last step, and its prediction.
     last: [DVec3; TERMS],
     last_expected: [DVec3; TERMS],
 }
@@ -59,7 +60,7 @@ impl Lane {
         Lane { place: Sum::of(place), value: Sum::of(value), ..Lane::default() }
     }
 
-    /// Expects the step to go on like the one before, which was `1 / ratio` times as long; 0 where there was none.
+    /// Predicts that the step continues like the last one, which was `1 / ratio` times as long. A ratio of 0 gives no prediction.
     #[allow(clippy::needless_range_loop, reason = "the sums are those of the formulas, over two indices")]
     pub(super) fn expect(&mut self, ratio: f64) {
         let mut power = ratio;
@@ -70,7 +71,7 @@ impl Lane {
             }
             self.expected[k] = power * sum;
             power *= ratio;
-            // What was wrong with the last guess will be wrong with this.
+            // The error of the last prediction is likely to repeat.
             self.b[k] = if ratio > 0.0 {
                 self.expected[k] + (self.last[k] - self.last_expected[k])
             } else {
@@ -86,7 +87,7 @@ impl Lane {
         }
     }
 
-    /// What the slope at the beginning and the coefficients add up to.
+    /// The sum of the initial slope and the coefficients, with their weights.
     #[inline(always)]
     fn weigh(&self, weights: &Weights) -> DVec3 {
         let [b1, b2, b3, b4, b5, b6, b7] = self.b;
@@ -100,14 +101,14 @@ impl Lane {
         self.value.with(dt * self.weigh(&OF_VALUE[node]))
     }
 
-    /// The place at a node of a step of `dt`, s.
+    /// The position at a node of a step of `dt`, s.
     #[inline(always)]
     pub(super) fn place_at(&self, node: usize, dt: f64) -> DVec3 {
         let bend = dt * dt * self.weigh(&OF_PLACE[node]);
         self.place.with((dt * NODES[node]) * self.value.value + bend)
     }
 
-    /// Takes in the slope at node N; returns by how much the last coefficient changes.
+    /// Updates the coefficients with the slope at node N. Returns the change of the last coefficient.
     #[allow(clippy::needless_range_loop, reason = "the sums are those of the formulas, over two indices")]
     #[inline(always)]
     pub(super) fn refine<const N: usize>(&mut self, slope: DVec3) -> DVec3 {
@@ -124,7 +125,7 @@ impl Lane {
         change
     }
 
-    /// Goes to the end of the step.
+    /// Advances to the end of the step.
     pub(super) fn finish(&mut self, dt: f64, has_place: bool) {
         if has_place {
             let bend = dt * dt * self.weigh(&OF_PLACE[8]) + dt * self.value.rest;
@@ -134,7 +135,7 @@ impl Lane {
         (self.last, self.last_expected) = (self.b, self.expected);
     }
 
-    /// How the slope is at the end of the step.
+    /// The slope and its derivatives at the end of the step.
     pub(super) fn end(&self) -> End {
         let [mut slope, mut rate, mut curvature] = [self.slope, DVec3::ZERO, DVec3::ZERO];
         let mut number = 1.0;

@@ -1,4 +1,4 @@
-//! Everhart's method of Gauss–Radau, of order 15, which chooses its steps by how fast the motion changes.
+//! Everhart's Gauss–Radau method of order 15, which chooses its steps by the rate at which the motion changes.
 
 mod lane;
 mod nodes;
@@ -11,41 +11,41 @@ use super::bodies::Field;
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 
-/// A step that ought to be shorter than this part of what it was is made anew; the next is at most as many times longer.
+/// A step that should be shorter than this fraction of its length is repeated. The next step grows at most by the inverse factor.
 const CHANGES: f64 = 0.25;
-/// The slopes of a step are evaluated at most so often.
+/// The largest number of iterations in a step.
 const MOST_ROUNDS: usize = 12;
-/// They are known when the last coefficient changes by no more than this part of a slope.
+/// The iteration has converged if the last coefficient changes by less than this fraction of a slope.
 const KNOWN: f64 = 1e-16;
-/// What is left by rounding of slopes is less than this part of them. A larger change may well grow from one round to the next, and become
-/// less in those that follow.
+/// Rounding errors of slopes are below this fraction. A larger change may grow from one iteration to the next, and still shrink later.
 const ROUNDING: f64 = 1e-12;
-/// What changes by no more than this part within a step does so by rounding.
+/// A relative change below this within a step is rounding.
 const NOISE: f64 = 1e-15;
-/// A step that is more than this many times as long as the one before begins without a prediction.
+/// A step that is more than this many times as long as the last one starts without a prediction.
 const UNKNOWN: f64 = 20.0;
 
-/// The slope of everything is a polynomial within a step, through its values at eight nodes. Source: E. Everhart, *An efficient integrator that uses
+/// Within a step, each slope is a polynomial through its values at eight nodes. Source: E. Everhart, *An efficient integrator that uses
 /// Gauss–Radau spacings*, in *Dynamics of Comets* (1985) 185; H. Rein & D. S. Spiegel, Mon. Not. R. Astron. Soc. 446 (2015) 1424.
 ///
-/// For each body, a step may last √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) seconds, with its acceleration a, jerk j and snap s at the end of
-/// the step before. The shortest of these times is taken. It does not depend on how far a body is from the origin. Source: D. Pham, H. Rein & D. S.
-/// Spiegel, Open J. Astrophys. 7 (2024). Orientations and angular momenta limit the step in the same way. Places, velocities and time are
-/// compensated sums: they keep what rounding would lose.
+/// For each body, a step may last √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) seconds, with its acceleration a, jerk j and snap s at
+/// the end of the last step. The shortest of these times is used. It does not depend on the distance of a body from the origin. Source:
+/// D. Pham, H. Rein & D. S. Spiegel, Open J. Astrophys. 7 (2024). Orientations and angular momenta limit the step in the same way.
+/// Positions, velocities and time are compensated sums, which correct rounding errors.
 #[derive(Default)]
 pub(super) struct GaussRadau {
-    /// The length of a step by the time in which the motion changes.
+    /// The ratio of the step to the time scale of the motion.
     factor: f64,
-    /// Bodies that move; of those that turn two lanes for the orientation, and one for the angular momentum; the work.
+    /// The lanes: one for each moving body; two for the orientation and one for the angular momentum of each rotating body; one for the
+    /// work.
     lanes: Vec<Lane>,
     proposal: f64,
-    /// The length of the step that was made last, s; 0 where there was none.
+    /// The length of the last step, s; 0 if there was none.
     last: f64,
-    /// Since when bodies turn evenly that nothing turns, s.
+    /// The time since the orientations of uniformly rotating bodies were stored, s.
     elapsed: f64,
 }
 
-/// The lanes of a body that turns.
+/// The lanes of a rotating body.
 const OF_TURN: usize = 3;
 
 impl GaussRadau {
@@ -53,7 +53,7 @@ impl GaussRadau {
         GaussRadau { factor: libm::pow(5040.0 * tolerance, 1.0 / 7.0), ..GaussRadau::default() }
     }
 
-    /// The coefficients of a step.
+    /// Finds the coefficients of a step.
     fn solve(&mut self, field: &mut Field<'_>, now: Time, dt: f64) {
         let ratio = if self.last > 0.0 { dt / self.last } else { 0.0 };
         let ratio = if ratio > UNKNOWN { 0.0 } else { ratio };
@@ -67,7 +67,7 @@ impl GaussRadau {
             self.visit::<5>(field, now, dt);
             self.visit::<6>(field, now, dt);
             let change = self.visit::<7>(field, now, dt);
-            // A small change that does not shrink any more is rounding.
+            // A small change that no longer shrinks is rounding.
             if change < KNOWN || round > 1 && change < ROUNDING && change >= before {
                 break;
             }
@@ -75,11 +75,11 @@ impl GaussRadau {
         }
     }
 
-    /// Evaluates the slopes at node N; says by how much the last coefficient changes by the largest slope.
+    /// Evaluates the slopes at node N. Returns the change of the last coefficient relative to the largest slope.
     fn visit<const N: usize>(&mut self, field: &mut Field<'_>, now: Time, dt: f64) -> f64 {
         self.place(field, |lane| lane.place_at(N, dt), |lane| lane.value_at(N, dt));
         field.evaluate(now.after(nodes::NODES[N] * dt).seconds());
-        // Accelerations, and what turns, have other units.
+        // Accelerations and rotations have different units.
         let mut largest = [(0.0f64, 0.0f64); 4];
         self.each_slope(field, |lane, slope, sort| {
             let change = lane.refine::<N>(slope);
@@ -93,7 +93,7 @@ impl GaussRadau {
         parts.fold(0.0, f64::max)
     }
 
-    /// Puts the bodies where their lanes say that they are.
+    /// Moves the bodies to the positions in their lanes.
     #[inline(always)]
     fn place(&self, field: &mut Field<'_>, at: impl Fn(&Lane) -> DVec3, value: impl Fn(&Lane) -> DVec3) {
         let (moving, others) = self.lanes.split_at(field.bodies.moving.len());
@@ -111,7 +111,7 @@ impl GaussRadau {
         }
     }
 
-    /// Shows each lane with its slope and what sort of lane it is.
+    /// Calls `see` for each lane with its slope and its kind.
     #[inline(always)]
     fn each_slope(&mut self, field: &Field<'_>, mut see: impl FnMut(&mut Lane, DVec3, usize)) {
         let (moving, others) = self.lanes.split_at_mut(field.bodies.moving.len());
@@ -130,8 +130,7 @@ impl GaussRadau {
         rest.iter_mut().for_each(|work| see(work, DVec3::X * field.loads.power.work, 3));
     }
 
-    /// How long a step ought to be by how the motion is at the end of this one, and the body that says so. Not a number where something
-    /// is not finite.
+    /// A suitable step from the motion at the end of this one, and the body that limits it. NaN if something is not finite.
     fn suitable(&self, field: &Field<'_>, dt: f64) -> (f64, BodyId) {
         let mut shortest = (f64::INFINITY, 0);
         let mut see = |i: usize, ends: &[End], size: f64| {
@@ -157,14 +156,14 @@ impl GaussRadau {
         (shortest.0.sqrt() * dt * self.factor, BodyId::new(shortest.1))
     }
 
-    /// Goes to the end of the step.
+    /// Advances to the end of the step.
     fn finish(&mut self, field: &mut Field<'_>, dt: f64) {
         let (moving, others) = self.lanes.split_at_mut(field.bodies.moving.len());
         moving.iter_mut().for_each(|lane| lane.finish(dt, true));
         others.iter_mut().for_each(|lane| lane.finish(dt, false));
         let turns = OF_TURN * field.bodies.turning.len();
         for [xyz, w, _] in others[..turns].as_chunks_mut::<OF_TURN>().0 {
-            // By adding what is missing to unit length, since to divide would lose what the sums keep.
+            // Adds the difference from unit length: division would lose the compensation of the sums.
             let square = xyz.value.value.length_squared() + w.value.value.length_squared();
             let missing = 0.5 * (1.0 - square);
             xyz.value.add(missing * xyz.value.value);
@@ -173,7 +172,7 @@ impl GaussRadau {
         (self.last, self.elapsed) = (dt, self.elapsed + dt);
     }
 
-    /// Finds the slopes at the beginning of a step.
+    /// Finds the slopes at the start of a step.
     fn set_out(&mut self, field: &mut Field<'_>, now: Time) {
         self.place(field, |lane| lane.place.value, |lane| lane.value.value);
         field.evaluate(now.seconds());
@@ -211,7 +210,7 @@ impl Stepper for GaussRadau {
             if suitable >= CHANGES * dt {
                 self.finish(field, dt);
                 let next = suitable.min(dt / CHANGES);
-                // Where the step was cut, more was allowed.
+                // The step was shortened although a longer one was allowed.
                 self.proposal = if dt < self.proposal { next.max(self.proposal.min(suitable)) } else { next };
                 return Ok(dt);
             }
@@ -244,7 +243,7 @@ impl Stepper for GaussRadau {
     }
 }
 
-// By hand, since the room for lanes can be used again.
+// Written by hand, since the memory for lanes can be reused.
 impl Clone for GaussRadau {
     fn clone(&self) -> Self {
         GaussRadau { lanes: self.lanes.clone(), ..*self }

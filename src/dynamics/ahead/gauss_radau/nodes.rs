@@ -1,7 +1,7 @@
-//! The times at which forces are evaluated within a step, and the weights that follow from them.
+//! The times in a step at which forces are evaluated, and the weights that follow from them.
 
-/// The nodes of Gauss–Radau quadrature with eight points, as parts of a step. Source: E. Everhart, in *Dynamics of Comets* (1985) 185,
-/// table 1.
+/// The nodes of Gauss–Radau quadrature with eight points, as fractions of a step. Source: E. Everhart, in *Dynamics of Comets* (1985)
+/// 185, table 1.
 pub(super) const NODES: [f64; 8] = [
     0.0,
     0.056_262_560_536_922_15,
@@ -16,12 +16,12 @@ pub(super) const NODES: [f64; 8] = [
 /// The coefficients of h, h², …, h⁷ in a slope.
 pub(super) const TERMS: usize = 7;
 
-/// Weights of the slope at the beginning and of the seven coefficients.
+/// Weights of the initial slope and the seven coefficients.
 pub(super) type Weights = [f64; TERMS + 1];
 
-/// By how much a value has grown at each node, and at the end of the step, for a step of 1: hᵏ/k.
+/// The growth of a value up to each node, and up to the end, for a step of 1: hᵏ/k.
 pub(super) const OF_VALUE: [Weights; 9] = weights(false);
-/// How far a place has moved by its changing velocity: hᵏ⁺¹/(k (k + 1)).
+/// The displacement by the change of velocity, for a step of 1: hᵏ⁺¹/(k (k + 1)).
 pub(super) const OF_PLACE: [Weights; 9] = weights(true);
 
 const fn weights(of_place: bool) -> [Weights; 9] {
@@ -56,7 +56,7 @@ pub(super) const PER_DISTANCE: [[f64; 8]; 8] = {
     all
 };
 
-/// The coefficients of h (h − h₁) … (h − hₖ) by powers of h, from h on. Source: Everhart, equation 8.
+/// The coefficients of h (h − h₁) … (h − hₖ) as polynomials in h, from h on. Source: Everhart, equation 8.
 pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
     let mut all = [[0.0; TERMS]; TERMS];
     all[0][0] = 1.0;
@@ -68,7 +68,7 @@ pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
     all
 };
 
-/// The coefficients of powers of h by those products. Source: Everhart, equation 9.
+/// The coefficients of powers of h in terms of those products. Source: Everhart, equation 9.
 pub(super) const PRODUCTS: [[f64; TERMS]; TERMS] = {
     let [_, nodes @ ..] = NODES;
     let mut all = [[0.0; TERMS]; TERMS];
@@ -113,7 +113,7 @@ pub(super) const BINOMIALS: [[f64; TERMS]; TERMS] = {
 mod tests {
     use super::*;
 
-    /// The two tables are inverse to each other, and others are what a hand writes down.
+    /// The two tables are inverse to each other, and the others have the values computed by hand.
     #[test]
     #[allow(clippy::needless_range_loop, reason = "matrices have two indices")]
     fn powers_and_products_undo_each_other() {

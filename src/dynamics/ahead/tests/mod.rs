@@ -26,7 +26,7 @@ fn attract(world: &mut World) {
     });
 }
 
-/// A planet at the perihelion of an orbit of eccentricity e about a star that does not move.
+/// A planet at the perihelion of an orbit of eccentricity e about a fixed star.
 fn kepler(eccentricity: f64) -> World {
     let mut world = World::new();
     world.add(sphere(1.0).with_fixed(true));
@@ -39,7 +39,7 @@ fn kepler(eccentricity: f64) -> World {
 
 const ADAPTIVE: [&str; 2] = ["dop853", "gauss-radau"];
 
-/// Ten times around. The error of DOP853 grows with the tolerance; what is left of Gauss–Radau is rounding, some 10⁻¹⁴ √10 in the energy.
+/// Ten orbits. The error of DOP853 grows with the tolerance. The error of Gauss–Radau is rounding, some 10⁻¹⁴ √10 in the energy.
 #[test]
 fn a_planet_comes_back_to_where_it_was() {
     let end = 10.0 * std::f64::consts::TAU;
@@ -56,7 +56,7 @@ fn a_planet_comes_back_to_where_it_was() {
     }
 }
 
-/// A run is the same bit for bit, in whatever parts it is asked for and whoever looks.
+/// A run is the same, bit for bit, whatever its parts and the requested moments are.
 #[test]
 fn what_is_looked_at_changes_nothing() {
     for name in ADAPTIVE {
@@ -73,7 +73,7 @@ fn what_is_looked_at_changes_nothing() {
         }
         assert_eq!(watched.snapshot().unwrap().bodies, straight.snapshot().unwrap().bodies);
         assert_eq!(watched.steps(), straight.steps());
-        // And what is seen is as exact as the run.
+        // The moments are as exact as the run.
         for moment in &seen {
             assert!(moment.balance.drift.abs() < 1e-8, "{name} {}: {:e}", moment.time, moment.balance.drift);
             let mut alone = run(name, 1e-9, end, kepler(0.5));
@@ -84,11 +84,11 @@ fn what_is_looked_at_changes_nothing() {
     }
 }
 
-/// Euler's equations about the middle axis: the first flip of a body with moments 1, 2, 3 that turns by (0.001, 5, 0.001) is over at 3.539 s, when
-/// the angular velocity about the middle axis changes its sign; after 10 s, it is known to twelve digits.
+/// Euler's equations about the middle axis, for a body with moments 1, 2, 3 and angular velocity (0.001, 5, 0.001). Its first flip ends
+/// at 3.539 s, when the angular velocity about the middle axis changes its sign. After 10 s, it is known to twelve digits.
 #[test]
 fn a_wing_nut_flips_when_it_has_to() {
-    // An error δ of the energy becomes one of δ/10⁻⁶ in the time of a flip.
+    // An energy error δ grows to δ/10⁻⁶ in the time of a flip.
     for (name, tolerance, allowed) in [("dop853", 1e-14, 1e-4), ("gauss-radau", 1e-9, 1e-7)] {
         let mut world = World::new();
         let body = sphere(1.0).with_inertia(DVec3::new(1.0, 2.0, 3.0));
@@ -101,7 +101,7 @@ fn a_wing_nut_flips_when_it_has_to() {
         let momentum = run.snapshot().unwrap().balance.angular_momentum;
         let mut seen = Vec::new();
         run.advance(10.0, &[3.538, 3.54], &mut |snapshot| seen.push(about(&snapshot))).unwrap();
-        // The middle of the flip: where it turns about the middle axis neither this way nor that.
+        // The middle of the flip, where the angular velocity about the middle axis is 0.
         assert!(seen[0].y * seen[1].y < 0.0, "{name}: {seen:?}");
         let off = about(&run.snapshot().unwrap())
             - DVec3::new(4.510_627_124_012, -2.157_369_682_769, 2.604_211_912_26);
@@ -113,7 +113,7 @@ fn a_wing_nut_flips_when_it_has_to() {
     }
 }
 
-/// What has no potential does work, what guides a body too, and the drift stays the error of the method.
+/// Everything without a potential does work, and so do guides. The drift remains the error of the method.
 #[test]
 fn work_is_integrated_along() {
     struct Swing;
@@ -150,7 +150,7 @@ fn work_is_integrated_along() {
     }
 }
 
-/// A step ends at a birth and at a death, and the energy that comes and goes is no drift.
+/// A step ends at a birth and at a death. The energy that comes and goes does not count as drift.
 #[test]
 fn bodies_come_and_go_between_steps() {
     for name in ADAPTIVE {
@@ -170,7 +170,7 @@ fn bodies_come_and_go_between_steps() {
     }
 }
 
-/// Two point masses of 1 kg fall into each other from 2 m: after π/(2√2) √(d³ / (G (m₁ + m₂))) = π/√2 s.
+/// Two point masses of 1 kg fall towards each other from 2 m: they meet after π/(2√2) √(d³ / (G (m₁ + m₂))) = π/√2 s.
 #[test]
 fn where_no_step_is_short_enough_the_run_says_so() {
     for name in ADAPTIVE {
@@ -186,7 +186,7 @@ fn where_no_step_is_short_enough_the_run_says_so() {
     }
 }
 
-/// A ball that nothing turns costs no steps: it is where it must be after a thousand turns.
+/// A ball without torque costs no steps: its orientation is exact after a thousand rotations.
 #[test]
 fn what_turns_evenly_takes_no_steps() {
     for name in ADAPTIVE {
@@ -201,7 +201,7 @@ fn what_turns_evenly_takes_no_steps() {
     }
 }
 
-/// Two bodies far away from the origin move as those near it do: the tolerance of Gauss–Radau does not know where the origin is.
+/// Two bodies far from the origin move like those near it: the tolerance of Gauss–Radau does not depend on the origin.
 #[test]
 fn the_origin_does_not_matter() {
     let mut counts = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Seven stars in the plane, many of which nearly meet. Source: IVP Test Set, problem PLEI.
+/// Seven stars in the plane, many of which have close encounters. Source: IVP Test Set, problem PLEI.
 #[test]
 fn the_pleiades_are_where_the_test_set_has_them() {
     let start = [
@@ -41,8 +41,8 @@ fn the_pleiades_are_where_the_test_set_has_them() {
     }
 }
 
-/// Three stars chase each other along a figure of eight, and are back after a period. Its eight digits leave 3e-8. Source: A. Chenciner & R.
-/// Montgomery, Ann. Math. 152 (2000) 881.
+/// Three stars follow each other along a figure of eight, and return after a period. Its eight digits leave an error of 3e-8. Source: A.
+/// Chenciner & R. Montgomery, Ann. Math. 152 (2000) 881.
 #[test]
 fn the_figure_of_eight_closes() {
     let outer = (DVec3::new(0.97000436, -0.24308753, 0.0), DVec3::new(0.466203685, 0.43236573, 0.0));
@@ -79,7 +79,7 @@ fn places(mut run: Box<dyn Dynamics>) -> Vec<DVec3> {
     run.snapshot().unwrap().bodies.iter().map(|body| body.location).collect()
 }
 
-/// What the corrector leaves is of second order in the step: half the step, a quarter of the error.
+/// The error after the corrector is of second order in the step: half the step gives a quarter of the error.
 #[test]
 fn planets_have_an_error_of_second_order() {
     let exact = places(system("gauss-radau", 1.0, 1e-10));
@@ -96,7 +96,7 @@ fn planets_have_an_error_of_second_order() {
     assert!(errors[2] < 1e-4, "{errors:?}");
 }
 
-/// One planet alone is on its exact orbit with any step.
+/// A single planet follows its exact orbit with any step.
 #[test]
 fn a_single_planet_needs_no_short_steps() {
     let mut world = World::new();
@@ -114,7 +114,7 @@ fn a_single_planet_needs_no_short_steps() {
     assert!((seen - DVec3::X * 0.5).length() < 1e-11, "{seen}");
 }
 
-/// Whoever looks changes nothing, and what is seen between two steps is as exact as at their ends. All that is drawn keeps its energy.
+/// Requested moments do not affect the run, and are as exact between two steps as at their ends. The energy is conserved at all of them.
 #[test]
 fn planets_can_be_looked_at_at_any_time() {
     let straight = places(system("wisdom-holman", 0.07, 0.0));

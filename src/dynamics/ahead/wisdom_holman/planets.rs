@@ -1,33 +1,33 @@
-//! Planets about a heavy body, in the coordinates of Jacobi.
+//! Planets about a heavy body, in Jacobi coordinates.
 
 use glam::DVec3;
 
 use super::super::bodies::Field;
 use super::kepler;
 
-/// A body seen from the centre of mass of all those nearer to the heavy one.
+/// A body relative to the centre of mass of all those nearer to the heavy one.
 #[derive(Clone, Copy)]
 struct Planet {
     body: usize,
     mass: f64,
-    /// Its own mass and that of all nearer ones, kg.
+    /// Its mass plus those of all nearer bodies, kg.
     within: f64,
     place: DVec3,
     velocity: DVec3,
 }
 
-/// All of them, the heavy one first; its place is that of the centre of mass of all, and so is its velocity.
+/// All bodies, the heavy one first. The position and velocity of the first are those of the centre of mass of all.
 #[derive(Clone, Default)]
 pub(super) struct Planets {
     constant: f64,
     planets: Vec<Planet>,
-    /// Room for the places of all, for what accelerates them, and their masses.
+    /// Working memory for the positions, accelerations and masses of all bodies.
     places: Vec<DVec3>,
     pulls: Vec<DVec3>,
 }
 
 impl Planets {
-    /// Reads them from a field's stage, the heaviest first and then from near to far.
+    /// Reads the bodies from a field's stage, the heaviest first, then by distance.
     pub(super) fn read(&mut self, field: &Field<'_>) {
         let (model, stage) = (field.model, &*field.stage);
         let mass = |i: usize| model.mass()[i];
@@ -43,7 +43,7 @@ impl Planets {
         let (mut within, mut at, mut motion) = (0.0, DVec3::ZERO, DVec3::ZERO);
         for body in order {
             let (mass, location, velocity) = (mass(body), stage.location[body], stage.velocity[body]);
-            // From the centre of those before, and then the centre with this one.
+            // Relative to the centre of the bodies before; then that centre is updated with this one.
             let (place, relative) = (location - at, velocity - motion);
             within += mass;
             at += mass / within * place;
@@ -58,10 +58,10 @@ impl Planets {
         self.pulls.resize(count, DVec3::ZERO);
     }
 
-    /// Shows each body with its place and its velocity in the world.
+    /// Calls `see` for each body with its position and velocity in the world.
     pub(super) fn each(&self, mut see: impl FnMut(usize, DVec3, DVec3)) {
         let Some((sun, planets)) = self.planets.split_first() else { return };
-        // From the centre of all inwards.
+        // From the centre of mass of all bodies inwards.
         let (mut at, mut motion) = (sun.place, sun.velocity);
         for Planet { body, mass, within, place, velocity } in planets.iter().rev() {
             let part = mass / within;
@@ -72,7 +72,7 @@ impl Planets {
         see(sun.body, at, motion);
     }
 
-    /// All go on along their orbits about the masses within, for `dt`, s.
+    /// Advances all bodies along their orbits about the inner masses, for `dt`, s.
     pub(super) fn drift(&mut self, dt: f64) {
         let Some((sun, planets)) = self.planets.split_first_mut() else { return };
         sun.place += dt * sun.velocity;
@@ -81,14 +81,14 @@ impl Planets {
         }
     }
 
-    /// What is missing to the orbits pushes the planets for `dt`, s: they attract each other, and the masses within are not all at one place.
+    /// Kicks the planets for `dt`, s, with the perturbations: they attract each other, and the inner masses are not at one point.
     pub(super) fn kick(&mut self, dt: f64) {
         let Planets { constant, planets, places, pulls } = self;
         let count = planets.len();
         if count < 3 {
             return;
         }
-        // Places from the centre of mass of all.
+        // Positions relative to the centre of mass of all.
         let mut at = DVec3::ZERO;
         for k in (1..count).rev() {
             let Planet { mass, within, place, .. } = planets[k];
@@ -97,7 +97,7 @@ impl Planets {
         }
         places[0] = at;
         pulls.fill(DVec3::ZERO);
-        // All pairs but the heavy body and the first planet, whose orbit knows each other's pull.
+        // All pairs except the heavy body and the first planet, whose orbit includes their attraction.
         for j in 2..count {
             let (here, mass) = (places[j], planets[j].mass);
             let mut own = DVec3::ZERO;
@@ -110,7 +110,7 @@ impl Planets {
             }
             pulls[j] += own;
         }
-        // Accelerations as they are seen from the centres within.
+        // Accelerations relative to the inner centres of mass.
         let factor = dt * *constant;
         let mut mean = pulls[0];
         let mut within = planets[0].mass;
