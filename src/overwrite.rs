@@ -1,7 +1,6 @@
-//! Which files a command may replace: none that it reads, and none that jabuka keeps in its own folders.
+//! Decides which files a command may replace: none that it reads, and none that jabuka keeps in its own folders.
 //!
-//! A file is known by its identity in the file system (device and inode), so links, `..`, hard links and names that differ
-//! in case lead to the same answer.
+//! A file is identified by its device and inode, so links, `..`, hard links and names that differ in case give the same answer.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -16,10 +15,10 @@ use crate::render;
 use crate::scene::Scene;
 use crate::scene::sdl::FileKind;
 
-/// The reason for a file that SDL reads.
+/// The reason for protecting a file that SDL reads.
 const READ_BY_SDL: &str = "the SDL of the scene reads it";
 
-/// The files that a command must leave as they are.
+/// The files that a command must not change.
 #[derive(Debug, Default)]
 pub struct Kept {
     inputs: Vec<Input>,
@@ -27,11 +26,11 @@ pub struct Kept {
     assets: Vec<(String, Option<Identity>)>,
     /// The folders that the command fills with scripts and images. They may not exist yet.
     folders: Vec<PathBuf>,
-    /// The files that the SDL of a trusted scene names, whose relative names start from the folder of the scripts.
+    /// The files that the SDL of a trusted scene names. Relative names start from the folder of the scripts.
     named: Vec<(FileKind, String)>,
 }
 
-/// A file that is read.
+/// A file that the command reads.
 #[derive(Debug)]
 struct Input {
     /// The path without links and `..`.
@@ -75,8 +74,8 @@ impl fmt::Display for CannotOverwrite {
 impl std::error::Error for CannotOverwrite {}
 
 impl Kept {
-    /// All that a scene is made from: its file, what it includes, tables, meshes, heightfields, assets and templates; and what
-    /// its SDL reads, as far as the names of files stand there.
+    /// All inputs of a scene: its file, includes, tables, meshes, heightfields, assets and templates; and the files that its
+    /// SDL reads, as far as their names can be found in it.
     pub fn of_scene(scene: &Scene) -> Kept {
         let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
         let kept = Kept {
@@ -90,7 +89,7 @@ impl Kept {
         kept.and_files(render::named(Path::new("/"), &absolute), READ_BY_SDL)
     }
 
-    /// These files, which the command reads. What it does with them ends a sentence: `the scene is made from it`.
+    /// These files, which the command reads. The reason ends a sentence: `the scene is made from it`.
     #[must_use]
     pub fn and_files<P: AsRef<Path>>(
         mut self,
@@ -105,10 +104,10 @@ impl Kept {
         self
     }
 
-    /// Adds a folder that the command fills with scripts or images. None of these may replace what the command reads.
+    /// Adds a folder that the command fills with scripts or images. None of these may replace an input of the command.
     ///
     /// # Errors
-    /// If a file that is read has the name of one that is going to be written there.
+    /// If an input has the name of a file that will be written there.
     pub fn and_folder(mut self, folder: &Path) -> Result<Kept, CannotOverwrite> {
         let resolved = resolved(folder);
         let is_replaced = |input: &&Input| {
@@ -122,7 +121,7 @@ impl Kept {
             return Err(CannotOverwrite { path: input.path.clone(), why: input.use_of_it.to_owned() });
         }
         self.folders.push(resolved);
-        // A file that rendering reads may come from an earlier run, and compiling replaces it.
+        // Rendering may read files from an earlier run, and compiling replaces these.
         let read = render::named(folder, &self.named);
         Ok(self.and_files(read, READ_BY_SDL))
     }
@@ -164,7 +163,7 @@ impl Kept {
     }
 }
 
-/// Whether a file of this name in a folder of jabuka's is one that jabuka writes: a script or what belongs to it, an image.
+/// Whether jabuka writes a file of this name into its folders: a script or a file that belongs to it, an image.
 fn is_our_name(name: &str) -> bool {
     let image = name.strip_suffix(".png").is_some_and(|stem| output::is_own_name(&format!("{stem}.pov")));
     image || output::is_own_name(name) || name.starts_with(".jabuka")
@@ -226,7 +225,7 @@ mod tests {
         for name in ["film.mp4", "frame_3.png", "images/frame_0003.png", "sheet.png"] {
             assert_eq!(kept.check(&at("out/scene").join(name)), Ok(()), "{name}");
         }
-        // Images that another command has rendered.
+        // Images from another command.
         fs::create_dir_all(at("images/.jabuka")).unwrap();
         said(Kept::default().check(&at("images/frame_0003.png")));
         assert_eq!(Kept::default().check(&at("images/sheet.png")), Ok(()));

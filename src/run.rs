@@ -1,4 +1,4 @@
-//! A scene on its way to scripts.
+//! A simulated scene that can be made into scripts.
 
 #[cfg(feature = "render")]
 use crate::cache;
@@ -11,27 +11,27 @@ use crate::simulate::{
     Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, Survey,
 };
 
-/// A scene whose run has been simulated, so that its frames can be made into scripts.
+/// A scene with its finished run, whose frames can be made into scripts.
 pub struct Run<'a> {
     recorded: Recorded<'a>,
     emitter: Emitter,
     /// The name of the view; none for the main camera.
     view: Option<String>,
-    /// How the camera blurs what moves.
+    /// The motion blur of the camera.
     shutter: Option<Shutter>,
 }
 
 /// Why a run cannot be drawn.
 #[derive(Clone, Debug)]
 pub enum RunError {
-    /// It cannot be simulated, or read.
+    /// The run cannot be simulated or read.
     Simulate(SimulateError),
     /// A script cannot be written.
     Emit(EmitError),
 }
 
 impl<'a> Run<'a> {
-    /// Simulates the scene. What the recording takes beyond a megabyte goes to a file without a name; without the feature `render`,
+    /// Simulates the scene. The part of the recording beyond a megabyte goes to a nameless file; without the feature `render`,
     /// it stays in memory.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl<'a> Run<'a> {
         Run::of(recorded)
     }
 
-    /// The run of a scene that has been simulated already.
+    /// Uses an existing run of a scene.
     ///
     /// # Errors
     /// If a template fails.
@@ -54,7 +54,7 @@ impl<'a> Run<'a> {
         Ok(Run { recorded, emitter, view: None, shutter: scene.camera.shutter })
     }
 
-    /// The same run, seen by one of the scene's other cameras.
+    /// The same run through one of the scene's other cameras.
     ///
     /// # Errors
     /// If a template fails.
@@ -69,17 +69,17 @@ impl<'a> Run<'a> {
         self.recorded.scene()
     }
 
-    /// The run as it was simulated.
+    /// The simulated run.
     pub fn recorded(&self) -> &Recorded<'a> {
         &self.recorded
     }
 
-    /// The name of the view that sees the run; none for the main camera.
+    /// The name of the view; none for the main camera.
     pub fn view(&self) -> Option<&str> {
         self.view.as_deref()
     }
 
-    /// How the camera blurs what moves, if it does.
+    /// The motion blur of the camera, if it has any.
     pub fn shutter(&self) -> Option<Shutter> {
         self.shutter
     }
@@ -94,8 +94,8 @@ impl<'a> Run<'a> {
         &self.emitter
     }
 
-    /// The warnings of the run, such as bodies that go through planes or each other, bodies too thin or too small to be seen, or
-    /// an energy that drifts.
+    /// The warnings of the run, such as bodies that pass through planes or each other, bodies too thin or too small to be seen,
+    /// or an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         let crossings = self.survey().crossings.iter().map(crossing);
         let thin = self.emitter.too_thin().map(|body| {
@@ -125,8 +125,8 @@ impl<'a> Run<'a> {
         self.recorded.frames()
     }
 
-    /// The moment of any time (s), and the run from there on as far as the shutter is open. A time before the beginning is the
-    /// beginning, one after the end is the end.
+    /// The moment at any time (s), and the run after it while the shutter is open. Times outside the run are moved to its
+    /// beginning or end.
     ///
     /// # Errors
     /// If the run becomes non-finite, or its recording cannot be read.
@@ -137,16 +137,15 @@ impl<'a> Run<'a> {
     /// The script of a frame.
     ///
     /// # Errors
-    /// If a body is at a place that cannot be written, or a template fails.
+    /// If the position of a body cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         self.emitter.script(frame)
     }
 
-    /// The script of an image with motion blur, which begins with an exposure's frame. None if the camera does not blur what
-    /// moves.
+    /// The script of an image with motion blur, which begins at an exposure's frame. None if the camera has no motion blur.
     ///
     /// # Errors
-    /// If a body is at a place that cannot be written, a template fails, or the recording cannot be read.
+    /// If the position of a body cannot be written, a template fails, or the recording cannot be read.
     pub fn shutter_script(&self, exposure: &Exposure) -> Result<Option<String>, RunError> {
         let Some(shutter) = self.shutter else { return Ok(None) };
         let mut script = String::new();
@@ -159,7 +158,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The kinds of all warnings of a run.
+/// All warnings that a run can have.
 #[cfg(feature = "render")]
 pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::CorrectedStart,
@@ -190,7 +189,7 @@ fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 
-/// The warning that a method of first order is too inaccurate for the contacts. It gives the energy error.
+/// The warning that a first-order method is too inaccurate for the contacts. It gives the energy error.
 fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 1e-6;
     let simulation = &scene.simulation;
@@ -207,7 +206,7 @@ fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     is_said.then(|| warning.help(help))
 }
 
-/// The warning that the largest body is too small to be seen, in this picture or in one of the whole run.
+/// The warning that the largest body is too small to be seen, in this picture or in a picture of the whole run.
 fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let name = &largest.name;
     let in_whole = |does: String| {
@@ -239,7 +238,7 @@ fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
     Diagnostic::warning(Code::TooFine, message).help(format!("give `spacing = {drawn}` or more in [grid]"))
 }
 
-/// A number with three digits.
+/// A number with three significant digits.
 fn rounded(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 3);
@@ -265,7 +264,7 @@ fn corrected(corrected: &Corrected) -> Diagnostic {
     Diagnostic::warning(Code::CorrectedStart, message).help(help)
 }
 
-/// The setting that stops bodies where they touch.
+/// The setting that makes bodies stop each other.
 const STOPS: &str = "`simulation.contacts = \"event-driven\"` stops bodies where they touch";
 
 /// The warning that a body goes through a plane.

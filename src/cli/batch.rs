@@ -135,7 +135,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let from = &arguments.scene;
-    // Scripts that cannot be sent are not written.
+    // Check first: scripts of a job that cannot be submitted are not written.
     let frames = arguments.of_scene.frames.as_ref();
     let settings = batch::settings(from, frames, String::new(), None).map_err(|error| failed(&error))?;
     if settings.frames.is_empty() {
@@ -157,8 +157,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the film can be made, which is the last that a job does: of images of this size, at the rate that the scene may
-/// give it.
+/// Checks that the film, the last step of a job, can be made: from images of this size, at the rate that the scene may give it.
 fn check_film(size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
     let film = Film::new("film.mp4");
     let check = film.and_then(|film| film.check_size(size).and(rate.map_or(Ok(()), Film::check_rate)));
@@ -177,8 +176,8 @@ fn folder(arguments: &Arguments, name: &str) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| Path::new("out").join(format!("{name}-job")))
 }
 
-/// Makes a job folder, and prints a summary. `write` puts the scripts into it, and returns the size of their images, and whether
-/// these have alpha.
+/// Makes a job folder, and prints a summary. `write` puts the scripts into it, and returns the size of their images and whether
+/// they have alpha.
 fn make(
     arguments: &Arguments,
     folder: &Path,

@@ -1,4 +1,4 @@
-//! `jabuka check`: what is wrong with scenes.
+//! `jabuka check`: finds mistakes in scenes.
 
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         match arguments.format {
             Format::Text => show(path, &report),
             Format::Json => {
-                // Without a place there is no file either, so the path comes first.
+                // A diagnostic without a place names no file, so the path comes first.
                 let mut entries = report.to_json();
                 entries.iter_mut().for_each(|entry| entry.set_scene(path.display().to_string()));
                 json.extend(entries.into_iter().filter_map(|entry| serde_json::to_value(entry).ok()));

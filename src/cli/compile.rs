@@ -83,7 +83,7 @@ fn write(
 }
 
 fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progress) -> Result<(), Failure> {
-    /// The number of frames that are shown in full.
+    /// The largest number of frames that are shown in full.
     const SHOWN: usize = 3;
     let differences = output::compare(run, folder, selection, &|| progress.step());
     let differences = differences.map_err(|error| progress.failed(&error))?;

@@ -1,4 +1,4 @@
-//! `jabuka completions`: what a shell needs to complete commands.
+//! `jabuka completions`: completion scripts for shells.
 
 use clap::CommandFactory;
 use clap_complete::Shell;

@@ -1,4 +1,4 @@
-//! `jabuka explain`: what the code of an error or a warning means.
+//! `jabuka explain`: explains the code of an error or a warning.
 
 use jabuka::explain::{Explanation, explanations};
 

@@ -1,4 +1,4 @@
-//! `jabuka export`: scene → where everything is, for other programs.
+//! `jabuka export`: scene → tables and models for other programs.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, BufWriter};
@@ -56,7 +56,8 @@ struct Files<'a> {
 }
 
 impl Arguments {
-    /// The scene and the file to write. `--events` may have the file, or stand before the scene: then what follows it is the scene.
+    /// The scene and the file to write. `--events` may take the file or stand before the scene; in the latter case, its value
+    /// is the scene.
     fn files(&self) -> Result<Files<'_>, Failure> {
         let named = self.events.as_ref().and_then(Option::as_deref);
         match (self.scene.as_deref(), self.output.as_deref(), named) {
@@ -80,7 +81,7 @@ enum Format {
 }
 
 impl Format {
-    /// The format that the ending of a file's name says.
+    /// The format that belongs to the ending of a file's name.
     fn of(path: &Path) -> Result<Format, Failure> {
         let extension = path.extension().unwrap_or_default();
         if extension.eq_ignore_ascii_case("csv") {
@@ -190,7 +191,7 @@ fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<Str
         bodies => format!("{bodies} bodies"),
     };
     let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
-    // A run that is too slow or too fast to watch is shown at the frame rate of a film.
+    // A run that is too slow or too fast to watch is shown at a film's frame rate.
     let shown = match faster {
         1.0 => String::new(),
         _ => format!(" ({} times as fast as in life)", two_digits(faster)),
@@ -217,7 +218,7 @@ fn report(error: ExportError, path: &Path) -> Report {
     }
 }
 
-/// Writes a file that appears whole or not at all.
+/// Writes a file, whole or not at all.
 pub(super) fn whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<fs::File>) -> Result<T, ExportError>,

@@ -1,10 +1,10 @@
-//! Ctrl-C: a wish to stop, which what takes long looks at.
+//! Ctrl-C: a request to stop, which long tasks check.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From now on, Ctrl-C (or a request of the system to end) sets this; a second one ends the process at once.
+/// From now on, Ctrl-C (or a termination signal) sets this flag; a second one ends the process at once.
 pub(super) fn watched() -> &'static AtomicBool {
     let handler = || {
         if STOP.swap(true, Ordering::Relaxed) {

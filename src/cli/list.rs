@@ -1,4 +1,4 @@
-//! `jabuka list`: what there is to choose from.
+//! `jabuka list`: the available integrators, materials, shapes and so on.
 
 use jabuka::catalog::CATEGORIES;
 use jabuka::diagnostic::nearest;

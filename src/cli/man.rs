@@ -1,4 +1,4 @@
-//! `jabuka man`: the page of the manual.
+//! `jabuka man`: the manual page.
 
 use clap::CommandFactory;
 

@@ -75,17 +75,17 @@ enum Command {
     Sandbox(sandbox::Arguments),
 }
 
-/// How a command ends, beside success.
+/// How a command ends, other than with success.
 enum Failure {
-    /// The scene or the run has errors, and they have been said.
+    /// The scene or the run has errors, which have been reported.
     Errors,
     /// The user has stopped the command, which has been reported.
     Interrupted,
-    /// The command was used wrongly, in this way.
+    /// The command was used wrongly; the text explains how.
     Usage(String),
 }
 
-/// Runs the command that the process was started with.
+/// Runs the command of this process.
 pub(crate) fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -124,7 +124,7 @@ pub(crate) fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Errors) => ExitCode::from(1),
-        // As shells tell that a signal of the keyboard has ended a command.
+        // The exit code by which shells show that Ctrl-C has ended a command.
         Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
             say::error(&format!("error: {}\n\nFor more information, try '--help'.\n", visible(&message)));

@@ -1,4 +1,4 @@
-//! The arguments that say how large and how good images are.
+//! The arguments for the size and quality of images.
 
 use clap::ValueEnum;
 use jabuka::render::{self, Quality};
@@ -43,18 +43,18 @@ fn parse_size(argument: &str) -> Result<[u32; 2], String> {
 }
 
 impl PictureArguments {
-    /// The change of the scene that gives its camera the shape of these images, if they are of another size.
+    /// The change to the scene that gives its camera the shape of these images, if a size is requested.
     pub(super) fn overrides(&self) -> Vec<Override> {
         let size = |[width, height]: [u32; 2]| Override::new(format!("output.size=[{width}, {height}]"));
         self.size.map(size).into_iter().collect()
     }
 
-    /// Their size, where the scripts are made for images of a size.
+    /// The requested size of the images, or else `size`, for which the scripts are made.
     pub(super) fn size_or(&self, size: [u32; 2]) -> [u32; 2] {
         self.size.unwrap_or(size)
     }
 
-    /// POV-Ray's options for them, where the scripts are made for images of a size.
+    /// POV-Ray's options for the images. `size` is the one for which the scripts are made.
     pub(super) fn options(&self, size: [u32; 2], transparent: bool) -> Vec<String> {
         render::options(self.size_or(size), transparent, self.quality.into())
     }

@@ -1,4 +1,4 @@
-//! The arguments that say which POV-Ray renders, and what it may do.
+//! The arguments for POV-Ray: which one renders, and what it may do.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -27,7 +27,7 @@ pub(super) struct PovRayArguments {
     options: Vec<String>,
 }
 
-/// An option of POV-Ray, which records keep in one line.
+/// An option of POV-Ray. Records keep all options in one line, so it must not contain line breaks.
 fn parse_option(argument: &str) -> Result<String, String> {
     if argument.chars().any(is_invisible) {
         return Err("it holds a line break or another character that cannot be seen".to_owned());
@@ -36,12 +36,12 @@ fn parse_option(argument: &str) -> Result<String, String> {
 }
 
 impl PovRayArguments {
-    /// Whether there is one, which is quickly told.
+    /// Quickly checks that there is a POV-Ray.
     pub(super) fn look(&self) -> Result<(), RenderError> {
         PovRay::locate(self.povray.as_deref()).map(drop)
     }
 
-    /// The POV-Ray for a folder of images. Says if it is less confined than it should be.
+    /// The POV-Ray for a folder of images. Warns if it is less confined than it should be.
     pub(super) fn find(&self, images: &Images, confinement: Confinement) -> Result<PovRay, RenderError> {
         let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), confinement)?;
         if let Some(warning) = povray.warning() {

@@ -28,7 +28,7 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
-    // A scene with mistakes can be mended while it is previewed; one that is not there is a mistyped name.
+    // The user can fix a scene with mistakes during the preview; a missing file means a mistyped name.
     if !arguments.scene.is_file() {
         arguments.of_scene.read_with(&arguments.scene, &[])?;
     }
@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::result(&format!("{address}\n"));
         say::error("Ctrl-C ends it.\n");
         if !arguments.no_open {
-            // Without a browser, there is still the address.
+            // Without a browser, the user still has the address.
             if let Err(error) = open::that_detached(address) {
                 say::error(&format!("no browser could be opened: {error}\n"));
             }

@@ -14,13 +14,13 @@ use super::{Failure, render, say};
 /// The products to make from the images.
 pub(super) struct Products {
     film: Option<(Film, Ffmpeg)>,
-    /// The frames per second of the film, if they are given.
+    /// The frame rate of the film, if it is given.
     rate: Option<f64>,
     sheet: Option<ContactSheet>,
 }
 
 impl Products {
-    /// Reads the products from the arguments. Reports a missing program now, and not after the last frame.
+    /// Reads the products from the arguments. Reports a missing program now, not after the last frame.
     pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
         if arguments.video.is_none() && arguments.film.are_given() {
             let message = "`--video-rate` and `--video-quality` are of a film: name it with `--video FILE`";
@@ -39,15 +39,15 @@ impl Products {
         Ok(Products { film: film.transpose()?, rate: arguments.film.video_rate, sheet })
     }
 
-    /// Whether they replace none of the files that are kept.
+    /// Checks that the products replace no protected file.
     pub(super) fn replace_nothing_of(&self, kept: &Kept) -> Result<(), CannotOverwrite> {
         let film = self.film.iter().map(|(film, _)| film.path());
         let mut paths = film.chain(self.sheet.iter().map(ContactSheet::path));
         paths.try_for_each(|path| kept.check(path))
     }
 
-    /// Whether they can be made of images of this size, where the scene may give the film a rate of its own. What cannot
-    /// is said now, not after the last frame.
+    /// Checks that the products can be made from images of this size; the scene may set the frame rate of the film. Problems
+    /// are reported now, not after the last frame.
     pub(super) fn check(&self, size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
         let check = || {
             if let Some((film, _)) = &self.film {
@@ -60,7 +60,7 @@ impl Products {
         check().map_err(|error| failed(&error))
     }
 
-    /// Whether there is anything to be made.
+    /// Whether any product is requested.
     pub(super) fn are_wanted(&self) -> bool {
         self.film.is_some() || self.sheet.is_some()
     }
@@ -87,7 +87,7 @@ impl Products {
         }
         if let Some((film, ffmpeg)) = &self.film {
             let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
-            // A coarse film, of every n-th frame, is as long as the whole one, unless its rate is given.
+            // A coarse film, of every n-th frame, lasts as long as the whole one, unless its rate is given.
             let rate = self.rate.or(sequence.video_rate.map(|rate| rate / every as f64));
             let pace = film.pace(sequence.frame_rate / every as f64, rate);
             let progress = Progress::new(frames.len());
@@ -112,7 +112,7 @@ fn failed(error: &FilmError) -> Failure {
     Failure::Errors
 }
 
-/// A name that no film or sheet can have is a wrong use of the command.
+/// An invalid name for a film or sheet is a wrong use of the command.
 fn misnamed(error: &FilmError) -> Failure {
     Failure::Usage(match error.help() {
         Some(help) => format!("{error}: {help}"),

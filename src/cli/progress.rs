@@ -1,4 +1,4 @@
-//! A progress bar for what takes long.
+//! A progress bar for long tasks.
 
 use std::borrow::Cow;
 use std::io::IsTerminal;
@@ -15,13 +15,13 @@ use super::{Failure, say};
 
 /// Work that takes longer than this gets a bar.
 const LATE: Duration = Duration::from_secs(1);
-/// How often the bar looks how far a step is.
+/// How often the bar polls the progress of a step.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// A bar on standard error, for what takes over a second; without a terminal there is none.
+/// A bar on standard error for tasks of more than a second; without a terminal, there is no bar.
 ///
-/// A step of a run may take minutes, so the bar also moves within a step: by the interactions of pairs that have been
-/// computed of those that the run will take.
+/// A step of a run may take minutes, so the bar also moves within a step, by the share of pair interactions that have been
+/// computed.
 pub(super) struct Progress(Arc<Shared>);
 
 struct Shared {
@@ -32,14 +32,14 @@ struct Shared {
     steps: Mutex<Steps>,
 }
 
-/// How far the steps are.
+/// The progress of the steps.
 #[derive(Default)]
 struct Steps {
-    /// How many are done.
+    /// The number of finished steps.
     done: usize,
     /// How far the finished steps have moved the bar.
     position: u64,
-    /// How many interactions had been computed when the last one was done.
+    /// The number of interactions at the end of the last step.
     before: u64,
     /// Whether the bar is on the terminal, or never will be.
     shown: bool,
@@ -51,7 +51,7 @@ impl Progress {
         Progress::with(steps as u64, Labour::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
-    /// A bar for a run that is simulated, followed by this many scripts.
+    /// A bar for the simulation of a run, followed by this many scripts.
     pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
         let labour = Labour::of(scene);
         let steps = scene.simulation.frames() + scripts;
@@ -65,7 +65,7 @@ impl Progress {
         Progress::with(frames as u64, Labour::default(), template)
     }
 
-    /// Something that takes a time nobody knows: it shows that it goes on, and for how long.
+    /// A bar for a task of unknown length: it shows the time so far.
     pub(super) fn waiting(what: &'static str) -> Progress {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{msg:12} {spinner} {elapsed}") {
@@ -104,12 +104,12 @@ impl Progress {
         self.0.bar.set_message(what);
     }
 
-    /// Says something above the bar.
+    /// Prints a message above the bar.
     pub(super) fn above(&self, say: impl FnOnce()) {
         self.0.bar.suspend(say);
     }
 
-    /// One step is done.
+    /// Counts one finished step.
     pub(super) fn step(&self) {
         let shared = &self.0;
         let mut steps = shared.steps.lock().unwrap_or_else(PoisonError::into_inner);
@@ -119,7 +119,7 @@ impl Progress {
         shared.show(&mut steps);
     }
 
-    /// All is done: the bar goes.
+    /// Removes the bar at the end.
     pub(super) fn finish(&self) {
         self.0.bar.finish_and_clear();
     }
@@ -133,9 +133,9 @@ impl Progress {
 }
 
 impl Shared {
-    /// Moves the bar to where the work is.
+    /// Moves the bar to the current progress.
     fn show(&self, steps: &mut Steps) {
-        // A step is not done before it says so, however much has been computed for it.
+        // A step is finished only when it reports so, however much has been computed for it.
         let most = weight(self.labour, steps.done).saturating_sub(1);
         let within = self.effort.done().saturating_sub(steps.before).min(most);
         self.bar.set_position(steps.position.saturating_add(within));
@@ -151,7 +151,7 @@ fn weight(labour: Labour, step: usize) -> u64 {
     if labour.is_empty() { 1 } else { labour.of_step(step).max(1) }
 }
 
-/// Looks now and then how far a bar is, until that is finished.
+/// Polls the progress of a bar at intervals, until the bar is finished.
 fn look(bar: &Weak<Shared>) {
     while let Some(shared) = bar.upgrade().filter(|shared| !shared.bar.is_finished()) {
         shared.show(&mut shared.steps.lock().unwrap_or_else(PoisonError::into_inner));
@@ -161,7 +161,7 @@ fn look(bar: &Weak<Shared>) {
     }
 }
 
-/// The time that is left. Before anything is done, nobody knows.
+/// The remaining time. It is unknown until something is done.
 fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
     // If the bar cannot be written to, it is not shown.
     let _ = match state.pos() {

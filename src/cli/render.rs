@@ -71,7 +71,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
-    // Missing programs are reported before any work is done.
+    // Missing programs are reported before any work begins.
     arguments.povray.look().map_err(|error| failed(&error))?;
     let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
@@ -95,7 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folders = write_scripts(&scene, &arguments.scene.cache()?, &selection, &cameras)?;
-    // The folders stay locked until the images are there, so that nobody changes scripts while they are rendered.
+    // The folders stay locked until the images are finished, so that no other process changes scripts during rendering.
     let mut result = Ok(());
     for (folder, drift) in &folders {
         match render_scripts(arguments, &products, folder.path(), Some(&selection), drift, stop) {
@@ -106,8 +106,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     result
 }
 
-/// Writes the scripts of some cameras, if they are not there, and says what was noticed of the run. Returns the folders,
-/// and how right the run is.
+/// Writes the scripts of some cameras, if they do not exist yet, and prints the warnings of the run. Returns the folders, and
+/// the accuracy of the run.
 fn write_scripts(
     scene: &Scene,
     cache: &Cache,
@@ -147,7 +147,7 @@ fn write_scripts(
     Ok(folders)
 }
 
-/// Renders the scripts in a folder, as they are.
+/// Renders the existing scripts in a folder.
 fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
     if arguments.scene.change_the_scene() {
         let message = "`--set`, `--templates` and `--view` are for scenes; the scripts of a folder are rendered as they are";
@@ -162,7 +162,7 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
             say::report(&error.report());
             return Err(Failure::Errors);
         }
-        // Scripts that are somebody else's, or that nobody can change, need no lock.
+        // Scripts that belong to somebody else, or that nobody can change, need no lock.
         Err(_) => None,
     };
     let selection = match (&arguments.scene.frames, arguments.every) {
@@ -174,7 +174,7 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
     render_scripts(arguments, products, &arguments.source, selection.as_ref(), "", stop)
 }
 
-/// Renders the selected scripts of a folder. What is known of them beside goes into the summary.
+/// Renders the selected scripts of a folder. Further known facts about them go into the summary.
 fn render_scripts(
     arguments: &Arguments,
     products: &Products,
@@ -214,9 +214,9 @@ fn render_scripts(
     products.make(&sequence, &images, arguments.every(), stop)
 }
 
-/// Renders, and says how it goes.
+/// Renders, and shows the progress.
 pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
-    /// The number of failures that are shown in full.
+    /// The largest number of failures that are shown in full.
     const SHOWN: usize = 3;
     let mut progress = None;
     let mut failures = 0;
@@ -255,7 +255,7 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
     Ok(outcome)
 }
 
-/// Says why nothing more is rendered.
+/// Reports why rendering stopped.
 pub(super) fn failed(error: &RenderError) -> Failure {
     say::report(&error.report());
     Failure::Errors

@@ -1,4 +1,4 @@
-//! `jabuka report`: how right is the run of a scene?
+//! `jabuka report`: how accurate is the run of a scene?
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ enum Plot {
 }
 
 impl Plot {
-    /// The format that the ending of a file's name says.
+    /// The format that belongs to the ending of a file's name.
     fn of(path: &Path) -> Result<Plot, Failure> {
         let extension = path.extension().unwrap_or_default();
         if extension.eq_ignore_ascii_case("svg") {
@@ -124,7 +124,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Writes the plot, and says so where people read.
+/// Writes the plot, and reports it if the output is for people.
 fn draw(
     assessment: &Assessment,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! The arguments by which a scene is changed and its run is cut: what `compile` and its kin have in common.
+//! The arguments that change a scene and select part of its run, shared by `compile` and similar commands.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ pub(super) struct RunArguments {
 }
 
 impl RunArguments {
-    /// Reads the scene, and says its errors and warnings.
+    /// Reads the scene, and prints its errors and warnings.
     pub(super) fn read(&self, path: &Path) -> Result<Scene, Failure> {
         self.read_with(path, &[])
     }
@@ -52,12 +52,12 @@ impl RunArguments {
         self.scene.trust()
     }
 
-    /// What POV-Ray may do for the scene. `None` means scripts without a scene. `folders` are those of the results.
+    /// POV-Ray's rights for the scene. `None` means scripts without a scene. `folders` are those of the results.
     pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         self.scene.confinement(scene, folders)
     }
 
-    /// The selected frames, out of this many.
+    /// The selected frames out of this many.
     pub(super) fn selection(&self, frames: usize) -> Result<Selection, Failure> {
         let Some(selection) = &self.frames else { return Ok(Selection::first(frames)) };
         match selection.last() {
@@ -70,8 +70,8 @@ impl RunArguments {
         }
     }
 
-    /// The cameras that are asked for, each with its folder: the given one, or one beside it. `None` is the main camera;
-    /// `chosen` says whether it was the user who gave the folder.
+    /// The requested cameras, each with its folder: the given one, or one beside it. `None` is the main camera; `chosen` tells
+    /// whether the user gave the folder.
     pub(super) fn cameras<'a>(
         &self,
         folder: &Path,
@@ -90,7 +90,7 @@ impl RunArguments {
             let others = scene.views.iter().map(|view| (Some(view), beside(&view.name)));
             return Ok(std::iter::once((None, folder.to_owned())).chain(others).collect());
         }
-        // The folder that is given is that of the only view that is asked for.
+        // With a single view, the given folder is that of the view.
         let alone = self.view.len() == 1 && chosen;
         let find = |name: &String| {
             let folder = if alone { folder.to_owned() } else { beside(name) };
@@ -100,7 +100,7 @@ impl RunArguments {
     }
 }
 
-/// The view of a name.
+/// The view with this name.
 pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure> {
     scene.views.iter().find(|view| view.name == name).ok_or_else(|| {
         let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
@@ -109,7 +109,7 @@ pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure
     })
 }
 
-/// Simulates a scene once, with a step of the progress for every frame, or finds its run among those that are kept.
+/// Simulates a scene once, with a step of the progress for every frame, or takes its run from the cache.
 pub(super) fn simulated<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -122,7 +122,7 @@ pub(super) fn simulated<'a>(
     Ok(recorded)
 }
 
-/// Like [`simulated`], but of a run that breaks down, the frames before.
+/// Like [`simulated`], but if the run breaks down, it gives the frames before.
 pub(super) fn simulated_to_breakdown<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -135,14 +135,14 @@ pub(super) fn simulated_to_breakdown<'a>(
     Ok(recorded)
 }
 
-/// Says from where a run went on that had been stopped.
+/// Reports the time from which a stopped run went on.
 fn say_resumed(recorded: &Recorded<'_>, progress: &Progress) {
     if let Some(time) = recorded.resumed() {
         progress.above(|| say::error(&format!("the run had been stopped; it went on from t = {time} s\n")));
     }
 }
 
-/// The selected frames that can be drawn, where a run may have broken down.
+/// The selected frames that can be drawn: a run may have broken down.
 pub(super) fn whole(recorded: &Recorded<'_>, selection: &Selection) -> Selection {
     match recorded.breakdown() {
         Some(_) => (0..recorded.whole_frames()).filter(|&frame| selection.contains(frame)).collect(),
@@ -150,7 +150,7 @@ pub(super) fn whole(recorded: &Recorded<'_>, selection: &Selection) -> Selection
     }
 }
 
-/// Says why a run broke down, if it did, and how many of the selected frames are kept.
+/// Reports why a run broke down, if it did, and how many of the selected frames are kept.
 pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Result<(), Failure> {
     let Some(breakdown) = recorded.breakdown() else { return Ok(()) };
     let kept = match selection.count_within(recorded.whole_frames()) {
@@ -164,7 +164,7 @@ pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Res
     Err(Failure::Errors)
 }
 
-/// Like [`run`], but of a run that breaks down, the frames before.
+/// Like [`run`], but if the run breaks down, it gives the frames before.
 pub(super) fn run_to_breakdown<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -175,14 +175,14 @@ pub(super) fn run_to_breakdown<'a>(
     run.map_err(|error| progress.failed(&error))
 }
 
-/// The run of a scene, as its main camera sees it.
+/// The run of a scene through its main camera.
 pub(super) fn run<'a>(scene: &'a Scene, cache: &Cache, progress: &Progress) -> Result<Run<'a>, Failure> {
     let recorded = simulated(scene, cache, Moments::of(scene), progress);
     let run = recorded.and_then(|recorded| Ok(Run::of(recorded)?));
     run.map_err(|error| progress.failed(&error))
 }
 
-/// The run as a camera sees it; `None` is the main one, by which it was made.
+/// The run through a camera; `None` is the main one, with which it was made.
 pub(super) fn seen<'a>(
     run: &Run<'a>,
     view: Option<&View>,

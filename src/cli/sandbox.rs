@@ -1,4 +1,4 @@
-//! `jabuka sandbox`: starts a program that may read and write only what is named.
+//! `jabuka sandbox`: starts a program with access to the named files only.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     program: Vec<OsString>,
 }
 
-/// Returns only where there is no program to become.
+/// Returns only if no program replaced this process.
 pub(super) fn run(arguments: Arguments) -> ExitCode {
     let mut words = arguments.program.into_iter();
     let Some(program) = words.next() else {

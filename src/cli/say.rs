@@ -16,14 +16,14 @@ use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 
-/// Says a result.
+/// Prints a result.
 pub(super) fn result(text: &str) {
     write(std::io::stdout().lock(), &visible_lines(text));
 }
 
-/// Prints a result in JSON, which escapes invisible characters itself.
+/// Prints a result as JSON, which escapes invisible characters itself.
 pub(super) fn json(text: &str) {
-    // Such characters stand in strings only; the serializer has escaped those below U+0020.
+    // Such characters occur only in strings; the serializer has escaped those below U+0020.
     let escape = |c: char| match c {
         c if is_invisible(c) && c != '\n' => {
             c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect()
@@ -33,13 +33,13 @@ pub(super) fn json(text: &str) {
     write(std::io::stdout().lock(), &text.chars().map(escape).collect::<String>());
 }
 
-/// Prints a result over this many lines above it, on a terminal.
+/// On a terminal, prints a result in place of this many lines above it.
 pub(super) fn in_place_of(lines: usize, text: &str) {
     let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
     write(std::io::stdout().lock(), &(up + &visible_lines(text)));
 }
 
-/// Prints something that is no result.
+/// Prints a message that is not a result.
 pub(super) fn error(text: &str) {
     write(std::io::stderr().lock(), &visible_lines(text));
 }
@@ -48,13 +48,13 @@ fn write(mut stream: impl Write, text: &str) {
     let _ = stream.write_all(text.as_bytes());
 }
 
-/// Says errors and warnings, with colors where they can be seen.
+/// Prints errors and warnings, with colors where the output supports them.
 pub(super) fn report(report: &Report) {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     write(std::io::stderr().lock(), &report.to_text(color));
 }
 
-/// Reports a file that may not be replaced.
+/// Reports a protected file.
 pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
     checked.map_err(|error| {
         report(&error.report());
@@ -62,26 +62,26 @@ pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failur
     })
 }
 
-/// Says which edited files of a folder were set aside, also where the command has failed after that.
+/// Reports which edited files of a folder were set aside, even if the command failed after that.
 pub(super) fn edits(folder: &Folder) {
     report(&Report { diagnostics: folder.edits().into_iter().collect(), ..Report::default() });
 }
 
-/// Says a list of things, each with what there is to know about it, in two columns.
+/// Prints a list of items in two columns: names and descriptions.
 pub(super) fn rows(rows: &[(&str, &str)]) {
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let text: String = rows.iter().map(|(name, what)| format!("{name:width$}  {what}\n")).collect();
     result(&text);
 }
 
-/// Says that there is nothing of this name, and what may have been meant.
+/// Reports an unknown name, with a suggestion.
 pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
     let meant = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     error(&format!("error: there is no {noun} `{}`{meant}\n", visible(name)));
     Failure::Errors
 }
 
-/// Prints the error in the arguments, or the help that they ask for.
+/// Prints the error in the arguments, or the requested help.
 pub(super) fn misused(error: &clap::Error) -> ExitCode {
     let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
@@ -89,7 +89,7 @@ pub(super) fn misused(error: &clap::Error) -> ExitCode {
         self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
         return ExitCode::from(2);
     }
-    // It repeats arguments, which may be names of files.
+    // The message repeats arguments, which may be names of files.
     let text = error.render().to_string();
     match visible_lines(&text) == text {
         true => drop(error.print()),

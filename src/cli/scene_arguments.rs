@@ -1,4 +1,4 @@
-//! The arguments by which a scene is changed.
+//! The arguments that change a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,7 @@ fn parse_set(argument: &str) -> Result<Override, String> {
 }
 
 impl SceneArguments {
-    /// Reads the scene with further values replaced, and says its errors and warnings.
+    /// Reads the scene with further values replaced, and prints its errors and warnings.
     pub(super) fn read_with(&self, path: &Path, overrides: &[Override]) -> Result<Scene, Failure> {
         let options = self.options(overrides);
         let scene = Scene::from_path_with(path, &options).map_err(|report| errors(&report))?;
@@ -44,7 +44,7 @@ impl SceneArguments {
         Ok(scene)
     }
 
-    /// How the scene is read, with further values replaced.
+    /// The options for reading the scene, with further values replaced.
     pub(super) fn options(&self, overrides: &[Override]) -> Options {
         Options {
             overrides: self.set.iter().chain(overrides).cloned().collect(),
@@ -68,14 +68,14 @@ impl SceneArguments {
         self.trust
     }
 
-    /// What POV-Ray may do for the scene. `None` means scripts without a scene. `folders` are those of the results.
+    /// POV-Ray's rights for the scene. `None` means scripts without a scene. `folders` are those of the results.
     pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         let confinement = Confinement::new(Launcher::of_this_program());
         if self.trust { confinement.trusting(scene, folders) } else { confinement }
     }
 }
 
-/// Says the errors of a scene.
+/// Prints the errors of a scene.
 fn errors(report: &Report) -> Failure {
     say::report(report);
     let (errors, s) = (report.errors(), if report.errors() == 1 { "" } else { "s" });

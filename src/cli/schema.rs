@@ -1,4 +1,4 @@
-//! `jabuka schema`: what editors need to know of scenes.
+//! `jabuka schema`: the JSON Schema of scenes, for editors.
 
 use jabuka::scene::grammar;
 

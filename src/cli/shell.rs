@@ -1,4 +1,4 @@
-//! Words of commands that people may copy into a shell.
+//! Quotes words of commands that people may copy into a shell.
 
 use std::path::Path;
 

@@ -38,7 +38,7 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    /// How long a look lasts.
+    /// The interval between two polls.
     const PAUSE: Duration = Duration::from_secs(2);
     // On a terminal, the new status replaces the old one.
     let redraw = std::io::stdout().is_terminal() && arguments.format == Format::Text;

@@ -94,7 +94,7 @@ fn script_folder(scene: &Scene, view: Option<&View>) -> PathBuf {
     Path::new("out/.still").join(format!("{}{view_name}", scene.name))
 }
 
-/// Writes the script of the moment into a folder of its own, which nobody else changes until it is rendered.
+/// Writes the script of the moment into a folder of its own. No other process changes this folder until the image is rendered.
 fn write_script(
     arguments: &Arguments,
     scene: &Scene,
@@ -119,7 +119,7 @@ fn write_script(
     Ok(folder)
 }
 
-/// Fails if the run does not reach this time.
+/// Fails if this time is outside the run.
 fn check_time(scene: &Scene, time: f64) -> Result<(), Failure> {
     let simulation = &scene.simulation;
     let end = simulation.duration.max(simulation.time(simulation.frames() - 1));

@@ -11,7 +11,7 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// From this drift on, a summary says how to find out how right the run is.
+/// From this drift on, a summary suggests a command that measures the accuracy of the run.
 const DOUBTFUL: f64 = 0.01;
 
 /// Summarizes the written files and the accuracy of the run. `path` is that of the scene.
@@ -77,7 +77,7 @@ pub(super) fn summary(
     )
 }
 
-/// How many particles there can be at once; nothing where there are no emitters.
+/// The largest number of particles at one time; empty without emitters.
 fn particles(scene: &Scene) -> String {
     let most: f64 = scene.emitters.iter().map(|emitter| emitter.most_alive(scene.simulation.end())).sum();
     let count = scene.emitters.len();
@@ -85,12 +85,12 @@ fn particles(scene: &Scene) -> String {
     if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }
 }
 
-/// How right a run is.
+/// The energy error of a run, as a line of the summary.
 pub(super) fn drift(drift: f64) -> String {
     format!("drift     {} of the largest kinetic energy\n", percent(drift))
 }
 
-/// The command that says how right the run is, where the drift is large.
+/// The command that measures the accuracy of the run, if the drift is large.
 fn report(scene: &Scene, path: &Path, drift: f64) -> String {
     if drift.abs() <= DOUBTFUL {
         return String::new();
@@ -99,7 +99,7 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
     format!("how right jabuka report {}{}\n", shell::path(path), set.collect::<String>())
 }
 
-/// How many impacts there have been, and what contacts have taken.
+/// The number of impacts, and the energy that contacts have taken.
 fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints } = totals;
     let taken =
@@ -112,13 +112,13 @@ fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
 }
 
-/// An energy (J) that contacts have taken. It is negative if they have added energy.
+/// An energy (J) that contacts have taken; negative if they have added energy.
 fn energy_taken(energy: f64) -> String {
     let verb = if energy < 0.0 { "added" } else { "took" };
     format!("{verb} {} J", short(energy.abs()))
 }
 
-/// A number to four digits, without trailing zeros.
+/// A number with four significant digits, without trailing zeros.
 fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
     if number == 0.0 || (1e-5..1e6).contains(&number.abs()) {
@@ -133,7 +133,7 @@ fn percent(part: f64) -> String {
     if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", two_digits(percent)) }
 }
 
-/// A number to two digits.
+/// A number with two significant digits.
 pub(super) fn two_digits(number: f64) -> String {
     if number == 0.0 {
         return "0".to_owned();

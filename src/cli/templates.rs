@@ -1,4 +1,4 @@
-//! `jabuka templates`: the built-in templates, to be changed.
+//! `jabuka templates`: writes the built-in templates, so that users can change them.
 
 use std::path::PathBuf;
 

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use jabuka::sandbox;
 
-/// Whether more than the version is asked for. clap stops at `--version`, so the arguments after it are not parsed.
+/// Whether details are requested as well. clap stops at `--version`, so it does not parse the arguments after it.
 pub(super) fn is_verbose() -> bool {
     std::env::args_os().skip(1).any(|argument| {
         let argument = argument.to_string_lossy();
@@ -25,7 +25,7 @@ pub(super) fn report() -> String {
     )
 }
 
-/// The version of a program, which it says after some words, and where it is.
+/// The version in a program's output, after some words, and the program's path.
 fn found(name: &str, option: &str, before: &str) -> String {
     let Ok(path) = which::which(name) else { return format!("not found: no `{name}` on the PATH") };
     match ask(&path, option, before) {

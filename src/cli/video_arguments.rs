@@ -1,4 +1,4 @@
-//! The arguments that say how fast and how good a film is.
+//! The arguments for the speed and quality of a film.
 
 use clap::ValueEnum;
 use jabuka::render::{Film, FilmError, Quality};
@@ -31,17 +31,17 @@ fn parse_rate(argument: &str) -> Result<f64, String> {
 }
 
 impl VideoArguments {
-    /// Whether something is asked for.
+    /// Whether any option is given.
     pub(super) fn are_given(&self) -> bool {
         self.video_rate.is_some() || self.video_quality.is_some()
     }
 
-    /// The film in the quality that is asked for.
+    /// The film in the requested quality.
     pub(super) fn applied_to(&self, film: Film) -> Result<Film, FilmError> {
         self.quality().map_or(Ok(film.clone()), |quality| film.with_quality(quality))
     }
 
-    /// The quality that is asked for.
+    /// The requested quality.
     pub(super) fn quality(&self) -> Option<Quality> {
         self.video_quality.map(|name| match name {
             VideoQuality::Draft => Quality::Draft,

@@ -1,9 +1,9 @@
-//! The codes of diagnostics. Each is explained by a file of `explanations/`, without which this does not compile.
+//! The codes of diagnostics. A file of `explanations/` explains each; a missing file is a compile error.
 
-/// Defines [`Code`] from variants and names, and joins each with its explanation.
+/// Defines [`Code`] from variants and names, and connects each with its explanation.
 macro_rules! codes {
     ($($variant:ident = $name:literal,)*) => {
-        /// The kind of a mistake, for machines and for looking it up: `unknown-key`.
+        /// The kind of a mistake, for machines and for `jabuka explain`: `unknown-key`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code {
             $(#[doc = concat!("`", $name, "`")] $variant,)*
@@ -174,7 +174,7 @@ codes! {
 }
 
 impl Code {
-    /// The code of a name, if there is one.
+    /// The code with this name, if there is one.
     pub fn named(name: &str) -> Option<Code> {
         Code::ALL.iter().copied().find(|code| code.name() == name)
     }

@@ -1,4 +1,4 @@
-//! How to mend a mistake, as an editor or a script can apply it.
+//! Fixes of mistakes that an editor or a script can apply.
 
 use super::{Report, SourceId, Span};
 
@@ -7,21 +7,21 @@ use super::{Report, SourceId, Span};
 pub struct Fix {
     /// The pieces of text to replace; they do not overlap.
     pub edits: Vec<Edit>,
-    /// Whether a label of the diagnostic says it already, so that people need not see it twice.
+    /// Whether a label of the diagnostic shows the fix already, so that people need not see it twice.
     pub is_said: bool,
 }
 
-/// A piece of text, and the text that belongs in its place.
+/// A piece of text, and its replacement.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// The piece to replace; an empty one is a place to insert at.
+    /// The piece to replace; an empty one marks a place to insert at.
     pub span: Span,
     /// The new text.
     pub text: String,
 }
 
 impl Report {
-    /// The text of a source with the fixes of all diagnostics applied. Of fixes that overlap, the first one counts.
+    /// The text of a source with the fixes of all diagnostics applied. If fixes overlap, the first one counts.
     pub fn fixed(&self, source: SourceId) -> String {
         let mut edits: Vec<&Edit> = Vec::new();
         for fix in self.diagnostics.iter().filter_map(|diagnostic| diagnostic.fix.as_ref()) {

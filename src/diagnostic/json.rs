@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::{Diagnostic, Edit, Label, Report, Severity, Sources, Span};
 
-/// One diagnostic as an editor wants it: the first place is its own, the others are related.
+/// One diagnostic in the form that editors use: the first place is its own, the others are related.
 #[derive(Serialize)]
 pub struct Entry<'a> {
-    /// The path of the scene, where somebody sets it.
+    /// The path of the scene, if it was set.
     #[serde(skip_serializing_if = "Option::is_none")]
     scene: Option<String>,
     severity: &'static str,
@@ -17,13 +17,13 @@ pub struct Entry<'a> {
     #[serde(flatten)]
     place: Option<Place<'a>>,
     related: Vec<Place<'a>>,
-    /// The pieces of text that mend it, if that is known.
+    /// The replacements that fix the mistake, if they are known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fix: Vec<Replacement<'a>>,
 }
 
 impl Entry<'_> {
-    /// Says of which scene the diagnostic is: one without a place names no file.
+    /// Sets the path of the scene: a diagnostic without a place names no file.
     pub fn set_scene(&mut self, scene: String) {
         self.scene = Some(scene);
     }
@@ -36,7 +36,7 @@ struct Place<'a> {
     label: &'a str,
 }
 
-/// A text that belongs in the place of a range.
+/// A replacement for a range.
 #[derive(Serialize)]
 struct Replacement<'a> {
     #[serde(flatten)]

@@ -15,12 +15,12 @@ pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
 pub use visible::{is_invisible, visible, visible_lines, visible_path};
 
-/// How grave a [`Diagnostic`] is.
+/// The severity of a [`Diagnostic`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The scene cannot be compiled.
     Error,
-    /// The scene compiles; something in it was probably not meant so.
+    /// The scene compiles, but something in it is probably unintended.
     Warning,
 }
 
@@ -42,11 +42,11 @@ pub struct Diagnostic {
     pub code: Code,
     /// The mistake, in one line.
     pub message: String,
-    /// The places: first the one that is wrong, then those that it has to do with.
+    /// The places: first the wrong one, then related ones.
     pub labels: Vec<Label>,
-    /// How to mend it, in words.
+    /// How to fix it, in words.
     pub help: Option<String>,
-    /// How to mend it, as text to replace.
+    /// How to fix it, as text to replace.
     pub fix: Option<Box<Fix>>,
 }
 
@@ -68,28 +68,28 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
-    /// Adds a place: the first one added is the one that is wrong.
+    /// Adds a place: the first one added is the wrong one.
     #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: visible(&text.into()) });
         self
     }
 
-    /// Adds how to mend it.
+    /// Adds advice on how to fix it.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(visible(&help.into()));
         self
     }
 
-    /// Adds a piece of text that belongs at a place; several are applied together.
+    /// Adds a replacement at a place; several are applied together.
     #[must_use]
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.fix.get_or_insert_default().edits.push(Edit { span, text: text.into() });
         self
     }
 
-    /// Says that a label shows the fix already.
+    /// Notes that a label shows the fix already.
     #[must_use]
     pub fn fix_is_said(mut self) -> Diagnostic {
         self.fix.iter_mut().for_each(|fix| fix.is_said = true);
@@ -112,7 +112,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// A report of one error that has no place in a text.
+    /// A report of one error without a place in a text.
     pub fn of_error(code: Code, message: impl Into<String>) -> Report {
         Report { sources: Sources::default(), diagnostics: vec![Diagnostic::error(code, message)] }
     }
@@ -127,17 +127,17 @@ impl Report {
         self.diagnostics.len() - self.errors()
     }
 
-    /// Puts the diagnostics into the order of their places; those without a place come first.
+    /// Sorts the diagnostics by their places; those without a place come first.
     pub fn sort(&mut self) {
         self.diagnostics.sort_by_key(Diagnostic::span);
     }
 
-    /// The diagnostics as people read them in a terminal, in the manner of rustc; `color` adds ANSI colours.
+    /// The diagnostics for a terminal, in the style of rustc; `color` adds ANSI colors.
     pub fn to_text(&self, color: bool) -> String {
         text::render(self, color)
     }
 
-    /// The diagnostics as editors read them; serialize it with any format of serde.
+    /// The diagnostics for editors; any format of serde can serialize them.
     pub fn to_json(&self) -> Vec<Entry<'_>> {
         json::entries(self)
     }

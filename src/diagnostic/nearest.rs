@@ -1,13 +1,13 @@
-//! The word that was meant.
+//! Finds the word that was probably meant.
 
-/// Longer words are no names that anyone types.
+/// The longest word that is compared: nobody types longer names.
 const MAX_LENGTH: usize = 64;
 
-/// The best of the candidates for a word that is none of them, if one is near enough.
+/// The candidate nearest to an unknown word, if one is near enough.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&folded, &candidate.to_lowercase());
-    // A third of the letters may differ, as rustc has it; of two letters, one.
+    // A third of the letters may differ, as in rustc; of two letters, one.
     let length = word.chars().count();
     let most = (length / 3).max(1);
     let comparable =

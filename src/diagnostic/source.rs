@@ -1,8 +1,8 @@
-//! Texts that a scene is read from, and places in them.
+//! The texts of a scene, and places in them.
 
 use std::path::PathBuf;
 
-/// One text that values come from: the scene's file, or one `--set` argument.
+/// One text of a scene: its file, or one `--set` argument.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The name shown in front of line and column: the file's path as it was given, or `--set`.
@@ -13,7 +13,7 @@ pub struct Source {
     lines: Vec<usize>,
 }
 
-/// The texts that one scene was read from. The scene's own file is the first.
+/// The texts of one scene. The scene's own file is the first.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     texts: Vec<Source>,
@@ -35,7 +35,7 @@ pub struct Span {
     pub end: usize,
 }
 
-/// A line and a column as people and editors count them: from 1, columns in characters.
+/// A line and a column in the convention of people and editors: from 1, columns in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
     /// The line, from 1.
@@ -53,7 +53,7 @@ impl Sources {
         SourceId(self.texts.len() - 1)
     }
 
-    /// Notes a file that something was read from, or would have been, if it were there.
+    /// Records a file that was read, or that would have been read if it existed.
     pub fn note_file(&mut self, path: impl Into<PathBuf>) {
         let path = path.into();
         if !self.files.contains(&path) {
@@ -61,7 +61,7 @@ impl Sources {
         }
     }
 
-    /// The files that decide what the scene is, also those that are missing.
+    /// The files that determine the scene, including missing ones.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -71,7 +71,7 @@ impl Sources {
         &self.texts[id.0]
     }
 
-    /// The line and column at which a byte of a text stands.
+    /// The line and column of a byte in a text.
     pub fn position(&self, source: SourceId, byte: usize) -> Position {
         let Source { text, lines, .. } = self.get(source);
         let byte = byte.min(text.len());

@@ -1,4 +1,4 @@
-//! Diagnostics as text, in the manner of rustc.
+//! Diagnostics as text, in the style of rustc.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -32,8 +32,8 @@ pub(super) fn render(report: &Report, color: bool) -> String {
         let more = count - MOST_OF_A_LINE;
         text.push_str(&format!("… and {more} more in line {line} of {name}\n\n"));
     }
-    // Lines of the scene are shown too. The renderer has replaced most of what is invisible in them, also every escape,
-    // so the escapes that are left are its colors.
+    // Lines of the scene are shown as well. The renderer has replaced most invisible characters in them, including every
+    // escape, so the remaining escapes are its colors.
     let shown = |c: char| if is_invisible(c) && !matches!(c, '\n' | '\u{1b}') { '\u{fffd}' } else { c };
     text.chars().map(shown).collect()
 }
@@ -46,7 +46,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code.name()));
     let mut rest = diagnostic.labels.as_slice();
     while let Some(first) = rest.first() {
-        // Labels of one text share a snippet, so that they are shown in one piece.
+        // Labels of one text share a snippet.
         let here = rest.iter().take_while(|label| label.span.source == first.span.source).count();
         group = group.element(snippet(&rest[..here], rest.len() == diagnostic.labels.len(), sources));
         rest = &rest[here..];
@@ -64,7 +64,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     groups
 }
 
-/// The lines of a fix, as they are and as they should be. All edits of a fix are in one text.
+/// The lines of a fix, before and after. All edits of a fix are in one text.
 fn patches<'a>(edits: &'a [Edit], sources: &'a Sources) -> Snippet<'a, Patch<'a>> {
     let source = sources.get(edits[0].span.source);
     let text = &source.text;
@@ -101,11 +101,11 @@ fn snippet<'a>(
         .annotations(annotations.collect::<Vec<_>>())
 }
 
-/// The lines that the labels touch, as a range of bytes: a thousand errors in a long file cost a thousand
-/// short texts, not a thousand files.
+/// The lines that the labels touch, as a range of bytes. So a thousand errors in a long file need a thousand short texts, not a
+/// thousand copies of the file.
 fn window(labels: &[Label], text: &str) -> Range<usize> {
     let start = labels.iter().map(|l| boundary(text, l.span.start)).min().unwrap_or(0);
-    // A label that spans many lines is shown by its first ones.
+    // A label that spans many lines is cut to the first ones.
     let end = labels.iter().map(|l| first_lines_end(l, text)).max().unwrap_or(0).max(start);
     let start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
     let end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
@@ -119,7 +119,7 @@ fn first_lines_end(label: &Label, text: &str) -> usize {
     text[start..end].match_indices('\n').nth(LINES - 1).map_or(end, |(newline, _)| start + newline)
 }
 
-/// The start of the character that a byte belongs to, or the end of the text.
+/// The first byte of the character that contains a byte, or the end of the text.
 fn boundary(text: &str, byte: usize) -> usize {
     let byte = byte.min(text.len());
     (0..=byte).rev().find(|&byte| text.is_char_boundary(byte)).unwrap_or(0)

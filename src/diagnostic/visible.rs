@@ -1,16 +1,16 @@
-//! Texts as they can go to a terminal: nothing in them can move the cursor, start a line or reorder what stands there.
+//! Makes texts safe for a terminal: nothing in them can move the cursor, start a line or reorder the text.
 //!
-//! Names of files and words of scenes may hold any character. Control characters command a terminal, and those that
-//! set the direction of writing make a text look like another one.
+//! Names of files and words of scenes may contain any character. Control characters give commands to the terminal, and
+//! characters that set the writing direction can disguise a text as another one.
 
 use std::path::Path;
 
-/// A text in one line. What is not visible is written as Rust writes it: `\n`, `\u{202e}`.
+/// A text in one line. Invisible characters are written as in Rust: `\n`, `\u{202e}`.
 pub fn visible(text: &str) -> String {
     escaped(text, is_invisible)
 }
 
-/// A text whose lines and tabs stay; all else that is not visible is written as [`visible`] writes it.
+/// A text that keeps its lines and tabs; all other invisible characters are written as in [`visible`].
 pub fn visible_lines(text: &str) -> String {
     escaped(text, |c| is_invisible(c) && !matches!(c, '\n' | '\t'))
 }
@@ -20,9 +20,9 @@ pub fn visible_path(path: &Path) -> String {
     visible(&path.display().to_string())
 }
 
-/// Whether a character commands the terminal, ends a line, sets the direction of writing, or has no width.
+/// Whether a character gives a command to the terminal, ends a line, sets the writing direction, or has no width.
 ///
-/// The joiners U+200C and U+200D pass: Persian and emoji need them.
+/// The joiners U+200C and U+200D are kept: Persian and emoji need them.
 pub fn is_invisible(c: char) -> bool {
     c.is_control()
         || matches!(c,

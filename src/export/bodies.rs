@@ -25,11 +25,11 @@ pub const HEADER: [&str; 15] = [
     "wz [rad/s]",
 ];
 
-/// Writes where all bodies are in some frames of a run: centre of mass, orientation as a quaternion,
-/// velocity, and angular velocity in world axes. Every number is the shortest that reads back as the same bits.
+/// Writes the poses of all bodies in some frames of a run: centre of mass, orientation as a quaternion, velocity, and angular
+/// velocity in world axes. Every number is the shortest text that reads back as the same bits.
 ///
 /// # Errors
-/// If it cannot be written, or the recording cannot be read.
+/// If the table cannot be written, or the recording cannot be read.
 pub fn write_csv(run: &Recorded<'_>, selection: &Selection, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
     let mut table = Table::new(out, &HEADER)?;

@@ -7,13 +7,13 @@ use crate::simulate::SimulateError;
 /// Why a run cannot be exported.
 #[derive(Debug)]
 pub enum ExportError {
-    /// It cannot be written.
+    /// The file cannot be written.
     Io(io::Error),
-    /// The run cannot be simulated, or read.
+    /// The run cannot be simulated or read.
     Simulate(SimulateError),
-    /// The file would be larger than its format allows: so many bytes, or more.
+    /// The file would be larger than its format allows: at least this many bytes.
     TooLarge(u64),
-    /// A body, a camera or a light is farther away than the numbers of the format reach.
+    /// The position of a body, a camera or a light exceeds the numbers of the format.
     OutOfRange {
         /// Its name.
         what: String,
@@ -23,7 +23,7 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// How to mend it, where that is not plain from the message.
+    /// How to fix it, where the message does not make that plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             ExportError::TooLarge(_) => {

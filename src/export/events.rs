@@ -23,12 +23,12 @@ pub const EVENT_HEADER: [&str; 13] = [
     "lost [J]",
 ];
 
-/// Writes each impact: its time, the two bodies, where they touch, the unit normal from the first to the second, the impulse on the
-/// second, and the kinetic energy that is lost. The ground is called `ground`. Every number is the shortest that reads back as the
-/// same bits.
+/// Writes each impact: its time, the two bodies, the point of contact, the unit normal from the first to the second, the
+/// impulse on the second, and the lost kinetic energy. The ground is called `ground`. Every number is the shortest text that
+/// reads back as the same bits.
 ///
 /// # Errors
-/// If it cannot be written, or the recording cannot be read.
+/// If the table cannot be written, or the recording cannot be read.
 pub fn write_events(run: &Recorded<'_>, out: impl Write) -> Result<usize, ExportError> {
     let scene = run.scene();
     let mut table = Table::new(out, &EVENT_HEADER)?;

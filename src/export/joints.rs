@@ -1,4 +1,4 @@
-//! Frames → a table with a row for each time and joint: what the joints do to their bodies.
+//! Frames → a table with a row for each time and joint: the forces and torques on their bodies.
 
 use std::io::Write;
 
@@ -10,11 +10,11 @@ use crate::simulate::{Recorded, Selection};
 pub const JOINT_HEADER: [&str; 8] =
     ["t [s]", "joint", "fx [N]", "fy [N]", "fz [N]", "tx [N·m]", "ty [N·m]", "tz [N·m]"];
 
-/// Writes the force of each joint on its second end, and its torque about the point where that is, in world axes; zero while a
-/// body of the joint is away. Every number is the shortest that reads back as the same bits.
+/// Writes the force of each joint on its second end, and its torque about the point of that end, in world axes; zero while a
+/// body of the joint is absent. Every number is the shortest text that reads back as the same bits.
 ///
 /// # Errors
-/// If it cannot be written, or the recording cannot be read.
+/// If the table cannot be written, or the recording cannot be read.
 pub fn write_joints(
     run: &Recorded<'_>,
     selection: &Selection,
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// A recording that is read gives what was simulated, also where nothing changes.
+    /// A recording that is read back equals the simulation, also where nothing changes.
     #[test]
     fn a_mass_that_hangs_has_a_row_of_its_weight_at_each_time() {
         let scene = Scene::parse(

@@ -12,12 +12,12 @@ pub const PARTICLE_HEADER: [&str; 11] = [
     "born [s]", "dies [s]",
 ];
 
-/// Writes the particles that are alive in some frames of a run: the emitter, the number of the particle, which it keeps for its life,
-/// place, velocity, and the times of its birth and death; the latter is empty where it stays. Every number is the shortest that reads
-/// back as the same bits.
+/// Writes the living particles in some frames of a run: the emitter, the number of the particle (constant for its life), place,
+/// velocity, and the times of its birth and death; the latter is empty for a particle that stays. Every number is the shortest
+/// text that reads back as the same bits.
 ///
 /// # Errors
-/// If it cannot be written, or the recording cannot be read.
+/// If the table cannot be written, or the recording cannot be read.
 pub fn write_particles(
     run: &Recorded<'_>,
     selection: &Selection,

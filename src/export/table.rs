@@ -20,24 +20,24 @@ impl<W: Write> Table<W> {
         Ok(Table { csv, rows: 0 })
     }
 
-    /// Adds a text to the present row.
+    /// Adds a text to the current row.
     pub(super) fn text(&mut self, text: &str) -> Result<(), ExportError> {
         Ok(self.csv.write_field(text).map_err(io::Error::from)?)
     }
 
-    /// Adds numbers to the present row.
+    /// Adds numbers to the current row.
     pub(super) fn numbers(&mut self, numbers: &[f64]) -> Result<(), ExportError> {
         numbers.iter().try_for_each(|number| self.text(&number.to_string()))
     }
 
-    /// Ends the present row. A row with too few or too many fields is an error.
+    /// Ends the current row. A row with too few or too many fields is an error.
     pub(super) fn end_row(&mut self) -> Result<(), ExportError> {
         self.csv.write_record(None::<&[u8]>).map_err(io::Error::from)?;
         self.rows += 1;
         Ok(())
     }
 
-    /// Writes what is still buffered. Gives the number of rows below the header.
+    /// Writes all buffered rows. Returns the number of rows below the header.
     pub(super) fn finish(mut self) -> Result<usize, ExportError> {
         self.csv.flush()?;
         Ok(self.rows)

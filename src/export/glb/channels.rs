@@ -3,7 +3,7 @@
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
 use super::motion::{Motion, Way};
 
-/// The animation of the nodes, and the number of bytes of its keys, which are those of a view. `None` if nothing moves.
+/// The animation of the nodes, and the size of its keys in bytes, which are one view. No animation if nothing moves.
 pub(super) fn animation(
     motion: &Motion,
     nodes: &[u32],
@@ -55,7 +55,7 @@ pub(super) fn animation(
 }
 
 impl Animation {
-    /// Lets a sampler move a target.
+    /// Connects a sampler to a target.
     fn add(&mut self, sampler: Sampler, target: Target) {
         self.channels.push(Channel { sampler: self.samplers.len() as u32, target });
         self.samplers.push(sampler);

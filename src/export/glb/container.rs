@@ -7,10 +7,10 @@ use super::geometry::Geometry;
 use super::motion::Motion;
 use crate::export::ExportError;
 
-/// The largest file, bytes: its length is a number of 32 bits.
+/// The largest file, bytes: the format stores its length in 32 bits.
 pub(super) const LARGEST: u64 = u32::MAX as u64;
 
-/// Writes a file, and gives its length in bytes. One that is too large is refused before.
+/// Writes a file, and returns its length in bytes. A file that would be too large is refused before anything is written.
 pub(super) fn write(
     document: &Document,
     geometry: &Geometry,
@@ -18,7 +18,7 @@ pub(super) fn write(
     out: &mut impl Write,
 ) -> Result<u64, ExportError> {
     let mut json = serde_json::to_vec(document).map_err(io::Error::from)?;
-    // Chunks are as long as multiples of four.
+    // The length of a chunk is a multiple of four.
     json.resize(json.len().next_multiple_of(4), b' ');
     let binary = document.buffers.first().map_or(0, |buffer| buffer.byte_length);
     let chunk_of_numbers = if binary > 0 { 8 + binary } else { 0 };
@@ -39,7 +39,7 @@ pub(super) fn write(
     Ok(total)
 }
 
-/// Writes what the views of the buffer promise.
+/// Writes the numbers of the buffer's views.
 fn numbers(geometry: &Geometry, motion: &Motion, still: bool, out: &mut impl Write) -> io::Result<()> {
     for number in geometry.vertices.iter().flatten() {
         out.write_all(&number.to_le_bytes())?;

@@ -1,8 +1,8 @@
-//! The words of glTF 2.0, as far as they are said here.
+//! The part of the glTF 2.0 format that jabuka uses.
 
 use serde::Serialize;
 
-/// Everything but the binary numbers. The format forbids empty lists.
+/// The whole document except the binary numbers. The format forbids empty lists.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -34,14 +34,14 @@ pub(super) struct Asset {
     pub(super) extras: Extras,
 }
 
-/// Data that readers may show, and may ignore.
+/// Additional data, which readers may show or ignore.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Extras {
     pub(super) title: String,
-    /// Frames of the scene for each of its seconds.
+    /// Frames per second of the scene's time.
     pub(super) frame_rate: f64,
-    /// How many times faster than in life it is shown.
+    /// How many times faster than real time the animation is.
     pub(super) faster: f64,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct SceneOfNodes {
     pub(super) nodes: Vec<u32>,
 }
 
-/// Something at a place: scaled, then turned, then moved, all within what it is a child of.
+/// A node: scaled, then turned, then moved, relative to its parent.
 #[derive(Default, Serialize)]
 pub(super) struct Node {
     pub(super) name: String,
@@ -125,7 +125,7 @@ pub(super) struct Camera {
     pub(super) lens: CameraLens,
 }
 
-/// How a camera sees.
+/// The projection of a camera.
 #[derive(Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub(super) enum CameraLens {
@@ -178,9 +178,9 @@ pub(super) struct Light {
     pub(super) name: String,
     #[serde(rename = "type")]
     pub(super) kind: &'static str,
-    /// Linear; 1 at most.
+    /// Linear, at most 1.
     pub(super) color: [f64; 3],
-    /// Candela of a point, lux of what is parallel.
+    /// Candela for a point light, lux for a directional one.
     pub(super) intensity: f64,
 }
 
@@ -213,7 +213,7 @@ pub(super) struct Sampler {
     pub(super) output: u32,
 }
 
-/// Numbers of a view, from a byte on.
+/// Numbers of a view, from a byte offset on.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -234,7 +234,7 @@ pub(super) const FLOAT: u32 = 5126;
 /// `u32`.
 pub(super) const UNSIGNED_INT: u32 = 5125;
 
-/// Bytes of the buffer that belong together.
+/// A contiguous range of bytes in the buffer.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {

@@ -1,4 +1,4 @@
-//! The forms of a scene, each once.
+//! The forms of a scene; each is stored once.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use glam::DAffine3;
 use super::document::{Accessor, Attributes, BufferView, FLOAT, UNSIGNED_INT};
 use crate::surface::{Detail, Form, Motif, Triangles};
 
-/// The views of the buffer, by number: they stand in it in this order.
+/// The views of the buffer by number, in their order.
 const VERTICES: u32 = 0;
 const INDICES: u32 = 1;
 const KEYS: u32 = 2;
@@ -25,7 +25,7 @@ pub(super) struct Geometry {
     /// Positions and normals.
     pub(super) vertices: Vec<[f32; 3]>,
     pub(super) indices: Vec<u32>,
-    /// The map is only asked, never walked through. A form that has no triangles is none.
+    /// The map is only used for look-ups, never iterated. A form without triangles is `None`.
     known: HashMap<Form, Option<Known>>,
 }
 
@@ -34,7 +34,7 @@ impl Geometry {
         Geometry { detail, vertices: Vec::new(), indices: Vec::new(), known: HashMap::new() }
     }
 
-    /// The accessors of a form, which are added where it is new.
+    /// The accessors of a form, which is added if it is new.
     pub(super) fn form(&mut self, form: &Form, accessors: &mut Vec<Accessor>) -> Option<Known> {
         if let Some(known) = self.known.get(form) {
             return *known;
@@ -44,7 +44,7 @@ impl Geometry {
         known
     }
 
-    /// A form cut along the borders of a pattern; for each of its colors, the accessors of what has it.
+    /// A form cut along the borders of a pattern. Gives for each color the accessors of the parts with that color.
     pub(super) fn split(
         &mut self,
         form: &Form,
@@ -88,12 +88,12 @@ impl Geometry {
         Some(Known { attributes: Attributes { position: first, normal: first + 1 }, indices: first + 2 })
     }
 
-    /// The number of the view that has keys. What is empty is no view.
+    /// The number of the view with the keys. Empty views are left out.
     pub(super) fn keys(&self) -> u32 {
         if self.vertices.is_empty() { 0 } else { KEYS }
     }
 
-    /// The views of the buffer, the last of which has so many bytes of keys.
+    /// The views of the buffer; the last one has this many bytes of keys.
     pub(super) fn views(&self, keys: u64) -> Vec<BufferView> {
         let (vertices, indices) = (12 * self.vertices.len() as u64, 4 * self.indices.len() as u64);
         let view = |byte_offset, byte_length, byte_stride, target| BufferView {
@@ -113,7 +113,7 @@ impl Geometry {
     }
 }
 
-/// The smallest and the largest of each coordinate.
+/// The minimum and the maximum of each coordinate.
 fn bounds(positions: &[[f32; 3]]) -> (Vec<f64>, Vec<f64>) {
     let of = |pick: fn(f32, f32) -> f32| {
         let axis = |i: usize| positions.iter().map(|position| position[i]).reduce(pick).map(f64::from);

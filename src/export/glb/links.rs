@@ -1,6 +1,6 @@
 //! Nodes for springs and joints: one for each part, stretched from end to end.
 //!
-//! A part whose bodies are absent, or without room between its ends, has the size 0.
+//! A part has the size 0 while its bodies are absent or its ends coincide.
 
 use glam::{DQuat, DVec3};
 
@@ -11,7 +11,7 @@ use crate::scene::Color;
 use crate::simulate::{Recorded, Selection};
 use crate::surface::Form;
 
-/// A rope is a chain of so many straight pieces.
+/// The number of straight pieces of a rope.
 const PIECES: usize = 24;
 
 /// A node for a part of a spring or of a joint.
@@ -21,7 +21,7 @@ pub(super) struct LinkNode {
     pub(super) color: Color,
 }
 
-/// Adds the ways of springs and joints to a motion; gives their nodes, in the order of the ways.
+/// Adds the tracks of springs and joints to a motion; returns their nodes, in the order of the tracks.
 pub(super) fn nodes(
     run: &Recorded<'_>,
     selection: &Selection,
@@ -65,7 +65,7 @@ pub(super) fn nodes(
 /// The place and size of a node.
 struct Placed {
     pose: Pose,
-    /// Along its own axes, m, of which y is that of the form.
+    /// The scale along its own axes, m; y is the axis of the form.
     size: DVec3,
 }
 
@@ -77,8 +77,8 @@ impl Default for Placed {
 }
 
 impl Placed {
-    /// Stretches a form that reaches from y = -1 to 1, and has the radius 1, from one point to another. It turns the shortest way
-    /// from where it was: so it does not spin about its axis.
+    /// Stretches a form with y from -1 to 1 and the radius 1 from one point to another. It turns the shortest way from its
+    /// previous orientation, so that it does not spin about its axis.
     fn stretch(&mut self, [from, to]: [DVec3; 2], radius: f64) {
         let half = (to - from) / 2.0;
         if let Some(along) = half.try_normalize() {
@@ -91,7 +91,7 @@ impl Placed {
     }
 }
 
-/// Places the nodes of a part; they keep their places while it is not drawn.
+/// Places the nodes of a part; they keep their places while the part is not drawn.
 fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
     nodes.iter_mut().for_each(|node| node.size = DVec3::ZERO);
     let [first, ..] = nodes else { return };
@@ -112,7 +112,8 @@ fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
     }
 }
 
-/// The pieces of a rope: as many as there are nodes, of equal numbers of its points' pieces; a straight one is divided evenly.
+/// The pieces of a rope, one for each node. Each piece covers an equal number of the rope's segments; a straight rope is
+/// divided evenly.
 fn chain(points: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> {
     let last = points.len() - 1;
     #[allow(clippy::cast_precision_loss, reason = "a rope has few points")]

@@ -1,4 +1,4 @@
-//! The looks of bodies in the words of glTF.
+//! The looks of bodies as glTF materials.
 
 use std::collections::HashMap;
 
@@ -10,23 +10,23 @@ use crate::surface::{Appearance, Motif, appearance, ground};
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Paint {
     pub(super) what: What,
-    /// Whether its back is seen as well.
+    /// Whether its back is visible as well.
     pub(super) both_sides: bool,
-    /// Which of the colors of its pattern; none: their mean.
+    /// Which color of its pattern; `None` for their mean.
     pub(super) color: Option<usize>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum What {
-    /// The material of a scene that has this number.
+    /// The material with this number in the scene.
     Material(usize),
-    /// A color in sRGB, by the bits of its parts.
+    /// A color in sRGB, by the bits of its components.
     Color([u64; 3]),
-    /// A spring or a joint of a color in sRGB, by the bits of its parts.
+    /// A spring or a joint with a color in sRGB, by the bits of its components.
     Link([u64; 3]),
     /// The ground of the scene's surroundings.
     Ground,
-    /// Something that only POV-Ray knows.
+    /// A look that only POV-Ray can draw.
     Unknown,
 }
 
@@ -36,16 +36,16 @@ impl From<Color> for What {
     }
 }
 
-/// The paints that are used so far.
+/// The paints in use.
 #[derive(Default)]
 pub(super) struct Paints {
     pub(super) materials: Vec<Material>,
-    /// The map is only asked, never walked through.
+    /// The map is only used for look-ups, never iterated.
     known: HashMap<Paint, u32>,
 }
 
 impl Paints {
-    /// The number of a paint, which is added where it is new.
+    /// The number of a paint, which is added if it is new.
     pub(super) fn number(&mut self, paint: Paint, scene: &Scene) -> u32 {
         *self.known.entry(paint).or_insert_with(|| {
             self.materials.push(material(paint, scene));
@@ -89,7 +89,7 @@ pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
 
 fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {
     let color @ [red, green, blue, cover] = appearance.mean();
-    // A luminous surface reflects nothing, or it would be brighter than its color.
+    // A luminous surface reflects nothing, otherwise it would be brighter than its color.
     let base = if appearance.emissive { [0.0, 0.0, 0.0, cover] } else { color };
     Material {
         name,

@@ -1,4 +1,4 @@
-//! Forms in their paints: the meshes of glTF, which bodies share.
+//! Forms with their paints: the meshes of glTF, which bodies share.
 
 use std::collections::HashMap;
 
@@ -13,14 +13,14 @@ use crate::surface::{Detail, Form, Motif, Piece};
 /// The meshes so far.
 pub(super) struct Meshes {
     pub(super) meshes: Vec<Mesh>,
-    /// The number of each; the map is only asked, never walked through.
+    /// The number of each mesh; the map is only used for look-ups, never iterated.
     known: HashMap<(Form, Paint, Option<Cut>), u32>,
     pub(super) paints: Paints,
     pub(super) accessors: Vec<Accessor>,
     pub(super) geometry: Geometry,
 }
 
-/// The place of a form in a pattern, by the bits of the map from one to the other.
+/// The place of a form in a pattern, by the bits of the transform between them.
 type Cut = [u32; 12];
 
 impl Meshes {
@@ -34,8 +34,8 @@ impl Meshes {
         }
     }
 
-    /// The number of the mesh that a piece is drawn of, unless it has no triangles. A pattern has the given size, m; where it
-    /// has none, or nothing would be seen of it, the mesh has the mean of its colors.
+    /// The number of the mesh for a piece; `None` if it has no triangles. The pattern has the given size, m. Without a
+    /// size, or if the pattern would be invisible, the mesh has the mean of its colors.
     pub(super) fn number(
         &mut self,
         scene: &Scene,
@@ -80,7 +80,7 @@ impl Meshes {
     }
 }
 
-/// The place of a piece in a pattern of a size, m. The pattern is that of the body, or, for a plane, its own.
+/// The place of a piece in a pattern of this size, m. The pattern is fixed to the body, or for a plane to the plane itself.
 #[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
 fn cut(piece: &Piece, size: f64) -> Cut {
     let scale = piece.scale / size;

@@ -1,21 +1,22 @@
-//! Frames → a binary glTF 2.0 file: all bodies with their animation, cameras and lights, for Blender, three.js and their kin.
+//! Frames → a binary glTF 2.0 file with all bodies and their animation, cameras and lights, for Blender, three.js and others.
 //!
 //! | what | where |
 //! | --- | --- |
-//! | where the bodies are in all frames | `motion` |
-//! | when they are there | `shown` |
-//! | where cameras and lights are, how they see and shine | `sight` |
-//! | where springs and joints are, and how long | `links` |
-//! | triangles, those of a form once | `geometry` |
+//! | the poses of the bodies in all frames | `motion` |
+//! | the times at which they are present | `shown` |
+//! | the poses and properties of cameras and lights | `sight` |
+//! | the poses and lengths of springs and joints | `links` |
+//! | triangles, once for each form | `geometry` |
 //! | looks | `materials` |
-//! | forms in their looks | `meshes` |
-//! | the nodes, and the document of all | `model` |
-//! | what moves nodes | `channels` |
-//! | the words of glTF | `document` |
+//! | forms with their looks | `meshes` |
+//! | the nodes, and the whole document | `model` |
+//! | the animation of nodes | `channels` |
+//! | the types of glTF | `document` |
 //! | both chunks as bytes | `container` |
 //!
-//! The file is of metres and seconds, y is up, and all is below one node, so that whoever needs other units scales that.
-//! Numbers of vertices and poses are `f32`, as glTF has it.
+//! The file uses metres and seconds, with y up. Everything is below one node, so that programs with other units can scale that
+//! node.
+//! Vertices and poses are `f32`, as glTF requires.
 
 mod channels;
 mod container;
@@ -45,16 +46,15 @@ pub struct Exported {
     pub frames: usize,
     /// The size of the file, bytes.
     pub bytes: u64,
-    /// How many times faster than in life the animation is shown; it is 1 where films can have the scene's frame rate.
+    /// How many times faster than real time the animation is; 1 if films can have the scene's frame rate.
     pub faster: f64,
 }
 
-/// Writes the bodies, cameras and lights of a run with their motion in some frames. Poses are kept for what
-/// moves, 28 bytes for each frame at most. An angle of view that changes stays as it is in the first of the frames, since
-/// glTF has no word for that.
+/// Writes the bodies, cameras and lights of a run with their motion in some frames. Only moving things get keys, at most 28
+/// bytes for each frame. glTF cannot animate the angle of view, so that of the first frame is kept.
 ///
 /// # Errors
-/// If it cannot be written, the recording cannot be read, or the format cannot hold it; then nothing is written.
+/// If the file cannot be written, the recording cannot be read, or the format cannot hold the scene; then nothing is written.
 pub fn write_glb(
     run: &Recorded<'_>,
     selection: &Selection,

@@ -1,4 +1,4 @@
-//! The bodies, cameras and lights of a scene as nodes, with what moves them.
+//! The bodies, cameras and lights of a scene as nodes with their animation.
 
 use glam::{DQuat, DVec3};
 
@@ -15,13 +15,13 @@ use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
 use crate::surface::{Detail, Form, Piece, pieces};
 
-/// With more pieces than this, each is drawn of fewer triangles.
+/// With more pieces than this, each piece has fewer triangles.
 const MANY: usize = 200;
 
-/// The name of the node that has all others below it.
+/// The name of the root node.
 const ROOT: &str = "jabuka";
 
-/// A scene on its way to a document.
+/// A document under construction.
 struct Model<'a> {
     scene: &'a Scene,
     /// Surroundings, cameras and lights.
@@ -30,7 +30,7 @@ struct Model<'a> {
     meshes: Meshes,
 }
 
-/// A scene whose motion is known, as a document, and the triangles that belong to it.
+/// Turns a scene with known motion into a document and its triangles.
 pub(super) fn model(
     scene: &Scene,
     sight: Sight,
@@ -67,13 +67,13 @@ impl Model<'_> {
         self.nodes.len() as u32 - 1
     }
 
-    /// Adds the node of a body, with its pieces below it; a single piece that is where the body is, is the node itself.
+    /// Adds the node of a body, with its pieces below it. A single piece at the body's own place becomes the node itself.
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
-        // A pattern is made for a ball of radius 1, and on a body as large as on a ball of its volume.
+        // A pattern is made for a ball of radius 1. A body gets the pattern of a ball with its volume.
         let ball = body.shape.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
         for mut piece in pieces {
             let mut pattern = ball;
@@ -86,7 +86,7 @@ impl Model<'_> {
             let mesh = self.meshes.number(self.scene, &piece, material, pattern);
             let centred = piece.location == DVec3::ZERO && piece.orientation == DQuat::IDENTITY;
             let scale = Some(piece.scale.to_array());
-            // A node has one scale: of what comes and goes, that says whether it is there.
+            // A node has only one scale. If the body comes and goes, the scale shows its presence.
             if single && centred && way.shown.is_always() {
                 let node = &mut self.nodes[number as usize];
                 (node.mesh, node.scale) = (mesh, scale);
@@ -100,7 +100,7 @@ impl Model<'_> {
         number
     }
 
-    /// Makes the square of a plane as large as has to be, in the middle of everything.
+    /// Makes the square of a plane as large as needed, at the centre of the scene.
     fn spread(&self, piece: &mut Piece, way: &Way) {
         let normal = piece.orientation * DVec3::Y;
         let Pose { location, orientation } = way.start;
@@ -109,7 +109,7 @@ impl Model<'_> {
         piece.scale = DVec3::splat(self.half_of_ground());
     }
 
-    /// Half the edge of what has no end.
+    /// Half the edge of an infinite plane.
     fn half_of_ground(&self) -> f64 {
         1.5 * self.sight.stage.size
     }
@@ -126,7 +126,7 @@ impl Model<'_> {
         Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(place) }))
     }
 
-    /// Adds the cameras and the lights, which go these ways.
+    /// Adds the cameras and the lights, with these tracks.
     fn beside(&mut self, ways: &[Way]) -> Vec<u32> {
         let cameras = self.sight.cameras.iter().enumerate();
         let cameras = cameras.map(|(number, camera)| Node {

@@ -1,4 +1,4 @@
-//! The poses of all moving things in all frames: first the bodies, then the rest.
+//! The poses of all moving objects in all frames: first the bodies, then the rest.
 
 use glam::{DQuat, DVec3};
 
@@ -9,14 +9,14 @@ use crate::picture::Pace;
 use crate::scene::Body;
 use crate::simulate::{Recorded, Selection};
 
-/// The motion of all bodies in the frames that are asked for, and of what stands beside them.
+/// The motion of all bodies in the selected frames, and of cameras, lights, springs and joints.
 pub(super) struct Motion {
-    /// The times of the frames, as they are shown, s.
+    /// The times of the frames in the animation, s.
     times: Vec<f32>,
-    /// Shown seconds for each second of the scene.
+    /// Seconds of the animation for each second of the scene.
     slower: f64,
     ways: Vec<Way>,
-    /// The space that is left in the file.
+    /// The remaining space in the file, bytes.
     pub(super) room: Room,
 }
 
@@ -27,26 +27,26 @@ pub(super) struct Pose {
     pub(super) orientation: DQuat,
 }
 
-/// The way of something.
+/// The track of an object.
 pub(super) struct Way {
-    /// The pose in the first of the frames.
+    /// The pose in the first frame.
     pub(super) start: Pose,
     /// Its locations in all frames, m; empty if they are all the same.
     pub(super) translations: Vec<f32>,
     /// Its orientations in all frames, each x, y, z, w; empty if they are all the same.
     pub(super) rotations: Vec<f32>,
-    /// How large it is drawn in the first of the frames, along its own axes.
+    /// Its size along its own axes in the first frame.
     pub(super) size: DVec3,
-    /// The same in all frames; empty if it is always the same.
+    /// Its sizes in all frames; empty if they are all the same.
     pub(super) scales: Vec<f32>,
-    /// When it is there.
+    /// The times at which it is present.
     pub(super) shown: Shown,
-    /// How it was turned last, of the two signs that a quaternion can have that which is near the one before.
+    /// Its last orientation. Of the two signs of a quaternion, the one nearer to the orientation before.
     last: DQuat,
 }
 
 impl Motion {
-    /// Keeps what is asked for of a run.
+    /// Records the selected frames of a run.
     pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<Motion, ExportError> {
         let scene = run.scene();
         let count = selection.count_within(scene.simulation.frames());
@@ -78,27 +78,27 @@ impl Motion {
         Ok(Motion { times, slower, ways: bodies.ways, room })
     }
 
-    /// Adds the ways of what stands beside what is there.
+    /// Adds the tracks of other objects.
     pub(super) fn append(&mut self, recorder: Recorder) {
         self.ways.extend(recorder.ways);
     }
 
-    /// The times of the frames, as they are shown, s.
+    /// The times of the frames in the animation, s.
     pub(super) fn times(&self) -> &[f32] {
         &self.times
     }
 
-    /// How many times faster than in life the frames are shown.
+    /// How many times faster than real time the animation is.
     pub(super) fn faster(&self) -> f64 {
         1.0 / self.slower
     }
 
-    /// The ways of the bodies, in the order of the scene, and of what has been added.
+    /// The tracks of the bodies, in the order of the scene, and of the added objects.
     pub(super) fn ways(&self) -> &[Way] {
         &self.ways
     }
 
-    /// All numbers in the order of the file: the times, and for each way its locations, its orientations, its sizes, and when it is there.
+    /// All numbers in the order of the file: the times, and for each track its locations, orientations, sizes and presence.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
         let ways = self.ways.iter().flat_map(|Way { translations, rotations, scales, shown, .. }| {
             [&translations[..], &rotations[..], &scales[..], &shown.times[..], &shown.scales[..]]
@@ -107,21 +107,21 @@ impl Motion {
     }
 }
 
-/// Records the poses of several things, frame after frame.
+/// Records the poses of several objects, frame after frame.
 pub(super) struct Recorder {
     ways: Vec<Way>,
-    /// The number of frames so far, and of those that there will be.
+    /// The number of frames so far, and in total.
     known: usize,
     count: usize,
 }
 
 impl Recorder {
-    /// For so many frames.
+    /// For this many frames.
     pub(super) fn new(count: usize) -> Recorder {
         Recorder { ways: Vec::new(), known: 0, count }
     }
 
-    /// Adds where everything is in a frame, if a file has room for it; the names are for the error.
+    /// Adds the poses of all objects in a frame, if a file has room for them; the names are for the error.
     pub(super) fn add(
         &mut self,
         poses: impl Iterator<Item = Pose>,
@@ -132,7 +132,7 @@ impl Recorder {
         self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, room)
     }
 
-    /// Adds where everything is in a frame, and how large it is along its own axes.
+    /// Adds the poses of all objects in a frame, and their sizes along their own axes.
     pub(super) fn add_sized(
         &mut self,
         poses: impl Iterator<Item = (Pose, DVec3)>,
@@ -160,7 +160,7 @@ impl Way {
         Way { start, translations, rotations, size, scales, shown: Shown::default(), last: start.orientation }
     }
 
-    /// Adds where it is after so many known frames of all.
+    /// Adds a pose after this many known frames, out of the total.
     fn add(
         &mut self,
         pose: Pose,
@@ -181,7 +181,7 @@ impl Way {
     }
 }
 
-/// Adds a value after so many known ones of all, which are kept from the first on that differs from the start.
+/// Adds a value after this many known ones, out of the total. Values are stored from the first one that differs from the start.
 fn follow<const N: usize>(
     values: &mut Vec<f32>,
     start: [f32; N],
@@ -202,12 +202,12 @@ fn follow<const N: usize>(
     Ok(())
 }
 
-/// The number of bytes that the data will take in the file, as far as they are known by now.
+/// The number of bytes that the data will need in the file, as far as it is known by now.
 #[derive(Default)]
 pub(super) struct Room(u64);
 
 impl Room {
-    /// Takes what so many numbers need, if a file can hold them.
+    /// Reserves room for this many numbers, if a file can hold them.
     pub(super) fn take(&mut self, numbers: usize) -> Result<(), ExportError> {
         self.0 += 4 * numbers as u64;
         if self.0 > LARGEST { Err(ExportError::TooLarge(self.0)) } else { Ok(()) }

@@ -1,9 +1,10 @@
-//! When something is there: glTF has no word for that, so what is away has the size 0.
+//! The presence of objects: glTF has no property for it, so absent objects have the size 0.
 
 use super::motion::Room;
 use crate::export::ExportError;
 
-/// The times at which something comes or goes, as they are shown (s), and its scale from each on; empty for what is always there.
+/// The times in the animation at which an object comes or goes (s), each with its scale from then on; empty for an object that
+/// is always present.
 #[derive(Default)]
 pub(super) struct Shown {
     pub(super) times: Vec<f32>,
@@ -12,17 +13,17 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// Whether it is there all the time.
+    /// Whether it is always present.
     pub(super) fn is_always(&self) -> bool {
         self.times.is_empty()
     }
 
-    /// Whether it is there in the first frame.
+    /// Whether it is present in the first frame.
     pub(super) fn at_first(&self) -> bool {
         self.scales.first() != Some(&0.0)
     }
 
-    /// Adds whether it is there in the last of some frames, if a file has room for it.
+    /// Adds its presence in the last of some frames, if a file has room for it.
     pub(super) fn add(&mut self, is_there: bool, frames: &[f32], room: &mut Room) -> Result<(), ExportError> {
         let &[first, .., now] = frames else {
             let first = frames.first().copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! From where a scene is seen, and what shines there: cameras and lights, with how they move.
+//! Cameras and lights, with their motion.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -9,10 +9,10 @@ use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Output, Scene};
 use crate::simulate::{Recorded, Selection};
 
-/// The widest angle of view that is written, degrees: glTF has none of half a turn.
+/// The widest angle of view in the file, degrees: glTF does not allow 180 degrees.
 const WIDEST: f64 = 179.9;
 
-/// The cameras and lights of a scene. Their tracks stand behind those of the bodies in the motion: cameras first.
+/// The cameras and lights of a scene. Their tracks come after those of the bodies in the motion, cameras first.
 pub(super) struct Sight {
     /// The surroundings of the bodies.
     pub(super) stage: Stage,
@@ -65,13 +65,13 @@ fn pose(camera: &Placed) -> Pose {
     Pose { location: camera.location(), orientation: DQuat::from_mat3(&turn).normalize() }
 }
 
-/// How a camera sees in the first frame, and how near and how far in all of them.
+/// The projection of a camera in the first frame, with near and far planes that suit all frames.
 #[derive(Default)]
 struct Seen {
     lens: Option<Lens>,
-    /// How far it is from everything where it is nearest, m.
+    /// Its shortest distance from the scene, m.
     near: Option<f64>,
-    /// How far it is from the middle of everything where it is farthest, m.
+    /// Its longest distance from the centre of the scene, m.
     far: f64,
 }
 
@@ -90,7 +90,7 @@ impl Seen {
     fn camera(self, name: String, output: Output, stage: &Stage) -> Camera {
         // Beyond the corners of the ground.
         let zfar = self.far + 2.5 * stage.size;
-        // The depth buffer has 24 bits. The closer the near plane, the fewer of them are left for distant things.
+        // The depth buffer has 24 bits. The closer the near plane, the fewer bits are left for distant objects.
         let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-6);
         let aspect = f64::from(output.width) / f64::from(output.height);
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
@@ -109,7 +109,7 @@ impl Seen {
     }
 }
 
-/// The lights that are given, or the usual ones; their ways are added to the motion.
+/// The given lights, or the default ones; adds their tracks to the motion.
 fn lights(
     scene: &Scene,
     plan: &Plan,
@@ -146,26 +146,26 @@ fn lights(
     Ok((0..shining.len()).map(|i| light(name(i), &shining[i], plan.stage())).collect())
 }
 
-/// The rotation that turns what shines along -z into a direction.
+/// The rotation that turns the direction -z into another one.
 fn towards(direction: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::NEG_Z, direction.normalize_or(DVec3::NEG_Y))
 }
 
-/// A light in the words of glTF. POV-Ray's lights are as bright at any distance, those of glTF are not: they are as bright
-/// in the middle of everything, where a white surface that faces a light of intensity 1 is white. It throws back 1/π of
-/// its light into each direction, so that takes π lux.
+/// A light in glTF. POV-Ray's lights are as bright at any distance, but glTF's lights fade. So they get POV-Ray's brightness at
+/// the centre of the scene, where a white surface that faces a light of intensity 1 is white. Such a surface reflects 1/π of
+/// its light into each direction, so it needs π lux.
 fn light(name: String, light: &PlacedLight, stage: &Stage) -> Light {
     let largest = light.color.into_iter().fold(0.0, f64::max);
     let color = if largest > 0.0 { light.color.map(|c| (c / largest).max(0.0)) } else { [1.0; 3] };
     let lux = largest * std::f64::consts::PI;
     let (kind, intensity) = match light.kind {
         Lamp::Sun => ("directional", lux),
-        // A lamp in the midst of everything lights what is around it.
+        // A lamp inside the scene lights what is around it.
         Lamp::Point | Lamp::Area => {
             let distance = light.location.distance(stage.center).max(stage.size / 2.0);
             ("point", lux * distance * distance)
         }
     };
-    // Readers have it as `f32`.
+    // Readers store it as `f32`.
     Light { name, kind, color, intensity: intensity.min(f64::from(f32::MAX)) }
 }

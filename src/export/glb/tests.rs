@@ -1,4 +1,4 @@
-//! Tests of a file's promises, as far as they need no reader of glTF. Tests with readers are in `tests/output/gltf.rs`.
+//! Tests that need no reader of glTF. Tests with readers are in `tests/output/gltf.rs`.
 
 use glam::DQuat;
 use serde_json::Value;
@@ -42,7 +42,7 @@ fn number(bytes: &[u8], at: usize) -> usize {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize
 }
 
-/// The chunk of JSON; all lengths are looked at on the way.
+/// The JSON chunk; checks all lengths on the way.
 fn json(file: &[u8]) -> Value {
     assert_eq!((&file[..4], number(file, 4), number(file, 8)), (&b"glTF"[..], 2, file.len()));
     let length = number(file, 12);
@@ -79,7 +79,7 @@ fn balls_share_their_triangles() {
     assert!(json.get("animations").is_none(), "a single frame does not move");
 }
 
-/// Quaternions have two signs, and where the sign changed from key to key, a wheel would go back all around.
+/// Quaternions have two signs; if the sign changed between two keys, a wheel would turn back all the way.
 #[test]
 fn orientations_go_on_with_the_nearer_sign() {
     let motion = Motion::of(&Recorded::new(&scene(SCENE)).unwrap(), &Selection::first(41)).unwrap();
@@ -143,7 +143,7 @@ fn a_camera_beyond_the_numbers_is_an_error() {
     assert_eq!(what, "camera");
 }
 
-/// A changing angle has no word in glTF, and one of half a turn and more none either.
+/// glTF cannot animate the angle of view, and does not allow one of 180 degrees or more.
 #[test]
 fn an_angle_is_that_of_the_first_of_the_frames_and_less_than_half_a_turn() {
     for (angle, frames, degrees) in
