@@ -5,7 +5,7 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | what the name of a file says | `digest` |
+//! | the name of a file | `digest` |
 //! | the contents of a file | `file` |
 //! | the pages of a run while it is simulated | `spill` |
 //! | the point at which a stopped run resumes | `checkpoint` |
@@ -260,7 +260,7 @@ impl Cache {
         Ok(Holding { runs: kept.len(), stopped: stopped.len(), bytes })
     }
 
-    /// Removes all kept runs, and returns what they were.
+    /// Removes all kept runs, and returns their number and size.
     ///
     /// # Errors
     /// If a file cannot be removed.

@@ -170,7 +170,7 @@ impl Scripts {
     }
 }
 
-/// First what belongs to the sequence as a whole, then the scripts in their order.
+/// First the files of the whole sequence, then the scripts in their order.
 fn in_order(a: &Entry, b: &Entry) -> std::cmp::Ordering {
     (a.frame, &a.name).cmp(&(b.frame, &b.name))
 }
