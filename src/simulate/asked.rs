@@ -1,4 +1,4 @@
-//! The largest sizes in a run of the things shown beside bodies, so that a run that shows none of them can report it.
+//! The largest sizes in a run of the things shown beside bodies, to report those of which nothing can be seen.
 
 use glam::{DQuat, DVec3};
 
@@ -33,7 +33,7 @@ pub struct AskedArrow {
     pub quantity: Quantity,
     /// Its longest vector, in the unit of its quantity.
     pub longest: f64,
-    /// The time of the first frame in which its tip is at no finite place, s.
+    /// The time of the first frame in which its tip is not finite, s.
     pub lost: Option<f64>,
 }
 
@@ -42,9 +42,9 @@ pub struct AskedArrow {
 pub struct AskedTrail {
     /// The number of the body.
     pub body: usize,
-    /// Its root, m, once the body has come.
+    /// Its root, m, once the body is present.
     begin: Option<DVec3>,
-    /// How far the body goes from there, m.
+    /// The largest distance of the body from there, m.
     pub way: f64,
 }
 
@@ -54,24 +54,24 @@ pub struct AskedGhosts {
     /// The number of the body.
     pub body: usize,
     every: f64,
-    /// The time of the first that there may be, s, once the body has come.
+    /// The time of the first possible ghost, s, once the body is present.
     first: Option<f64>,
-    /// The pose of the first one: location, m, and orientation.
+    /// The pose of the first ghost: location, m, and orientation.
     stands: Option<(DVec3, DQuat)>,
-    /// How far the body goes from there, m; none if it is gone before.
+    /// The largest distance of the body from there, m. `None` if the body is gone before.
     pub way: Option<f64>,
-    /// How far it turns from there: the cosine of half the angle.
+    /// The largest rotation from there: the cosine of half the angle.
     pub turn: f64,
 }
 
-/// A spring that is drawn.
+/// A drawn spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedSpring {
     /// The name of its force.
     pub force: String,
     /// Its ends.
     ends: [End; 2],
-    /// The longest that there is between the surfaces of its ends, m; negative if they always overlap.
+    /// The largest gap between the surfaces at its ends, m; negative if they always overlap.
     pub room: f64,
 }
 
@@ -81,16 +81,16 @@ pub struct AskedSlider {
     /// The number of the joint.
     pub joint: usize,
     way: Coordinate,
-    /// How far the second end is from the first along the axis, m, where that is least.
+    /// The smallest distance of the second end from the first along the axis, m.
     pub least: f64,
-    /// The same where it is most, m.
+    /// The largest such distance, m.
     pub most: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum End {
     Point(DVec3),
-    /// A point in the frame of a body, as it is drawn; in the middle, it ends at the surface of its shape.
+    /// A point in the frame of a body, as it is drawn. At the centre, it ends at the surface of the shape.
     Body {
         number: usize,
         at: DVec3,
@@ -148,7 +148,7 @@ impl Asked {
         asked
     }
 
-    /// Looks at the next frame of the run, and the loads on its bodies.
+    /// Updates the sizes with the next frame of the run, and the loads on its bodies.
     pub(super) fn see(&mut self, scene: &Scene, frame: &Frame, loads: &[Load]) {
         for arrow in &mut self.loads {
             let its = loads.iter().filter(|load| (load.body, load.quantity) == (arrow.body, arrow.quantity));
@@ -223,7 +223,7 @@ impl AskedSlider {
 }
 
 impl End {
-    /// Its place, m. `None` while it is absent.
+    /// Its position, m. `None` while its body is absent.
     fn place(&self, frame: &Frame) -> Option<DVec3> {
         match self {
             End::Point(point) => Some(*point),
@@ -234,7 +234,7 @@ impl End {
         }
     }
 
-    /// How far it is from the middle to the surface in a direction, m.
+    /// The distance from the centre to the surface in a direction, m.
     fn depth(&self, frame: &Frame, direction: DVec3) -> f64 {
         match self {
             End::Body { number, shape: Some(shape), .. } => {
@@ -261,9 +261,9 @@ mod tests {
         let [velocity] = asked.arrows[..] else { panic!("one is asked for") };
         // 5 m/s upward become 15 m/s downward.
         assert!((velocity.longest - 15.0).abs() < 1e-9 && velocity.lost.is_none(), "{velocity:?}");
-        // Back through the place where it began, and 10 m below; the method is off by v·dt at most.
+        // Back through the start, and 10 m below; the error of the method is at most v·dt.
         assert!((asked.trails[0].way - 10.0).abs() < 0.1, "{:?}", asked.trails);
-        // At the end: 10 m below, √(3² + 10²) from the middle of the wall, of which 0.5/3 is inside it, and the ball.
+        // At the end: 10 m below, √(3² + 10²) from the centre of the wall, of which 0.5/3 is inside the wall, and the ball.
         let far = libm::hypot(3.0, 10.0);
         let [wall, _] = &asked.springs[..] else { panic!("a chain of two") };
         assert!((wall.room - (far * 2.5 / 3.0 - 0.5)).abs() < 0.1, "{wall:?}");

@@ -14,8 +14,8 @@ use crate::dynamics::{
 use crate::scene::ContactLaw;
 use crate::scene::{Body, Scene};
 
-/// Builds the dynamics that suits the scene; it also counts the interactions of pairs. An engine with its own steppers is made
-/// here, beside the world.
+/// Builds the dynamics that suits the scene; `effort` counts the pair interactions. Engines with their own steps are built here instead
+/// of in the world.
 pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
@@ -32,8 +32,8 @@ pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     }
 }
 
-/// The world of a scene in its initial state. Bodies are added in the order of the scene, so the number of a body
-/// is the same in both. A ground that stops bodies is one more, behind all of the scene's.
+/// The world of a scene in its initial state. Bodies are added in the order of the scene, so a body has the same index in both. A ground
+/// that stops bodies is one more body, after all of the scene's.
 pub fn world(scene: &Scene) -> World {
     let mut world = free_world(scene);
     scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
@@ -44,7 +44,7 @@ pub fn world(scene: &Scene) -> World {
     world
 }
 
-/// The world without what holds bodies together or apart.
+/// The world without joints and contacts.
 fn free_world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
@@ -66,7 +66,7 @@ fn is_given(scene: &Scene) -> bool {
     scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some())
 }
 
-/// The ground is a plane like any other: a body of the world that the scene does not have.
+/// Adds the ground as a plane. It is a body of the world, but not of the scene.
 fn add_ground(world: &mut World, scene: &Scene) {
     let Some(height) = scene.ground_that_stops().map(|(height, _)| height) else { return };
     let plane = Shape::Plane { normal: DVec3::Y };
@@ -74,7 +74,7 @@ fn add_ground(world: &mut World, scene: &Scene) {
     world.add_shapes([plane]);
 }
 
-/// How the bodies of a scene collide. Joined bodies pass through each other, and so do those of one group.
+/// The contacts of a scene. Bodies joined together pass through each other, and so do those of one group.
 fn contacts(scene: &Scene) -> Contacts {
     let surface = |body: &Body| body.collider.as_ref().map(|collider| collider.surface);
     let ground = scene.ground_that_stops().map(|(_, surface)| Some(surface));
@@ -116,7 +116,7 @@ fn add(world: &mut World, body: &Body) {
 mod tests {
     use super::*;
 
-    /// A chain of three balls from a point, with 1 m from each to the next; the last is 0.5 m farther than that.
+    /// A chain of three balls from a point, 1 m from each to the next; the last one 0.5 m too far.
     #[test]
     fn a_chain_is_a_spring_from_each_end_to_the_next() {
         let scene = |rest_length: &str| {

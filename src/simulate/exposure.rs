@@ -12,11 +12,11 @@ use crate::scene::Shutter;
 pub struct Exposure {
     /// The moment at which the shutter opens.
     pub frame: Frame,
-    /// The past up to there.
+    /// The past up to that moment.
     history: History,
-    /// The particles of the last frame up to there.
+    /// The particles of the last frame up to that moment.
     clouds: Clouds,
-    /// The recording, and the number of the moment that comes next in it.
+    /// The recording, and the number of its next moment.
     rest: (Arc<Recording>, usize),
 }
 
@@ -29,8 +29,8 @@ impl Exposure {
         Exposure { frame, history, clouds, rest }
     }
 
-    /// The moments at which a camera looks while its shutter is open, each read when it is asked for. They may be later than
-    /// the last frame, and have the number of the frame at which the shutter has opened.
+    /// The moments at which a camera looks while its shutter is open. Each is read on demand. They may be later than the last frame, and
+    /// have the number of the frame at which the shutter opened.
     pub fn moments(&self, shutter: Shutter) -> impl Iterator<Item = Result<Frame, SimulateError>> {
         let (recording, next) = &self.rest;
         let mut reader = recording.read();
@@ -43,7 +43,7 @@ impl Exposure {
     }
 }
 
-/// The moment of a time (s), which is not before the reader's.
+/// The moment at a time (s), which is not before the reader's.
 #[allow(clippy::float_cmp, reason = "moments are recorded at these very times")]
 fn moment(
     reader: &mut Reader,

@@ -15,17 +15,17 @@ pub struct Frame {
     pub bodies: Vec<BodySnapshot>,
     /// The reactions of the joints on the bodies, in the order of the scene.
     pub reactions: Vec<Reaction>,
-    /// The places where bodies touch and stay in touch.
+    /// The lasting contacts.
     pub contacts: Vec<ContactSnapshot>,
-    /// How deep bodies are within each other at most, m.
+    /// The greatest penetration of bodies, m.
     pub penetration: f64,
     /// Energies, momenta and the drift.
     pub balance: Balance,
-    /// How many impacts there have been.
+    /// The numbers of impacts so far.
     pub impacts: ImpactCounts,
-    /// The particles that are alive, for each emitter in the order of the scene.
+    /// The living particles, for each emitter in the order of the scene.
     pub particles: Vec<Swarm>,
-    /// The past, as far as the scene asks for it.
+    /// The remembered past.
     pub past: Past,
 }
 
@@ -42,7 +42,7 @@ impl Frame {
         Frame { impacts: entry.counts, ..Frame::of(index, entry.snapshot) }
     }
 
-    /// A body, by its number in the scene; none if it is not there.
+    /// A body, by its index in the scene; `None` if it is absent.
     pub fn body(&self, id: usize) -> Option<&BodySnapshot> {
         find(&self.bodies, id)
     }

@@ -11,10 +11,9 @@ use super::{Frame, Moments, SimulateError};
 use crate::dynamics::Effort;
 use crate::scene::Scene;
 
-/// The frames of a run in their order, each made when it is asked for.
+/// The frames of a run in order, each made on demand.
 ///
-/// The scene knows the initial state, so a run that begins again is another `Frames` of the same scene, and it
-/// gives the same frames bit for bit.
+/// The scene knows the initial state. So another `Frames` of the same scene restarts the run, and gives the same frames, bit for bit.
 pub struct Frames<'a> {
     scene: &'a Scene,
     source: Source<'a>,
@@ -36,7 +35,7 @@ impl<'a> Frames<'a> {
         Frames::watched(scene, &Effort::default())
     }
 
-    /// The same frames; the interactions of pairs are counted while they are made.
+    /// The same frames; `effort` counts the pair interactions.
     pub fn watched(scene: &'a Scene, effort: &Effort) -> Frames<'a> {
         Frames::with(scene, Moments::of_ghosts(scene), effort)
     }
@@ -51,14 +50,14 @@ impl<'a> Frames<'a> {
         Frames { scene, source, history: History::new(scene), clouds: Clouds::new(scene) }
     }
 
-    /// The frames of a run that has been recorded.
+    /// The frames of a recorded run.
     pub fn recorded(scene: &'a Scene, recording: &Arc<Recording>) -> Frames<'a> {
         let source = Source::Recorded(Arc::clone(recording), recording.read());
         Frames::from(scene, source)
     }
 
-    /// The state at any time of the run, s. At the time of a frame, it is that frame, bit for bit; otherwise it lies between two
-    /// frames. A time before the beginning is the beginning, one after the end is the end. The run is computed up to there.
+    /// The state at any time of the run, s. At the time of a frame, it is that frame, bit for bit; otherwise it lies between two frames.
+    /// Times outside the run give its first or last moment. The run is computed up to that time.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time.
@@ -82,7 +81,7 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// The moment with a number in the recording, with its past. The number of the frame at or before it is known.
+    /// A moment of the recording, with its past. The frame at or before it is known.
     pub(super) fn recorded_moment(
         mut self,
         moment: usize,
@@ -113,7 +112,7 @@ impl<'a> Frames<'a> {
         !self.history.is_idle()
     }
 
-    /// The number of the moment of the recording that comes next.
+    /// The number of the next moment of the recording.
     pub(super) fn position(&self) -> usize {
         match &self.source {
             Source::Recorded(_, reader) => reader.position(),
@@ -131,8 +130,7 @@ impl<'a> Frames<'a> {
         &self.clouds
     }
 
-    /// Continues with a frame. Skips those before it, unless their past or their particles are needed.
-    /// particles need come before it.
+    /// Continues with a frame. Skips earlier frames, unless their past or their particles are needed.
     pub(super) fn pass_to(&mut self, frame: usize) {
         let Source::Recorded(recording, reader) = &mut self.source else { return };
         if self.clouds.is_idle() {
@@ -152,7 +150,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Starts over, as the space key does in a simulation with a window.
+    /// Restarts the run, like the space key in a simulation with a window.
     pub fn reset(&mut self) {
         *self = match &self.source {
             Source::Live(..) => Frames::new(self.scene),
@@ -184,7 +182,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Gives a moment its particles and its past.
+    /// Adds particles and past to a moment.
     fn see(&mut self, is_frame: bool, mut moment: Frame) -> Frame {
         if is_frame {
             self.clouds.note(&moment);

@@ -1,26 +1,26 @@
-//! The impacts of a run, counted.
+//! Counts the impacts of a run.
 
 use crate::dynamics::Impact;
 use crate::scene::Scene;
 
-/// How many impacts there have been up to a moment. Without contacts, nothing is counted.
+/// The numbers of impacts up to a moment. Without contacts, nothing is counted.
 ///
-/// The numbers are whole: that of the run, those of its bodies, and from the end on those of the pairs that the scene asks for.
+/// The list holds whole numbers: the total of the run, those of its bodies, and at the end those of the pairs that the scene asks for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImpactCounts(pub(super) Vec<f64>);
 
 impl ImpactCounts {
-    /// How many numbers a scene needs.
+    /// The length of the list for a scene.
     pub fn size(scene: &Scene) -> usize {
         scene.simulation.contacts.map_or(0, |_| 1 + scene.bodies.len() + scene.pairs.len())
     }
 
-    /// Those of a run that has not begun.
+    /// The counts of a run that has not begun.
     pub(super) fn new(scene: &Scene) -> ImpactCounts {
         ImpactCounts(vec![0.0; ImpactCounts::size(scene)])
     }
 
-    /// Counts one more.
+    /// Counts an impact.
     pub(super) fn note(&mut self, scene: &Scene, impact: &Impact) {
         let bodies = impact.bodies.into_iter().filter(|&id| id < scene.bodies.len()).map(|id| 1 + id);
         let pairs = scene.pairs.iter().enumerate().filter(|(_, pair)| **pair == impact.bodies);
@@ -36,12 +36,12 @@ impl ImpactCounts {
         self.0.first().copied().unwrap_or_default()
     }
 
-    /// The total of a body, by its number in the scene.
+    /// The total of a body, by its index in the scene.
     pub fn of_body(&self, body: usize) -> f64 {
         self.0.get(1 + body).copied().unwrap_or_default()
     }
 
-    /// The total of a pair, by its number among those of the scene.
+    /// The total of a pair, by its index among those of the scene.
     pub fn of_pair(&self, pair: usize) -> f64 {
         let place = self.0.len().checked_sub(1 + pair);
         place.and_then(|place| self.0.get(place)).copied().unwrap_or_default()

@@ -1,4 +1,4 @@
-//! How much there is to compute in a run, before it begins.
+//! The amount of computation in a run, before it begins.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -7,17 +7,17 @@ use super::world;
 use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
-/// Writing a body takes about as long as this many interactions.
+/// Writing the script of a body takes about as long as this many interactions.
 const SCRIPT: u64 = 100;
 
-/// The interactions of pairs that the frames of a run take: as many as an [`Effort`](crate::dynamics::Effort) will
-/// count, if all bodies are there all the time; where some come and go, about as many. Where there are none, nothing takes long within a frame.
+/// The pair interactions in the frames of a run: as many as an [`Effort`](crate::dynamics::Effort) will count if all bodies are always
+/// present; approximate if some come and go. Without pair interactions, no frame takes long.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Labour {
     first: u64,
     each: u64,
     frames: usize,
-    /// As many interactions as take about as long as to write a script.
+    /// The number of interactions that take about as long as writing a script.
     script: u64,
 }
 
@@ -26,13 +26,13 @@ impl Labour {
     pub fn of(scene: &Scene) -> Labour {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
-        // How many steps there will be between two frames is not known of a method whose steps know nothing of frames.
+        // Adaptive methods do not know the number of steps between two frames in advance.
         if pairs == 0 || scene.simulation.method.ahead.is_some() {
             return Labour::default();
         }
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
         let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
-        // Each frame is told its potential energy and its forces; the first one also what the run begins with.
+        // Each frame computes its potential energy and its forces; the first one also those for the start of the run.
         Labour {
             first: pairs.saturating_mul(3),
             each: pairs.saturating_mul(evaluations.saturating_add(2)),
@@ -41,23 +41,23 @@ impl Labour {
         }
     }
 
-    /// Those of one frame.
+    /// The interactions of one frame.
     pub fn of_frame(&self, index: usize) -> u64 {
         if index == 0 { self.first } else { self.each }
     }
 
-    /// Those of a step of a command that simulates all frames and then writes scripts, or as many as take as long.
+    /// The interactions of a step of a command that simulates all frames and then writes scripts, in equivalent interactions.
     pub fn of_step(&self, step: usize) -> u64 {
         if step < self.frames { self.of_frame(step) } else { self.script }
     }
 
-    /// Whether there are none.
+    /// Whether there are no interactions.
     pub fn is_empty(&self) -> bool {
         self.each == 0
     }
 }
 
-/// How often a method evaluates the forces in a step, by trying it.
+/// The number of force evaluations of a method in a step, found by a trial.
 pub fn evaluations(method: &'static Method) -> u64 {
     struct Counting(Arc<AtomicU64>);
 
@@ -70,7 +70,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
             0.0
         }
 
-        // As those between pairs, which are what takes long.
+        // Like pair forces, which take most of the time.
         fn depends_on_motion(&self) -> bool {
             false
         }
@@ -81,7 +81,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
     world.set_integrator(method);
     world.add(RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0));
     world.add_force(Counting(Arc::clone(&count)));
-    // The first step may cost more: a method may keep values for the next step.
+    // The first step may cost more, since a method may keep values for the next step.
     world.step(1.0);
     let before = count.load(Ordering::Relaxed);
     world.step(1.0);
@@ -110,7 +110,7 @@ mod tests {
             for (index, frame) in Frames::watched(&scene, &effort).enumerate() {
                 frame.unwrap();
                 let counted = effort.done() - before;
-                // The first step of a run may take one evaluation more.
+                // The first step of a run may need one more evaluation.
                 let planned = labour.of_frame(index);
                 assert!(counted.abs_diff(planned) <= pairs, "{} {index}: {counted} {planned}", method.name);
                 before = effort.done();

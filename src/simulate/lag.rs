@@ -1,26 +1,25 @@
-//! Places that come after bodies, as a camera does that follows one with a lag, or one that is not there all the time.
+//! Points that follow bodies, for cameras that follow one with a lag, or one that is not always present.
 
 use glam::DVec3;
 
 use super::Frame;
 use crate::scene::Scene;
 
-/// A place that comes after a body: x' = (b − x) / τ, where b is the location of the body. It stays where it is while the body
-/// is not there.
+/// A point that follows a body: x' = (b − x) / τ, where b is the location of the body. It stays in place while the body is absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lagging {
     /// The number of the body.
     pub body: usize,
-    /// The time τ by which it is behind what moves evenly, s; without it, it is where the body is or was last.
+    /// The time τ by which it is behind uniform motion, s. Without it, the point is at the last location of the body.
     pub lag: f64,
-    /// The place, m.
+    /// The position, m.
     pub location: DVec3,
-    /// The time (s) and the location of the body then.
+    /// The last time (s), and the location of the body at that time.
     seen: Option<(f64, DVec3)>,
 }
 
 impl Lagging {
-    /// Those that a scene's cameras ask for, before the run has begun.
+    /// The points that a scene's cameras need, before the run has begun.
     pub(super) fn of(scene: &Scene) -> Vec<Lagging> {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut all: Vec<Lagging> = Vec::new();
@@ -37,13 +36,13 @@ impl Lagging {
         all
     }
 
-    /// Whether it is that of a body with a lag, s.
+    /// Whether it follows this body with this lag, s.
     #[allow(clippy::float_cmp, reason = "it is the very number of the scene")]
     pub fn is_of(&self, body: usize, lag: f64) -> bool {
         self.body == body && self.lag == lag
     }
 
-    /// The same at a frame, which is not earlier. Between two, the body is taken to move evenly; for that it is exact.
+    /// The point at a frame, which is not earlier. It is exact for a body that moves uniformly between frames.
     #[must_use]
     pub(super) fn at(self, frame: &Frame) -> Lagging {
         let Some(there) = frame.body(self.body).map(|body| body.location) else { return self };
@@ -66,7 +65,7 @@ mod tests {
     use super::super::Frames;
     use super::*;
 
-    /// Behind a body that moves at v from 0 on: x = v (t − τ + τ e^(−t/τ)), whatever the frame rate is.
+    /// Behind a body that moves at v from 0 on: x = v (t − τ + τ e^(−t/τ)), for any frame rate.
     #[test]
     fn it_is_behind_by_its_lag_when_the_body_moves_evenly() {
         for rate in [5, 50] {
@@ -86,7 +85,7 @@ mod tests {
                 let x = frame.past.lagging[0].location.x;
                 assert!((x - exact).abs() < 1e-12, "{rate} {}: {x}, not {exact}", frame.time);
             }
-            // Between frames too.
+            // Also between frames.
             let between = Frames::at(&scene, 1.23).unwrap();
             let exact = 3.0 * (1.23 - 0.5 + 0.5 * libm::exp(-1.23 / 0.5));
             assert!((between.past.lagging[0].location.x - exact).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! The weight of bodies, and the forces of what touches them, as arrows show them.
+//! The weights and contact forces of bodies, for arrows.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use super::Frame;
 use crate::dynamics::{BodySnapshot, ContactSnapshot};
 use crate::scene::{Arrow, Quantity, Scene};
 
-/// A force on a body that an arrow shows: its weight, or what another body does to it.
+/// A force on a body that an arrow shows: its weight, or a contact force of another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// The number of the body that it acts on.
+    /// The index of the body on which it acts.
     pub body: usize,
     /// The quantity.
     pub quantity: Quantity,
@@ -23,24 +23,24 @@ pub struct Load {
     pub vector: DVec3,
 }
 
-/// The contact force of one body on another, as one force at one place.
+/// The contact force of one body on another, as one force at one point.
 #[derive(Default)]
 struct Touch {
     normal: DVec3,
     friction: DVec3,
-    /// The places of contact, each times the size of its normal force.
+    /// The points of contact, weighted by the sizes of their normal forces.
     places: DVec3,
-    /// The sum of those sizes.
+    /// The sum of these weights.
     sizes: f64,
 }
 
-/// The loads of a frame that a scene shows, in the order of the bodies. Where two bodies touch at several places, there is one arrow
-/// for all of them, at their centre of pressure.
+/// The loads of a frame that a scene shows, in the order of the bodies. If two bodies touch at several points, a single arrow shows the
+/// total force at the centre of pressure.
 pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
     loads_on(scene, &frame.bodies, &frame.contacts)
 }
 
-/// The loads on some bodies, of all contacts of these.
+/// The loads on some bodies, from all their contacts.
 pub fn loads_on(scene: &Scene, bodies: &[BodySnapshot], contacts: &[ContactSnapshot]) -> Vec<Load> {
     let asks = |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.has_loads());
     let mut touches: BTreeMap<(usize, usize), Touch> = BTreeMap::new();

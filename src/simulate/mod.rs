@@ -1,19 +1,19 @@
 //! Checked scene → world → recording → frames.
 //!
-//! This is the only place where a [`Scene`] meets the [`dynamics`]. A scene is simulated once; all that draws,
-//! measures or exports reads the recording.
+//! This is the only place where a [`Scene`] meets the [`dynamics`]. A scene is simulated once; everything that draws, measures or exports
+//! reads the recording.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | the world of a scene | `build` |
-//! | which moments are wanted | `moments` |
-//! | the run as it is computed | `simulation` |
-//! | all of its moments, to be read in any order | `recording`, `record` |
-//! | one frame after another, with what has been before | `frames`, `past`, `lag` |
-//! | one frame after another, and nothing else | `snapshots` |
-//! | the particles that emitters send out | `particles`, `swarms` |
-//! | what is seen while a shutter is open | `exposure` |
-//! | what is known of the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
+//! | the requested moments | `moments` |
+//! | the run while it is computed | `simulation` |
+//! | all of its moments, readable in any order | `recording`, `record` |
+//! | the frames in order, with their past | `frames`, `past`, `lag` |
+//! | the frames in order, without a recording | `snapshots` |
+//! | the particles of emitters | `particles`, `swarms` |
+//! | the moments while a shutter is open | `exposure` |
+//! | figures on the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
 
 mod asked;
 mod build;
@@ -74,13 +74,13 @@ pub use vectors::{JointEnd, axis, root, shown, surface};
 /// The error of a run whose state became non-finite: this step and method cannot compute the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {
-    /// The name of the first body that has no finite place or velocity.
+    /// The name of the first body whose position or velocity is not finite.
     pub body: String,
     /// The time of the frame, s.
     pub time: f64,
 }
 
-/// Why a run cannot be simulated, or read.
+/// The reason why a run cannot be simulated or read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SimulateError {
     /// The state became non-finite.
@@ -106,9 +106,9 @@ pub struct Undefined {
     pub body: String,
     /// The time, s.
     pub time: f64,
-    /// The reason: its code, the message, and the remark at the place.
+    /// The reason: its code, the message, and the note at the span.
     pub why: (diagnostic::Code, String, String),
-    /// The place in the scene's text, and the texts of the scene.
+    /// The span in the scene's text, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -120,7 +120,7 @@ impl PartialEq for Undefined {
 }
 
 impl Undefined {
-    /// Finds the force of the scene by its number in the world.
+    /// The error for a force, by its index in the world.
     fn of(scene: &Scene, force: usize, at: &dynamics::Undefined) -> Option<Undefined> {
         let gravity = usize::from(scene.simulation.gravity != glam::DVec3::ZERO);
         let mut number = force.checked_sub(gravity)?;
@@ -168,7 +168,7 @@ pub struct Stalled {
     pub body: String,
     /// The time, s.
     pub time: f64,
-    /// The place that names it, and the texts of the scene.
+    /// The span that names the body, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -188,7 +188,7 @@ pub struct Broken {
     pub time: f64,
     /// The error of the joint, in metres, or in radians for a rotation.
     pub missing: f64,
-    /// The place that names it, and the texts of the scene.
+    /// The span that names the joint, and the texts of the scene.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
@@ -202,13 +202,13 @@ impl PartialEq for Broken {
 /// The error of a contact that cannot be computed.
 #[derive(Clone, Debug)]
 pub struct Stuck {
-    /// The names of the two; none for the ground.
+    /// The names of the two bodies; `None` for the ground.
     pub bodies: [Option<String>; 2],
     /// The time, s.
     pub time: f64,
-    /// How deep they are within each other where contacts begin, m; none: their impacts do not end.
+    /// Their overlap when contacts begin, m. `None` if their impacts do not end.
     pub depth: Option<f64>,
-    /// The places that name them, and the texts of the scene.
+    /// The spans that name them, and the texts of the scene.
     pub place: (Vec<diagnostic::Span>, Sources),
 }
 
@@ -229,7 +229,7 @@ impl Stuck {
 }
 
 impl SimulateError {
-    /// Why the dynamics of a scene cannot go on.
+    /// The error for a breakdown of the dynamics.
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {

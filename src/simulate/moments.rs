@@ -1,8 +1,8 @@
-//! The times between frames that a scene is looked at, too: for ghosts, for open shutters, for stills.
+//! The requested times between frames: for ghosts, open shutters, and stills.
 
 use crate::scene::{Scene, Shutter};
 
-/// The requested times between frames. They follow from the scene alone, and the run does not depend on them.
+/// The requested times between frames. They depend on the scene alone, and do not affect the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moments {
     /// The intervals of ghosts, s.
@@ -15,7 +15,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// All moments that the pictures of a scene need: those of ghosts, and those seen while a shutter is open.
+    /// All moments that the pictures of a scene need: those of ghosts, and those of open shutters.
     pub fn of(scene: &Scene) -> Moments {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut shutters: Vec<Shutter> = Vec::new();
@@ -27,7 +27,7 @@ impl Moments {
         Moments { shutters, ..Moments::of_ghosts(scene) }
     }
 
-    /// Those of ghosts alone.
+    /// The moments of ghosts only.
     pub fn of_ghosts(scene: &Scene) -> Moments {
         let mut intervals: Vec<f64> =
             scene.bodies.iter().filter_map(|body| Some(body.showing.ghosts?.every)).collect();
@@ -37,12 +37,12 @@ impl Moments {
         Moments { intervals, shutters: Vec::new(), others: Vec::new(), frames, frame_rate }
     }
 
-    /// None: the frames alone.
+    /// No moments besides the frames.
     pub(super) fn none(scene: &Scene) -> Moments {
         Moments { intervals: Vec::new(), ..Moments::of_ghosts(scene) }
     }
 
-    /// The same, and a time (s), from which on the shutters open, too.
+    /// The same moments, and a time (s) at which the shutters open as well.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {
         let times: Vec<f64> = self.times_of(time).collect();
@@ -50,26 +50,25 @@ impl Moments {
         self
     }
 
-    /// A time (s), and those at which cameras look whose shutter opens then.
+    /// A time (s), and those of the cameras whose shutter opens then.
     pub(super) fn times_of(&self, time: f64) -> impl Iterator<Item = f64> {
         let opened = self.shutters.iter().flat_map(move |shutter| shutter.moments(time));
         std::iter::once(time).chain(opened)
     }
 
-    /// A time that counts as that of a frame for a ghost: what differs by rounding alone, s.
+    /// The largest rounding difference at which a ghost's time counts as that of a frame, s.
     pub(super) fn slack(frame_rate: f64) -> f64 {
         1e-6 / frame_rate
     }
 
-    /// The times after a frame and before the next, in rising order. After the last frame there is no next one: then
-    /// the end of the interval counts, too.
+    /// The times after a frame and before the next, in rising order. After the last frame, the end of its interval counts as well.
     pub(super) fn after(&self, frame: usize) -> Vec<f64> {
         let [begin, end] = [frame, frame + 1].map(|frame| self.time(frame));
         let is_within =
             |time: &f64| *time > begin && (*time < end || (*time == end && frame + 1 >= self.frames));
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
         for shutter in &self.shutters {
-            // It is open until the next frame at most, but for rounding.
+            // Up to rounding, it closes at the next frame at the latest.
             for opened in frame.saturating_sub(1)..=frame.min(self.frames - 1) {
                 times.extend(shutter.moments(self.time(opened)).filter(is_within));
             }
@@ -89,7 +88,7 @@ impl Moments {
         times
     }
 
-    /// The number of intervals between frames that have to be simulated to see all.
+    /// The number of intervals between frames that must be simulated to reach all moments.
     pub(super) fn intervals(&self) -> usize {
         let last = self.frames - 1;
         let open = self.shutters.iter().map(|shutter| shutter.open).fold(0.0, f64::max);
@@ -149,7 +148,7 @@ mod tests {
         let moments = Moments::of(&scene("")).with(0.123);
         assert_eq!(moments.after(1), [0.123]);
         assert!(moments.after(0).is_empty() && moments.after(2).is_empty());
-        // The moment at a frame's time is that frame.
+        // A moment at a frame's time is that frame.
         assert!(Moments::of(&scene("")).with(0.2).after(1).is_empty());
     }
 }

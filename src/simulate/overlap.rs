@@ -1,4 +1,4 @@
-//! Bodies that go into each other, since nothing keeps them apart.
+//! Bodies that move into each other, since no contacts keep them apart.
 
 mod grid;
 mod near;
@@ -14,10 +14,10 @@ use super::Frame;
 use crate::dynamics::{Placed, Shape};
 use crate::scene::Scene;
 
-/// Bodies overlap when they still do after they have been made smaller by this part.
+/// Bodies overlap if they still do after shrinking by this fraction.
 const DEEP: f64 = 0.01;
 
-/// Two bodies overlap that were apart in the first frame of the later one.
+/// Two overlapping bodies that were apart in the first frame of the later one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
     /// The names of the two.
@@ -26,36 +26,36 @@ pub struct Overlap {
     pub time: f64,
 }
 
-/// Watches a run for the first two bodies that go into each other.
+/// Watches a run for the first two bodies that move into each other.
 ///
-/// Bodies that touch in the first frame in which both are there belong together and may do as they like; so may two that
-/// a joint holds, and two of which neither is moved by forces. What is not convex — meshes, rings — is not watched, and what happens between frames is not seen.
+/// Bodies that touch in their first common frame belong together and may overlap. So may two bodies joined together, and two bodies that
+/// no force moves. Shapes that are not convex (meshes, rings) are not watched, and overlaps between frames are not noticed.
 ///
-/// The work is proportional to the number of bodies. After a frame with very many near pairs, some frames are passed over;
-/// where almost everything is near everything, nothing is watched.
+/// The work is proportional to the number of bodies. After a frame with very many near pairs, some frames are skipped. If nearly all
+/// bodies are near each other, the watch ends.
 pub(super) struct Watch<'a> {
     scene: &'a Scene,
     near: Near,
-    /// Pairs that have touched in their first frame.
+    /// Pairs that touched in their first common frame.
     together: HashSet<(usize, usize)>,
-    /// Which of the bodies were there in the frame before.
+    /// For each body, whether it was present in the last frame.
     were_there: Vec<bool>,
     found: Option<Overlap>,
     /// The watch has ended.
     is_over: bool,
-    /// The number of frames that are still to be skipped.
+    /// The number of frames to skip.
     pause: u64,
 }
 
-/// The cost of testing a pair, relative to comparing a distance: shapes that are not balls are compared step by step.
+/// The cost of testing a pair, relative to comparing a distance. Shapes other than balls are compared iteratively.
 const OF_SHAPES: u64 = 64;
-/// The allowed mean cost of testing pairs, for each body and frame: less than its line in a script.
+/// The allowed mean cost of testing pairs, for each body and frame: less than that of its line in a script.
 const USUAL: u64 = 32;
-/// The allowed cost in every frame beside that, however few bodies there are.
+/// The allowed additional cost of each frame, for any number of bodies.
 const ALWAYS: u64 = 16_384;
 /// At this multiple of the usual cost, the watch ends.
 const MOST: u64 = 128;
-/// The most pairs, for each body, that may touch in their first frame. Equal balls have six.
+/// The largest number of pairs, per body, that may touch in their first frame. Equal balls have six.
 const TOGETHER: usize = 64;
 
 impl<'a> Watch<'a> {
@@ -67,13 +67,13 @@ impl<'a> Watch<'a> {
             let [i, j] = joint.kind.between().map(|end| end.body().and_then(|id| number(id.index())));
             Some((i?.min(j?), i?.max(j?)))
         });
-        // Bodies that a joint holds may overlap.
+        // Bodies joined together may overlap.
         let together = joined.collect();
         let were_there = vec![false; near.bodies.len()];
         Watch { scene, near, together, were_there, found: None, is_over, pause: 0 }
     }
 
-    /// Looks at the next frame of the run.
+    /// Checks the next frame of the run.
     pub(super) fn see(&mut self, frame: &Frame) {
         if self.is_over {
             return;
@@ -121,7 +121,7 @@ impl<'a> Watch<'a> {
         ALWAYS + USUAL * self.near.bodies.len() as u64
     }
 
-    /// Whether two bodies overlap if both are enlarged by a factor.
+    /// Whether two bodies overlap if both are scaled by a factor.
     fn meet(&self, frame: &Frame, i: usize, j: usize, scale: f64) -> bool {
         let placed = |i: usize| {
             let id = self.near.bodies[i].id;
@@ -147,7 +147,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// The convex parts of a shape, with their places in its frame.
+/// The convex parts of a shape, with their poses in its frame.
 fn parts(shape: &Shape) -> impl Iterator<Item = (&Shape, DVec3, DQuat)> {
     let (whole, parts) = match shape {
         Shape::Compound(compound) => (None, compound.parts()),

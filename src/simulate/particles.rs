@@ -1,8 +1,8 @@
 //! The particles of a scene's emitters.
 //!
-//! They are no part of a recording. Each particle follows from its number, the recorded bodies and the forces alone, so they are
-//! computed along with the frames that are read: whoever begins at a later frame computes those that are alive then from their
-//! births on, and gets the same bits. Memory does not grow with time.
+//! They are not recorded. Each particle depends on its number, the recorded bodies and the forces alone, so particles are computed while
+//! frames are read. A reader that starts at a later frame computes the living particles from their births on, and gets the same bits.
+//! Memory does not grow with time.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 /// The particles of one emitter at one moment, in the order of their births.
 pub type Swarm = Arc<[Particle]>;
 
-/// All particles of a scene as time goes on.
+/// All particles of a scene as time advances.
 #[derive(Clone)]
 pub(super) struct Clouds {
     makers: Arc<[Maker]>,
@@ -27,14 +27,14 @@ pub(super) struct Clouds {
     obstacles: Arc<[Obstacle]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
-    /// For each emitter: only every n-th particle is computed.
+    /// For each emitter n, where every n-th particle is computed.
     strides: Vec<u64>,
     /// The time between two frames, s, and the number of steps in it.
     interval: f64,
     steps: u32,
-    /// The bodies of the frame that was seen last.
+    /// The bodies of the last frame.
     before: Option<(f64, Arc<[BodySnapshot]>)>,
-    /// Frames before this one need not be seen.
+    /// The frames before this one are not needed.
     begin: usize,
 }
 
@@ -45,7 +45,7 @@ struct Maker {
 }
 
 impl Clouds {
-    /// Those of a run that has not begun.
+    /// The particles of a run that has not begun.
     pub(super) fn new(scene: &Scene) -> Clouds {
         let maker = |(number, emitter): (usize, &Emitter)| {
             let fields = fields(scene, number);
@@ -67,7 +67,7 @@ impl Clouds {
         }
     }
 
-    /// The same, but of each emitter only some particles, evenly chosen: at most some `most` at once.
+    /// The same with only some particles of each emitter, evenly chosen: about `most` at once, or fewer.
     pub(super) fn thinned(scene: &Scene, most: f64) -> Clouds {
         let mut clouds = Clouds::new(scene);
         #[allow(
@@ -81,12 +81,12 @@ impl Clouds {
         clouds
     }
 
-    /// For each emitter, which part of its particles is computed: every n-th.
+    /// For each emitter n, where every n-th particle is computed.
     pub(super) fn strides(&self) -> &[u64] {
         &self.strides
     }
 
-    /// How many steps there are from one frame to the next.
+    /// The number of steps from one frame to the next.
     pub(super) fn steps(&self) -> u32 {
         self.steps
     }
@@ -95,18 +95,18 @@ impl Clouds {
         self.interval / f64::from(self.steps)
     }
 
-    /// Whether there are none.
+    /// Whether there are no emitters.
     pub(super) fn is_idle(&self) -> bool {
         self.makers.is_empty()
     }
 
-    /// Whether a frame is reached best by going on with the frame that comes next.
+    /// Whether continuing with frame `next` is the fastest way to reach `frame`.
     pub(super) fn go_on_to(&self, frame: usize, next: usize) -> bool {
         let first = self.first_frame(frame);
         !self.clouds.is_empty() && self.begin <= first && first <= next && next <= frame
     }
 
-    /// The first of the frames that must be seen for the particles of a frame to be right.
+    /// The first frame that must be read to compute the particles of `frame`.
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     #[allow(
         clippy::cast_possible_truncation,
@@ -117,18 +117,18 @@ impl Clouds {
         let time = frame as f64 * self.interval;
         let needed = |maker: &Maker| Cloud::needed_from(&maker.emitter.source, time);
         let from = self.makers.iter().map(needed).fold(time, f64::min);
-        // One more, for what rounding does to a quotient.
+        // One more, because of the quotient's rounding error.
         ((from / self.interval).floor() as usize).saturating_sub(1).min(frame)
     }
 
-    /// Forgets all, to see the frames from this one on.
+    /// Forgets everything, to start at this frame.
     pub(super) fn begin_at(&mut self, frame: usize) {
         self.clouds.clear();
         self.before = None;
         self.begin = frame;
     }
 
-    /// Goes on to the next frame.
+    /// Advances to the next frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         if self.is_idle() || frame.index < self.begin {
             return;
@@ -141,7 +141,7 @@ impl Clouds {
         self.before = Some((frame.time, bodies));
     }
 
-    /// Begins with a frame. What was born before the run has bodies around it that stand as they do at its beginning.
+    /// Starts with a frame. For particles born before the run, the bodies stand as at its start.
     fn start(&mut self, frame: &Frame, bodies: &[BodySnapshot]) {
         let step = self.step();
         let Clouds { makers, method, interval, strides, .. } = &*self;
@@ -169,7 +169,7 @@ impl Clouds {
             let (from, now) = (find(last, body.index()), find(bodies, body.index()));
             match (from.copied(), now.copied()) {
                 (Some(from), Some(now)) => Some(Course::new(begin, from, to, now)),
-                // It comes or goes within the interval, and counts for the whole of it.
+                // A body that comes or goes within the interval counts for the whole interval.
                 (Some(only), None) | (None, Some(only)) => Some(Course::still(only)),
                 (None, None) => None,
             }
@@ -184,7 +184,7 @@ impl Clouds {
         (!self.obstacles.is_empty()).then(|| Scenery::new(&self.obstacles, course))
     }
 
-    /// The box around the particles at the last frame that the ground does not hide; none where there are none.
+    /// The box around the particles at the last frame, except those below the ground; `None` if there are none.
     pub(super) fn bounds(&self, scene: &Scene) -> Option<Bounds> {
         let ground = scene.environment.ground.as_ref().and_then(|ground| ground.height);
         let lowest = ground.unwrap_or(f64::NEG_INFINITY);
@@ -217,14 +217,14 @@ impl Clouds {
     }
 }
 
-/// How many steps particles make in an interval (s): as many as bodies that forces move.
+/// The number of particle steps in an interval (s), the same as for bodies.
 fn steps(scene: &Scene, interval: f64) -> u32 {
     let mut world = World::new();
     world.set_step(scene.simulation.step);
     world.steps_within(interval)
 }
 
-/// The obstacles of particles: the bodies that collide, and the ground. The check has refused shapes that are no obstacles.
+/// The obstacles of particles: the colliding bodies, and the ground. The check has refused unsupported shapes.
 fn obstacles(scene: &Scene) -> Arc<[Obstacle]> {
     if scene.emitters.iter().all(|emitter| emitter.collides.is_none()) {
         return [].into();
@@ -270,7 +270,7 @@ fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
         ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
             let (constant, softening) = (*constant, *softening);
             Field::from_bodies(sources(bodies), move |bodies, against| {
-                // With a tree, the force on a particle would depend on the others present.
+                // With a tree, the force on a particle would depend on the other particles.
                 let (against, opening_angle) = (Some(against), None);
                 Arc::new(Gravitation { bodies, against, constant, softening, opening_angle })
             })

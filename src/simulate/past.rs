@@ -1,7 +1,7 @@
 //! The remembered past of a run, for trails and ghosts.
 //!
-//! Only the bodies that ask for it have one, and it is bounded: a trail has some hundred points and the corners between, and the
-//! scene's check limits the ghosts. The past of a frame depends on its time alone, and not on which frames are drawn.
+//! Only the bodies with trails or ghosts have one, and it is bounded: a trail has some hundred points and the corners between them, and
+//! the scene's check limits the ghosts. The past of a frame depends on its time alone, and not on which frames are drawn.
 
 mod corners;
 #[cfg(test)]
@@ -23,39 +23,39 @@ use crate::scene::{Scene, Showing, Trail};
 /// The past of a moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
-    /// The trails that are asked for.
+    /// The requested trails.
     pub trails: Vec<Way>,
-    /// The ghosts that are asked for, in the order of their times.
+    /// The requested ghosts, in order of time.
     pub ghosts: Vec<Arc<Ghost>>,
-    /// The places that cameras ask for which follow with a lag.
+    /// The points for cameras that follow with a lag.
     pub lagging: Vec<Lagging>,
 }
 
-/// A body as it was.
+/// A body at an earlier moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ghost {
-    /// When, s.
+    /// The time, s.
     pub time: f64,
-    /// How it was.
+    /// The body at that time.
     pub body: BodySnapshot,
     /// Its contacts, if its ghosts show the forces there.
     pub contacts: Vec<ContactSnapshot>,
 }
 
-/// The past of a run as it goes on.
+/// The history of a run while it advances.
 #[derive(Clone, Default)]
 pub(super) struct History {
-    /// The requests of the bodies that have any.
+    /// The bodies with requests.
     asks: Arc<[(usize, Showing)]>,
-    /// For each of them, its mass, kg. That of a body that no force moves is infinite.
+    /// For each of them, its mass, kg; infinite if no force moves it.
     masses: Arc<[f64]>,
-    /// For each of them, the points of its trail, each with the number of its frame, or of the one after it.
+    /// For each of them, the points of its trail, each with the number of its frame, or of the next frame.
     ways: Vec<Vec<(usize, Passed)>>,
-    /// For each of them, how it was in the last frame, if it was there.
+    /// For each of them, its state in the last frame, if it was present.
     last: Vec<Option<corners::At>>,
     /// The impacts since the last frame.
     impacts: Vec<Impact>,
-    /// For each of them, whether it is away after it has been there.
+    /// For each of them, whether it is absent after having been present.
     is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
@@ -92,12 +92,12 @@ impl History {
         }
     }
 
-    /// Whether no body asks for its past.
+    /// Whether no body needs its past.
     pub(super) fn is_idle(&self) -> bool {
         self.asks.is_empty() && self.lagging.is_empty()
     }
 
-    /// Remembers the ghosts that stand at a moment, and the impacts before it.
+    /// Stores the ghosts of a moment, and the impacts before it.
     pub(super) fn note_moment(&mut self, entry: &Entry) {
         self.note_ghosts(&entry.snapshot);
         if !self.asks.is_empty() {
@@ -106,7 +106,7 @@ impl History {
     }
 
     fn note_ghosts(&mut self, moment: &Snapshot) {
-        // A time that differs from a frame's only by rounding is that frame's.
+        // A time that differs from a frame's only by rounding counts as that frame's.
         let slack = Moments::slack(1.0 / self.interval);
         let mut due: Vec<(f64, usize)> = Vec::new();
         for (body, showing) in self.asks.iter() {
@@ -130,7 +130,7 @@ impl History {
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
 
-    /// Remembers where bodies are in a frame, but for their ghosts.
+    /// Stores the bodies of a frame, without ghosts.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         for number in 0..self.asks.len() {
@@ -140,14 +140,14 @@ impl History {
             let corners = self.corners(number, frame, trail);
             let (way, is_away) = (&mut self.ways[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
-                // It may come back elsewhere: between, there is no way.
+                // It may return elsewhere, so its path has a gap.
                 way.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
-            // Which frames are kept follows from their numbers and the present one alone.
+            // The kept frames depend only on their numbers and the present one.
             let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
-                // The last point before is needed for interpolation.
+                // Interpolation needs the last point before the start.
                 let before = way.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
                 way.drain(..before.saturating_sub(1));
             }

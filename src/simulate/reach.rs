@@ -1,23 +1,24 @@
-//! How far the arrows of a run reach, for a scale that is chosen after the run.
+//! The reach of a run's arrows, for a scale that is chosen after the run.
 
 use glam::DVec3;
 
 use super::Bounds;
 
-/// The most lines of an envelope. Beyond them it drops every second one, which lowers the envelope by less than a thousandth.
+/// The largest number of lines of an envelope. Beyond it, every second line is dropped, which lowers the envelope by less than a
+/// thousandth.
 const MOST_LINES: usize = 128;
 
-/// How far arrows of one kind reach. An arrow ends at `root + scale · vector`; the scale is not known yet.
+/// The reach of arrows of one kind. An arrow ends at `root + scale · vector`; the scale is not known yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reach {
     /// The length of the longest vector, in its own unit.
     pub largest: f64,
-    /// How far tips reach along +x, +y, +z, -x, -y and -z.
+    /// The largest coordinates of tips along +x, +y, +z, -x, -y and -z.
     envelopes: [Envelope; 6],
 }
 
 impl Reach {
-    /// Adds an arrow that begins at `root` (m) and shows a vector.
+    /// Adds an arrow from `root` (m) for a vector.
     pub(super) fn add(&mut self, root: DVec3, vector: DVec3) {
         if !root.is_finite() || !vector.is_finite() {
             return;
@@ -30,8 +31,7 @@ impl Reach {
         }
     }
 
-    /// The box around the tips of all arrows, if one unit of the vector is drawn `scale` long (m); none if there are
-    /// no arrows.
+    /// The box around the tips of all arrows, if one unit of the vector is drawn `scale` long (m). `None` if there are no arrows.
     pub fn tips(&self, scale: f64) -> Option<Bounds> {
         let at = |direction: usize| self.envelopes[direction].at(scale);
         let max = DVec3::new(at(0)?, at(1)?, at(2)?);
@@ -54,10 +54,10 @@ impl Line {
     }
 }
 
-/// The largest of many lines at any scale s ≥ 0: their upper envelope, a convex chain of lines.
+/// The maximum of many lines at any scale s ≥ 0: their upper envelope, a convex chain of lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Envelope {
-    /// In the order of rising slope. Each is the largest somewhere.
+    /// In order of rising slope. Each is the largest at some scale.
     lines: Vec<Line>,
 }
 
@@ -75,7 +75,7 @@ impl Envelope {
                 }
             }
         }
-        // The new line hides lines that start lower before it, and those that it overtakes too early.
+        // The new line hides earlier lines with a lower start, and those that it overtakes too early.
         let mut from = place;
         while from > 0 {
             let before = self.lines[from - 1];
@@ -110,7 +110,7 @@ impl Envelope {
         }
     }
 
-    /// The largest of all lines at a scale; none if there is no line.
+    /// The maximum of all lines at a scale; `None` if there are none.
     fn at(&self, scale: f64) -> Option<f64> {
         self.lines.iter().map(|line| line.start + line.slope * scale).reduce(f64::max)
     }
@@ -130,7 +130,7 @@ mod tests {
         let mut reach = Reach::default();
         let mut arrows = Vec::new();
         for round in 0..3000 {
-            // Some on an ellipse, where each is the farthest at some scale.
+            // Some on an ellipse, so that each is the farthest at some scale.
             let angle = random() * 7.0;
             let (a, b) = (
                 DVec3::new(libm::cos(angle), libm::sin(angle), 0.0),

@@ -1,4 +1,4 @@
-//! A scene, simulated once: its recording, and figures on the whole run.
+//! A scene simulated once: its recording, and figures on the whole run.
 
 use std::io;
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, 
 use crate::dynamics::{Dynamics, Effort, Impact};
 use crate::scene::Scene;
 
-/// A run of a scene that has been simulated, to be read in any order by all that draws, measures or exports.
+/// A simulated run, which can be read in any order to draw, measure or export it.
 #[derive(Clone)]
 pub struct Recorded<'a> {
     scene: &'a Scene,
     recording: Arc<Recording>,
     survey: Survey,
-    /// Why it ended before its last frame, if it did.
+    /// The reason why it ended before its last frame, if it did.
     breakdown: Option<SimulateError>,
     /// The time at which it was resumed, s.
     resumed: Option<f64>,
@@ -36,8 +36,8 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the numbers of the scene. A moment that the scene does
-    /// not ask for is not recorded: [`at`](Self::at) computes it by the scene's own forces and method.
+    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the indices of the scene. Moments that the scene does
+    /// not request are not recorded: [`at`](Self::at) computes them by the scene's own forces and method.
     ///
     /// # Errors
     /// If the run becomes non-finite.
@@ -53,8 +53,7 @@ impl<'a> Recorded<'a> {
         Recorded { scene, recording, survey, breakdown: None, resumed: None }
     }
 
-    /// A run that was recorded earlier; `seen` receives every frame. The survey depends on what is drawn, so it needs to read all
-    /// frames.
+    /// A run that was recorded earlier; `seen` receives every frame. The survey depends on the drawing, so it reads all frames.
     ///
     /// # Errors
     /// If the recording cannot be read.
@@ -86,17 +85,17 @@ impl<'a> Recorded<'a> {
         &self.recording
     }
 
-    /// Why the run ended before its last frame, if it did.
+    /// The reason why the run ended before its last frame, if it did.
     pub fn breakdown(&self) -> Option<&SimulateError> {
         self.breakdown.as_ref()
     }
 
-    /// The time (s) from which the run went on, if it had been stopped before.
+    /// The time (s) at which the run was resumed, if it had been stopped.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }
 
-    /// How many frames can be drawn: all, unless the run broke down. A frame counts if all moments of its open shutters were
+    /// The number of frames that can be drawn: all, unless the run broke down. A frame counts if all moments of its open shutters were
     /// recorded as well.
     pub fn whole_frames(&self) -> usize {
         let moments = Moments::of(self.scene);
@@ -131,7 +130,7 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// The selected frames, and with each the run from there on as far as shutters are open.
+    /// The selected frames, each with the run from there on as far as shutters are open.
     pub fn exposures(
         &self,
         selection: &Selection,
@@ -167,8 +166,8 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// The moment of any time (s) and the run from there on as far as shutters are open. A time before the beginning is the
-    /// beginning, one after the end is the end. What was not recorded is simulated once more.
+    /// The moment at any time (s), and the run from there on as far as shutters are open. Times outside the run give its first or last
+    /// moment. A moment that was not recorded is simulated again.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time, or the recording cannot be read.
@@ -196,7 +195,7 @@ fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<
     Ok(Exposure::new(frame, (history, clouds), (Arc::clone(recording), moment + 1)))
 }
 
-/// Looks over all frames of a recording.
+/// Reads all frames of a recording.
 fn see_all(
     recording: &Arc<Recording>,
     surveyor: &mut Surveyor<'_>,
@@ -217,7 +216,7 @@ fn see_all(
     Ok(())
 }
 
-/// A moment of a run from which it can go on.
+/// A moment of a run from which it can be resumed.
 pub struct Checkpoint {
     /// The description of the recording so far, as [`Recording::index`] gives it.
     pub index: Vec<u8>,
@@ -235,7 +234,7 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder of a run that has not begun. It also counts the interactions of pairs.
+    /// A recorder of a run that has not begun. `effort` counts the pair interactions.
     pub fn new(scene: &'a Scene, moments: Moments, effort: &Effort, store: Box<dyn Store>) -> Recorder<'a> {
         Recorder::of(scene, Simulation::new(scene, moments, effort), store)
     }
@@ -245,8 +244,8 @@ impl<'a> Recorder<'a> {
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 
-    /// Goes on from a checkpoint of the same run, of whose recording the store has all pages up to there; `seen` is told of every
-    /// frame that was recorded. None where the checkpoint is not one, or a page is damaged.
+    /// Resumes from a checkpoint of the same run, whose recorded pages are all in the store; `seen` receives every recorded frame. `None`
+    /// if the checkpoint is invalid, or a page is damaged.
     pub fn resume(
         scene: &'a Scene,
         moments: Moments,
@@ -266,7 +265,7 @@ impl<'a> Recorder<'a> {
         Some(Recorder { scene, simulation, surveyor, recording, resumed })
     }
 
-    /// The present moment, which must be that of a frame; none where the run cannot go on from it.
+    /// A checkpoint of the present moment, which must be that of a frame. `None` if the run cannot be resumed from it.
     ///
     /// # Errors
     /// If there is no room for the recording.
@@ -275,7 +274,7 @@ impl<'a> Recorder<'a> {
         Ok(Some(Checkpoint { index: self.recording.index()?, simulation }))
     }
 
-    /// Like [`new`](Self::new), into a recording that is still empty.
+    /// Like [`new`](Self::new), with an empty recording.
     pub fn into(
         scene: &'a Scene,
         moments: Moments,
@@ -286,7 +285,7 @@ impl<'a> Recorder<'a> {
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 
-    /// The time (s) from which the run goes on, if it had been stopped.
+    /// The time (s) at which the run was resumed, if it had been stopped.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }
@@ -296,7 +295,7 @@ impl<'a> Recorder<'a> {
         &self.recording
     }
 
-    /// Simulates up to the next frame, which is given without its past; none after the end.
+    /// Simulates up to the next frame, and returns it without its past; `None` after the end.
     ///
     /// # Errors
     /// If the run becomes non-finite, or there is no room for it.
@@ -323,7 +322,7 @@ impl<'a> Recorder<'a> {
         Ok(seen)
     }
 
-    /// The box in which everything has taken place so far.
+    /// The box around everything so far.
     pub fn bounds(&self) -> Option<super::Bounds> {
         self.surveyor.bounds()
     }

@@ -18,32 +18,32 @@ impl Selection {
         Selection { ranges: if frames == 0 { vec![] } else { vec![0..=frames - 1] }, every: 1 }
     }
 
-    /// Every n-th frame of the film, from the first one of these on.
+    /// Every n-th of these frames, from the first one on.
     #[must_use]
     pub fn every(self, every: usize) -> Selection {
         Selection { every: every.max(1), ..self }
     }
 
-    /// Whether the frame is among them.
+    /// Whether the frame is selected.
     pub fn contains(&self, frame: usize) -> bool {
         let first = || self.ranges.iter().map(|range| *range.start()).min().unwrap_or(0);
         self.ranges.iter().any(|range| range.contains(&frame))
             && (self.every == 1 || (frame - first()).is_multiple_of(self.every))
     }
 
-    /// The last of them.
+    /// The last selected frame.
     pub fn last(&self) -> Option<usize> {
         self.ranges.iter().map(|range| *range.end()).max()
     }
 
-    /// How many of the first `frames` are among them.
+    /// The number of selected frames among the first `frames`.
     pub fn count_within(&self, frames: usize) -> usize {
         (0..frames).filter(|&frame| self.contains(frame)).count()
     }
 }
 
 impl FromIterator<usize> for Selection {
-    /// The frames of these numbers; those that follow each other are one range.
+    /// The frames with these numbers; consecutive ones form one range.
     fn from_iter<I: IntoIterator<Item = usize>>(numbers: I) -> Selection {
         let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
         for number in numbers {

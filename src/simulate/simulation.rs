@@ -1,19 +1,19 @@
-//! A run that is being computed.
+//! A run while it is computed.
 
 use super::build::dynamics;
 use super::{ImpactCounts, Moments, SimulateError};
 use crate::dynamics::{Breakdown, Dynamics, Effort, Impact, Snapshot};
 use crate::scene::Scene;
 
-/// A moment of a run, and whether it is that of a frame.
+/// A moment of a run, which may be that of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    /// The number of the frame; none between two frames.
+    /// The number of the frame; `None` between two frames.
     pub(super) frame: Option<usize>,
     pub(super) snapshot: Snapshot,
-    /// The impacts since the moment before.
+    /// The impacts since the last moment.
     pub(super) impacts: Vec<Impact>,
-    /// How many impacts there have been.
+    /// The numbers of impacts so far.
     pub(super) counts: ImpactCounts,
 }
 
@@ -25,12 +25,12 @@ pub(super) struct Simulation<'a> {
     next: usize,
     intervals: usize,
     counts: ImpactCounts,
-    /// Impacts after the last moment that was seen.
+    /// Impacts after the last moment.
     waiting: Vec<Impact>,
 }
 
 impl<'a> Simulation<'a> {
-    /// One that has not begun; the interactions of pairs are counted meanwhile.
+    /// A run that has not begun; `effort` counts the pair interactions.
     pub(super) fn new(scene: &'a Scene, moments: Moments, effort: &Effort) -> Simulation<'a> {
         Simulation::of(scene, moments, dynamics(scene, effort))
     }
@@ -42,8 +42,8 @@ impl<'a> Simulation<'a> {
         Simulation { scene, dynamics, moments, next: 0, intervals, counts, waiting: Vec::new() }
     }
 
-    /// Advances to the next frame, or by the time between two where there are moments after the last; `see` is told of
-    /// all moments on the way. It is false after the end.
+    /// Advances to the next frame. After the last frame, advances by one interval if it has requested moments. `see` receives all moments
+    /// up to there. Returns false after the end.
     pub(super) fn advance(&mut self, see: &mut dyn FnMut(Entry)) -> Result<bool, SimulateError> {
         if self.next > self.intervals {
             return Ok(false);
@@ -54,12 +54,12 @@ impl<'a> Simulation<'a> {
         done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }
 
-    /// The number of timesteps that have been made.
+    /// The number of timesteps so far.
     pub(super) fn steps(&self) -> u64 {
         self.dynamics.steps()
     }
 
-    /// The present moment as bytes, from which [`resume`](Self::resume) goes on; none where that is not possible.
+    /// The present moment as bytes, from which [`resume`](Self::resume) continues; `None` if this is not possible.
     pub(super) fn checkpoint(&mut self) -> Option<Vec<u8>> {
         if !self.waiting.is_empty() || self.next > self.intervals {
             return None;
@@ -72,7 +72,7 @@ impl<'a> Simulation<'a> {
         Some(bytes)
     }
 
-    /// Goes on from a checkpoint of the same run; false where it is not one.
+    /// Continues from a checkpoint of the same run. Returns false if it is not one.
     pub(super) fn resume(&mut self, checkpoint: &[u8]) -> bool {
         let (count, (numbers, _)) = (self.counts.0.len(), checkpoint.as_chunks::<8>());
         let [next, counted, counts @ ..] = numbers else { return false };
@@ -110,7 +110,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Shows moments between two frames, each with the impacts up to it.
+    /// Calls `see` with moments between two frames, each with the impacts up to it.
     fn see_between(&mut self, between: Vec<Snapshot>, see: &mut dyn FnMut(Entry)) {
         if between.is_empty() {
             return;
@@ -134,7 +134,7 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// A moment between frames with the bodies of the scene alone: the ground is a body of the world only.
+/// A moment between frames without the ground, which is a body of the world only.
 fn of_scene(scene: &Scene, mut snapshot: Snapshot) -> Entry {
     while snapshot.bodies.last().is_some_and(|body| body.id >= scene.bodies.len()) {
         snapshot.bodies.pop();

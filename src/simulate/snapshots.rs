@@ -1,11 +1,11 @@
-//! The frames of a run as they are computed, and nothing else: nothing is recorded, drawn or looked over.
+//! The frames of a run while it is computed, without recording, drawing or survey.
 
 use super::simulation::Simulation;
 use super::{Moments, SimulateError};
 use crate::dynamics::{Effort, Snapshot};
 use crate::scene::Scene;
 
-/// The frames of a run, each made when it is asked for. They are those of [`Frames`](super::Frames), bit for bit.
+/// The frames of a run, each made on demand. They equal those of [`Frames`](super::Frames), bit for bit.
 pub struct Snapshots<'a> {
     simulation: Simulation<'a>,
 }
@@ -16,7 +16,7 @@ impl<'a> Snapshots<'a> {
         Snapshots { simulation: Simulation::new(scene, Moments::none(scene), &Effort::default()) }
     }
 
-    /// The number of timesteps that have been made.
+    /// The number of timesteps so far.
     pub fn steps(&self) -> u64 {
         self.simulation.steps()
     }

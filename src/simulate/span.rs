@@ -1,4 +1,4 @@
-//! The space that a run takes, from its start until several moments.
+//! The space that a run takes, from its start to several moments.
 
 use glam::{DMat3, DVec3};
 
@@ -8,10 +8,10 @@ use super::vectors::{anchors, axis, root, shown};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
 
-/// A span is kept whenever the place that the run takes has grown by this factor.
+/// A span is stored whenever the space of the run has grown by this factor.
 const GROWTH: f64 = 1.2;
 
-/// A box along the axes, m.
+/// An axis-aligned box, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// The corner with the smallest coordinates.
@@ -20,25 +20,25 @@ pub struct Bounds {
     pub max: DVec3,
 }
 
-/// The space that a run takes from its start until a moment.
+/// The space that a run takes from its start to a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
     /// The time of its last frame, s.
     pub until: f64,
     /// The box around all bodies.
     pub bounds: Bounds,
-    /// The box around the bodies that are not fixed; around all, if all are fixed.
+    /// The box around all bodies that are not fixed, or around all bodies if all are fixed.
     pub moving: Bounds,
-    /// The box around all bodies, their axes, their arrows of a given scale, and the fixed points of springs.
+    /// The box around all bodies, their axes, their arrows with a given scale, and the fixed points of springs.
     pub seen: Bounds,
-    /// How far arrows without a scale reach, by the numbers of their quantities.
+    /// The reach of arrows without a scale, by the indices of their quantities.
     pub arrows: [Reach; Quantity::COUNT],
 }
 
-/// An arrow of a joint, or for a load of a body, at a moment.
+/// An arrow of a joint, or of a load on a body, at a moment.
 pub(super) struct JointArrow {
     pub(super) quantity: Quantity,
-    /// Its length for one unit, m, if that is given.
+    /// Its length for one unit, m, if given.
     pub(super) scale: Option<f64>,
     /// Its root, m.
     pub(super) root: DVec3,
@@ -46,11 +46,11 @@ pub(super) struct JointArrow {
     pub(super) vector: DVec3,
 }
 
-/// The spans of a run whose frames are seen one after another.
+/// The spans of a run, updated frame by frame.
 #[derive(Default)]
 pub(super) struct Spans {
     kept: Vec<Span>,
-    /// The span until now, whose box of what moves may be empty.
+    /// The span until now. Its box around moving bodies may be empty.
     now: Option<(Span, Option<Bounds>)>,
     paths: Paths,
     has_arrows: bool,
@@ -86,13 +86,13 @@ impl Spans {
         self.keep(time);
     }
 
-    /// The span that begins with the first that is seen.
+    /// The span that starts with the first frame.
     fn begin(scene: &Scene, time: f64, here: Bounds) -> (Span, Option<Bounds>) {
         let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
         (Span { until: time, bounds: here, moving: here, seen, arrows: Default::default() }, None)
     }
 
-    /// Keeps the span until now if it has grown.
+    /// Stores the span until now if it has grown.
     fn keep(&mut self, time: f64) {
         let Some((span, _)) = &mut self.now else { return };
         span.until = time;
@@ -112,13 +112,13 @@ impl Spans {
         self.keep(time);
     }
 
-    /// The box around all bodies so far; none if there is no body but planes.
+    /// The box around all bodies so far; `None` if all bodies are planes.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.now.as_ref().map(|(span, _)| span.bounds)
     }
 
-    /// The whole run without the few bodies that fly far away; none if there are no such bodies, or if arrows are shown, which may
-    /// reach far themselves.
+    /// The whole run without the few bodies that fly far away. `None` if there are none, or if arrows are shown, since these may reach
+    /// far themselves.
     pub(super) fn without_strays(&self, scene: &Scene) -> Option<Span> {
         if self.has_arrows {
             return None;
@@ -157,7 +157,7 @@ impl Span {
         }
     }
 
-    /// Adds a body, what is drawn on it, and its arrows. Gives the box around these.
+    /// Adds a body, the things drawn on it, and its arrows. Returns the box around these.
     fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) -> Bounds {
         let mut seen = here;
         for ((quantity, arrow), reach) in
@@ -185,7 +185,7 @@ impl Span {
 }
 
 impl Bounds {
-    /// The box around a body as it is drawn; none for a plane, which has no bounds.
+    /// The box around a drawn body; `None` for a plane, which is unbounded.
     fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
         let (shape, factor) = (&body.shape, body.look.scale);
         let reach =

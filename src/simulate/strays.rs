@@ -4,9 +4,9 @@ use super::Bounds;
 
 /// Fewer bodies than this have no strays.
 const MANY: usize = 8;
-/// The largest part of the bodies that may be strays.
+/// The largest fraction of bodies that may be strays.
 const FEW: f64 = 0.1;
-/// Strays leave the others at most this part of the size of the whole run.
+/// Without the strays, the size of the run is at most this fraction.
 const SMALLER: f64 = 0.5;
 
 /// The space that each body takes during a run.
@@ -21,23 +21,23 @@ pub(super) struct Path {
     start: Bounds,
     /// The box around the body in all frames.
     all: Bounds,
-    /// The same with what is drawn on the body.
+    /// The same with the things drawn on the body.
     seen: Bounds,
 }
 
-/// The space that a run takes without strays, which count where they start.
+/// The space of a run in which strays count only at their start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WithoutStrays {
     /// The box around all bodies.
     pub(super) bounds: Bounds,
     /// The box around the bodies that are not fixed.
     pub(super) moving: Bounds,
-    /// The box around all bodies and what is drawn on them.
+    /// The box around all bodies and the things drawn on them.
     pub(super) seen: Bounds,
 }
 
 impl Paths {
-    /// Adds a frame of a body: the box around it, and around what is drawn on it.
+    /// Adds a frame of a body: the box around it, and the box with the things drawn on it.
     pub(super) fn see(&mut self, body: usize, is_fixed: bool, here: Bounds, seen: Bounds) {
         if self.0.len() <= body {
             self.0.resize(body + 1, None);
@@ -55,7 +55,7 @@ impl Paths {
             return None;
         }
         let centre = middle_of_starts(&paths);
-        // Strays reach farthest from where most bodies start.
+        // Strays are those that get farthest from the place where most bodies start.
         let reach = |path: &Path| {
             let farthest = (path.all.max - centre).abs().max((path.all.min - centre).abs());
             if path.is_fixed { 0.0 } else { farthest.length() }
@@ -72,7 +72,7 @@ impl Paths {
 }
 
 impl WithoutStrays {
-    /// The space of bodies of which the first few are strays.
+    /// The space if the first `strays` bodies are strays.
     fn new(paths: &[Path], strays: usize) -> Option<WithoutStrays> {
         let start = |path: &Path| Path { all: path.start, seen: path.start, ..*path };
         let (away, others) = paths.split_at(strays);
@@ -106,7 +106,7 @@ mod tests {
         Bounds { min: at - 0.5, max: at + 0.5 }
     }
 
-    /// A row of bodies of which the last flies away by 50 m.
+    /// A row of bodies; the last flies 50 m away.
     fn row(bodies: usize) -> Paths {
         let mut paths = Paths::default();
         for i in 0..bodies {

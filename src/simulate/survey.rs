@@ -1,6 +1,6 @@
-//! A run looked over as a whole, before its frames are drawn.
+//! The survey of a whole run, before its frames are drawn.
 //!
-//! The frames are looked over while they are recorded, or while a recording is read.
+//! It is made while frames are recorded, or while a recording is read.
 
 mod corrected;
 mod crossing;
@@ -23,26 +23,24 @@ use crate::scene::{Arrow, Joint, Quantity, Scene};
 /// Figures on a whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// The space that the run takes, from the start until several moments; the last is the end. A body counts until it goes
-    /// through a plane. Empty if the scene has no body but planes.
+    /// The space that the run takes, from the start to several moments; the last is the end. A body counts until it passes through a
+    /// plane. Empty if all bodies are planes.
     pub spans: Vec<Span>,
-    /// The space that the whole run takes if a few of many bodies fly far away: of these, only where they start counts. None if there are
-    /// no such bodies.
+    /// The space of the whole run without a few of many bodies that fly far away; only their starts count. `None` if there are none.
     pub without_strays: Option<Span>,
-    /// The first passage of a body through each plane or ground that is given; none where contacts stop bodies.
+    /// The first passage of a body through each given plane or ground; empty if contacts stop bodies.
     pub crossings: Vec<Crossing>,
-    /// The first two bodies that go into each other; none where contacts stop bodies.
+    /// The first two bodies that move into each other; `None` if contacts stop bodies.
     pub overlap: Option<Overlap>,
-    /// The first body that starts otherwise than the scene says, since joints hold it.
+    /// The first body whose start differs from the scene, because of joints.
     pub corrected: Option<Corrected>,
     /// The largest sizes of the things shown beside the bodies.
     pub asked: Asked,
-    /// The error of the energy where it is largest, relative to the largest kinetic energy of the whole run. (The drift
-    /// of a single [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is little where a
-    /// run begins at rest.)
+    /// The largest energy error, relative to the largest kinetic energy of the whole run. (The drift of a single
+    /// [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is small at the start of a run from rest.)
     pub drift: f64,
-    /// The same error relative to the energy that was turned over: the largest kinetic energy, or what contacts have taken, if that is
-    /// more. Bodies that only settle hardly move, and a method of first order is wrong by ½ Δt F·v meanwhile.
+    /// The same error relative to the converted energy: the largest kinetic energy, or the energy taken by contacts, if that is more.
+    /// Bodies that only settle hardly move, while a first-order method has an error of ½ Δt F·v.
     pub drift_of_turnover: f64,
     /// Totals of the contacts up to the last frame. `None` without contacts.
     pub contacts: Option<ContactTotals>,
@@ -61,14 +59,14 @@ pub struct ContactTotals {
     pub lost: f64,
     /// The energy that friction has taken between impacts, J.
     pub rubbed: f64,
-    /// How deep bodies were within each other at most in a frame, m.
+    /// The greatest penetration of bodies in any frame, m.
     pub penetration: f64,
     /// The largest error of a joint in any frame, m.
     pub joints: f64,
 }
 
 impl ContactTotals {
-    /// The same, where amounts that are rounding of the largest kinetic energy (J) are 0.
+    /// The same totals; amounts within the rounding error of the largest kinetic energy (J) become 0.
     fn rounded(self, largest_kinetic: f64) -> ContactTotals {
         const ROUNDING: f64 = 1e-11;
         let round = |taken: f64| if taken.abs() <= ROUNDING * largest_kinetic { 0.0 } else { taken };
@@ -76,7 +74,7 @@ impl ContactTotals {
     }
 }
 
-/// Simulates a scene to learn where it takes place; `seen` is told of every frame.
+/// Simulates a scene to find the space that it takes; `seen` receives every frame.
 ///
 /// # Errors
 /// If the run becomes non-finite.
@@ -90,36 +88,36 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Sim
     Ok(surveyor.finish())
 }
 
-/// The number of particles of an emitter that are followed, to estimate the space that all of them take.
+/// The number of particles of an emitter that are followed, to estimate the space of all.
 const SOME_PARTICLES: f64 = 500.0;
 
 /// Surveys a run whose frames come from elsewhere.
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
-    /// The planes that are watched; each knows the bodies that may go through it, from the frame on in which they come.
+    /// The watched planes. Each knows the bodies that may pass through it, from their first frame on.
     planes: Vec<Watched>,
-    /// The bodies that forces move, gone through once and not for each plane.
+    /// The bodies that forces move, listed once for all planes.
     free: Vec<usize>,
-    /// The bodies that forces move and that have not come yet.
+    /// The bodies that forces move and that have not been present yet.
     awaited: Vec<usize>,
-    /// For each body: whether it has gone through a plane.
+    /// For each body, whether it has passed through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
-    /// Some of the particles, for where they go.
+    /// Some of the particles, to estimate their space.
     clouds: Clouds,
     corrected: Option<Corrected>,
     asked: Asked,
-    /// The arrows of joints: where they begin, what they show, and their scales.
+    /// The arrows of joints: their ends, quantities and scales.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
-    /// The error of the energy where it is largest, J.
+    /// The largest energy error, J.
     error: f64,
     largest_kinetic: f64,
 }
 
 impl Survey {
-    /// The box in which everything takes place; none if the scene has no body but planes.
+    /// The box around the whole run; `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.last().map(|span| span.bounds)
     }
@@ -146,7 +144,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// Looks at the next frame of the run.
+    /// Updates the survey with the next frame of the run.
     pub fn see(&mut self, frame: &Frame) {
         let scene = self.scene;
         let mut come: Vec<&BodySnapshot> = Vec::new();
@@ -163,7 +161,7 @@ impl<'a> Surveyor<'a> {
         }
         let loads = super::loads(scene, frame);
         self.asked.see(scene, frame, &loads);
-        // A body that has gone through a plane is behind the scenery: the camera need not follow it.
+        // A body that has passed through a plane is behind the scenery, so the camera need not follow it.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
         let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
             let (root, vector) = end.arrow(*quantity, frame)?;
@@ -182,7 +180,7 @@ impl<'a> Surveyor<'a> {
         }
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
-            // They take energy; zero has no sign.
+            // Both remove energy; the subtraction avoids a negative zero.
             let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
             let penetration = contacts.penetration.max(frame.penetration);
             let gap = |joint: &Joint| joint.kind.gap(|id| frame.body(id.index()).copied());
@@ -212,7 +210,7 @@ impl<'a> Surveyor<'a> {
             ..
         } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
-        // Particles need steps also where no body does.
+        // Particles need steps even if no body does.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
         let turnover = largest_kinetic.max(taken);
@@ -231,13 +229,13 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// The box in which everything has taken place so far.
+    /// The box around everything so far.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.bounds()
     }
 }
 
-/// The arrows of joints that a scene asks for.
+/// The requested arrows of joints in a scene.
 fn joint_arrows(scene: &Scene) -> Vec<(JointEnd, Quantity, Option<f64>)> {
     let joints = scene.joints.iter().enumerate();
     let of_joint = |(number, joint): (usize, &Joint)| {

@@ -7,29 +7,29 @@ use super::particles::Clouds;
 use super::{Recording, Swarm};
 use crate::scene::Scene;
 
-/// The particles of the frames of a run that is recorded, or is being recorded. They follow from the bodies of the frames before, so frames
-/// one after another take the least time.
+/// The particles of the frames of a run that is recorded or being recorded. They depend on the bodies of earlier frames, so consecutive
+/// frames are fastest.
 pub struct Swarms {
     clouds: Clouds,
     recording: Arc<Recording>,
-    /// The frame that comes next.
+    /// The next frame.
     next: usize,
 }
 
 impl Swarms {
-    /// Keeps about this many particles of each emitter at once, or fewer: every n-th, always the same ones.
+    /// Keeps at most about this many particles of each emitter at once: every n-th, always the same ones.
     #[must_use]
     pub fn thinned(scene: &Scene, recording: Arc<Recording>, most: f64) -> Swarms {
         Swarms { clouds: Clouds::thinned(scene, most), recording, next: 0 }
     }
 
-    /// For each emitter n, if every n-th of its particles is kept.
+    /// For each emitter n, where every n-th particle is kept.
     #[must_use]
     pub fn strides(&self) -> &[u64] {
         self.clouds.strides()
     }
 
-    /// Whether they are those of a recording.
+    /// Whether they belong to this recording.
     #[must_use]
     pub fn are_of(&self, recording: &Arc<Recording>) -> bool {
         Arc::ptr_eq(&self.recording, recording)

@@ -27,7 +27,7 @@ fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
     }
 }
 
-/// The same brick, whole and in two halves whose common frame is turned against it, tumbles the same.
+/// A brick, whole and as two halves with a rotated common frame, tumbles the same way.
 #[test]
 fn a_compound_tumbles_as_the_solid_that_it_makes_up() {
     let tumble = |shape: &str, orientation: &str| {
@@ -124,7 +124,7 @@ mod between_frames {
         })
     }
 
-    /// Places, velocities, energies, momenta, drift; ghosts and trails.
+    /// Positions, velocities, energies, momenta, drift; ghosts and trails.
     #[test]
     fn a_recording_gives_the_frames_of_the_run_bit_for_bit_and_nobody_changes_it_by_looking() {
         for scene in scenes() {
@@ -169,7 +169,7 @@ mod between_frames {
                 assert!(times.iter().zip([0.0035, 0.0105, 0.0175, 0.0245, 0.0315]).all(near), "{times:?}");
                 assert!(moments.iter().all(|moment| moment.index == exposure.frame.index));
             }
-            // Those of a frame are those of its time.
+            // The moment of a frame equals the moment at its time.
             let alone = recorded.at(exposures[4].frame.time).unwrap();
             assert_eq!(alone.frame, exposures[4].frame);
             let of = |exposure: &Exposure| exposure.moments(shutter).map(Result::unwrap).collect::<Vec<_>>();
@@ -177,7 +177,7 @@ mod between_frames {
         }
     }
 
-    /// A body that spins evenly without a force is where it must be, to rounding, whatever the method.
+    /// A body with uniform rotation has the exact orientation, up to rounding, with every method.
     #[test]
     fn moments_are_states_of_the_motion_and_not_something_between() {
         for method in METHODS.iter().filter(|method| method.name != "explicit-euler") {
@@ -201,7 +201,7 @@ mod between_frames {
                 let Frame { time, bodies, .. } = moment.unwrap();
                 assert!((bodies[0].location.x - 3.0 * time).abs() < 1e-12);
                 let expected = glam::DQuat::from_rotation_z(40.0 * time);
-                // Runge and Kutta's steps of 0.04 rad are off by 0.04⁵ / 120 each.
+                // Runge–Kutta steps of 0.04 rad have an error of 0.04⁵ / 120 each.
                 assert!((bodies[0].orientation.dot(expected).abs() - 1.0).abs() < 1e-9, "at {time}");
             }
         }

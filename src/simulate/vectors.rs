@@ -1,4 +1,4 @@
-//! The vectors of bodies that arrows show, and where their arrows begin.
+//! The vectors of bodies shown by arrows, and the roots of these arrows.
 
 use glam::{DQuat, DVec3};
 
@@ -13,18 +13,18 @@ pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
         Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
         Quantity::Acceleration => frame.force / body.start.mass,
         Quantity::Force => frame.force,
-        // Only joints show a torque; loads are seen by themselves.
+        // Only joints show a torque; loads have arrows of their own.
         Quantity::Torque | Quantity::Weight | Quantity::Normal | Quantity::Friction => DVec3::ZERO,
     }
 }
 
-/// How far it is from the centre of a shape to its surface in a direction (a unit vector in world axes), m: to the last
-/// surface, where there are several; 0 for a plane, and where nothing of the shape is there.
+/// The distance from the centre of a shape to its surface in a direction (a unit vector in world axes), m. With several surfaces, the
+/// last counts. 0 for a plane, and for a direction without material.
 pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
     shape.exit(DVec3::ZERO, orientation.conjugate() * direction).unwrap_or(0.0)
 }
 
-/// The root of a vector's arrow, m: at the surface of the body, so that all of it is seen.
+/// The root of a vector's arrow, m: at the surface of the body, so that the whole arrow is visible.
 pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     let along = vector.normalize_or_zero();
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
@@ -33,11 +33,11 @@ pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
 /// The end of a joint at which its arrows begin.
 #[derive(Clone, Debug)]
 pub struct JointEnd {
-    /// The number of the joint.
+    /// The index of the joint.
     joint: usize,
     /// The second end, as it is drawn.
     end: Anchor,
-    /// The shape of the body of which that is the centre.
+    /// The shape of the body, if the end is at its centre.
     shape: Option<Shape>,
 }
 
@@ -55,8 +55,8 @@ impl JointEnd {
         JointEnd { joint, end, shape }
     }
 
-    /// The vector of an arrow, in SI units, and its root, m: at the surface of the body whose centre is the end. `None` while the
-    /// body is absent.
+    /// The vector of an arrow, in SI units, and its root, m: on the surface of the body if the end is its centre. `None` while the body
+    /// is absent.
     pub fn arrow(&self, quantity: Quantity, frame: &Frame) -> Option<(DVec3, DVec3)> {
         let reaction = frame.reactions.get(self.joint)?;
         let vector = match quantity {
@@ -74,7 +74,7 @@ impl JointEnd {
     }
 }
 
-/// How long an axis of a body is drawn, m, if it is.
+/// The drawn length of a body's axis, m, if it is drawn.
 pub fn axis(body: &Body) -> Option<f64> {
     let axes = body.showing.axes?;
     let reach = |direction| body.drawn().support(DQuat::IDENTITY, direction);
@@ -82,7 +82,7 @@ pub fn axis(body: &Body) -> Option<f64> {
     Some(axes.length.unwrap_or(2.0 * reach))
 }
 
-/// The fixed points of the springs and joints that are drawn, m.
+/// The fixed points of the drawn springs and joints, m.
 pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(_) } => Some(links),

@@ -1,4 +1,4 @@
-//! Scene → the engine of many contacts.
+//! Scene → the time-stepping engine.
 
 use super::{add_ground, contacts, free_world};
 use crate::dynamics::{Effort, Link, LinkKind, TimeStepping};
@@ -15,7 +15,7 @@ pub(super) fn stepping(scene: &Scene, effort: &Effort) -> TimeStepping {
     stepping
 }
 
-/// A joint as time stepping has it; the check has refused all others.
+/// A joint in the form of time-stepping. The check refuses all others.
 fn link(joint: &Joint) -> Option<Link> {
     let kind = match &joint.kind {
         JointKind::Ball(ball) => LinkKind::Ball(*ball),
@@ -29,7 +29,7 @@ fn link(joint: &Joint) -> Option<Link> {
     Some(Link { kind, collides: joint.collides })
 }
 
-/// Whether anything is drawn of the contacts of a moment. Piles have tens of thousands.
+/// Whether contacts are drawn. Piles have tens of thousands.
 fn shows_contacts(scene: &Scene) -> bool {
     let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
     scene.bodies.iter().any(shows)

@@ -1,4 +1,4 @@
-//! A grid of cells, to find the bodies that are near another.
+//! A grid of cells, to find near bodies.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ impl Cell {
         reason = "what is too far away to be counted shares the last cell"
     )]
     pub(super) fn of(edge: f64, location: DVec3) -> Cell {
-        // One less than the largest number, so that a neighbour can be counted.
+        // Below the largest number, so that neighbours have valid indices.
         Cell(location.to_array().map(|coordinate| libm::floor(coordinate / edge).clamp(-9e15, 9e15) as i64))
     }
 
@@ -21,7 +21,7 @@ impl Cell {
         (0..27).map(move |n| self.moved(n))
     }
 
-    /// Half of the 26 cells around it: of two neighbours, one has the other among these.
+    /// Half of the 26 cells around it: each pair of neighbours is visited from one side only.
     pub(super) fn half_around(self) -> impl Iterator<Item = Cell> {
         (14..27).map(move |n| self.moved(n))
     }
@@ -31,9 +31,9 @@ impl Cell {
         Cell([x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1])
     }
 
-    /// A number that tells the cell from others. Now and then, two cells have the same.
+    /// A hash of the cell. Rarely, two cells have the same.
     pub(super) fn key(self, size: usize, moves: bool) -> u64 {
-        // Odd numbers whose bits look random: the golden ratio, and the square roots of 2, 3 and 5, in units of 2⁻⁶⁴.
+        // Odd numbers with random-looking bits: the golden ratio, and the square roots of 2, 3 and 5, in units of 2⁻⁶⁴.
         const FACTORS: [u64; 4] =
             [0x9E37_79B9_7F4A_7C15, 0x6A09_E667_F3BC_C909, 0xBB67_AE85_84CA_A73B, 0x3C6E_F372_FE94_F82B];
         let kind = 2 * size as u64 + u64::from(moves);
@@ -44,19 +44,19 @@ impl Cell {
     }
 }
 
-/// Which bodies are in which cell.
+/// The bodies of each cell.
 #[derive(Default)]
 pub(super) struct Grid {
-    /// The last body at each place. A cell has one place; several cells may have the same one.
+    /// The last body in each slot. A cell has one slot; several cells may share it.
     last: Vec<u32>,
-    /// For each body, the one before it at the same place.
+    /// For each body, the previous one in the same slot.
     before: Vec<u32>,
 }
 
 impl Grid {
     const NONE: u32 = u32::MAX;
 
-    /// Puts the bodies that have one into the cells with these keys, and what was in them is gone.
+    /// Replaces the contents: adds each body that has a key to the slot of its cell.
     #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
     pub(super) fn fill(&mut self, keys: impl ExactSizeIterator<Item = Option<u64>>) {
         let bodies = keys.len();
@@ -70,7 +70,7 @@ impl Grid {
         }
     }
 
-    /// Shows the bodies in a cell, and those of other cells at the same place.
+    /// Calls `show` for the bodies of a cell, and those of other cells in the same slot.
     pub(super) fn each(&self, key: u64, mut show: impl FnMut(usize)) {
         let mut next = self.last[self.place(key)];
         while next != Grid::NONE {
@@ -79,7 +79,7 @@ impl Grid {
         }
     }
 
-    /// The first bits of a key: those of the product depend on all bits of its factors.
+    /// The first bits of a key. The high bits of a product depend on all bits of its factors.
     #[allow(clippy::cast_possible_truncation, reason = "the remainder is less than the number of places")]
     fn place(&self, key: u64) -> usize {
         (key >> 32) as usize & (self.last.len() - 1)

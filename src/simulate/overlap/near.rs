@@ -1,4 +1,4 @@
-//! The pairs of bodies that are near each other: those of which the balls around them meet.
+//! The pairs of near bodies: those whose bounding balls meet.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,13 @@ use super::grid::{Cell, Grid};
 use super::{DEEP, parts};
 use crate::scene::Scene;
 
-/// A body that is watched.
+/// A watched body.
 pub(super) struct Watched {
-    /// Its number in the scene.
+    /// Its index in the scene.
     pub(super) id: usize,
-    /// The radius of a ball around its centre that holds it, m.
+    /// The radius of its bounding ball, m.
     pub(super) radius: f64,
-    /// The number of its size.
+    /// The index of its size.
     size: usize,
     /// Whether forces move it.
     pub(super) moves: bool,
@@ -22,9 +22,9 @@ pub(super) struct Watched {
 /// Bodies of about the same size, which share a grid.
 #[derive(Clone, Copy)]
 struct Size {
-    /// The bodies reach at most 2 to the power of this, and at least half of that, m.
+    /// The radii of the bodies are at most 2 to the power of this, and at least half of that, m.
     level: i32,
-    /// The edge of the cells, m: the largest distance at which two of the bodies may be near each other.
+    /// The edge of the cells, m: the largest distance at which two of the bodies may meet.
     edge: f64,
     /// Whether forces move any of the bodies.
     has_moving: bool,
@@ -32,10 +32,10 @@ struct Size {
     has_resting: bool,
 }
 
-/// The bodies that are watched, by size and by cells of space.
+/// The watched bodies, by size and by cells of space.
 pub(super) struct Near {
     pub(super) bodies: Vec<Watched>,
-    /// The sizes that there are, the smallest first.
+    /// The existing sizes, the smallest first.
     sizes: Vec<Size>,
     grid: Grid,
 }
@@ -75,15 +75,15 @@ impl Near {
         self.sizes.iter().any(|size| size.has_moving)
     }
 
-    /// Sorts the bodies into cells, as they are in a frame.
+    /// Sorts the bodies of a frame into cells.
     pub(super) fn fill(&mut self, frame: &Frame) {
         let mut grid = std::mem::take(&mut self.grid);
         grid.fill(self.bodies.iter().map(|body| self.key(frame, body)));
         self.grid = grid;
     }
 
-    /// Shows every two bodies whose balls may meet and one of which moves, the one with the smaller number first, a few of
-    /// them twice. `show` says what its look has cost; the sum is returned, and a sum of more than `most` ends it.
+    /// Calls `show` for every pair whose balls may meet and one of which moves, with the smaller index first; a few pairs come twice.
+    /// `show` returns its cost. The sum of costs is returned; the search ends when it exceeds `most`.
     pub(super) fn each_pair(
         &self,
         frame: &Frame,
@@ -101,19 +101,19 @@ impl Near {
                 let reach = (body.radius + other.radius) * (1.0 + DEEP);
                 let Some(there) = frame.body(other.id) else { return };
                 let square = (there.location - here).length_squared();
-                // A cell may hold unrelated bodies by chance, and also this one.
+                // A slot may hold unrelated bodies by chance, and also this one.
                 let is_pair = j != i && (body.moves || other.moves);
                 let is_near = is_pair && square < reach * reach;
                 cost = cost.saturating_add(if is_near { show(i.min(j), i.max(j)) } else { 1 });
             };
-            // Smaller bodies look for larger ones, so that a large one need not look through many cells. What rests looks
-            // for what moves.
+            // Smaller bodies search for larger ones, so that a large one need not search many cells. Resting bodies search for moving
+            // ones.
             for (number, size) in self.sizes.iter().enumerate().skip(body.size) {
                 let is_own = number == body.size;
                 let here = Cell::of(size.edge, here);
                 let moving = |cell: Cell| cell.key(number, true);
                 if size.has_moving && is_own && body.moves {
-                    // Each pair once: later ones of the same cell, and those of half of the cells around it.
+                    // Each pair once: later bodies of the same cell, and those of half of the cells around it.
                     self.grid.each(moving(here), |j| {
                         if j > i {
                             look(j);
@@ -131,7 +131,7 @@ impl Near {
         cost
     }
 
-    /// The key of the cell that a body is in, if it is there.
+    /// The key of the cell of a body, if the body is present.
     fn key(&self, frame: &Frame, body: &Watched) -> Option<u64> {
         let cell = Cell::of(self.sizes[body.size].edge, frame.body(body.id)?.location);
         Some(cell.key(body.size, body.moves))

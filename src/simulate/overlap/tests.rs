@@ -1,4 +1,4 @@
-//! Bodies that go into each other are found, and the work is proportional to their number.
+//! Overlapping bodies are found, and the work is proportional to their number.
 
 use std::collections::HashSet;
 
@@ -32,13 +32,13 @@ fn balls_that_run_into_each_other_are_found_with_their_time() {
         ";
     // They touch at t = 1 s, and overlap by more than 0.01 m in the next frame.
     assert_eq!(overlap(text), found("left", "right", 1.1));
-    // A hundredth of their size is none, and neither is what touches from the start.
+    // An overlap of a hundredth of their size does not count, and neither does contact from the start.
     assert_eq!(overlap(&text.replace("duration = 2", "duration = 1")), None);
     assert_eq!(overlap(&text.replace("[3, 0, 0]", "[1, 0, 0]")), None);
     assert_eq!(overlap(&text.replace("[3, 0, 0]", "[0.2, 0, 0]")), None);
 }
 
-/// The upper half of a folding rule swings against the lower one; without the hinge, it is another body.
+/// The upper half of a folding rule swings against the lower one; without the hinge, they are separate bodies.
 #[test]
 fn bodies_that_a_joint_holds_may_be_within_each_other() {
     let text = "
@@ -75,7 +75,7 @@ fn boxes_and_parts_of_compounds_are_found_where_their_surfaces_are() {
     assert_eq!(overlap(&text("box.size = [2, 0.1, 0.1]")), found("wall", "thing", 2.0));
     let dumbbell = "compound.parts = [{ sphere.radius = 0.5, location = [-2, 0, 0] }, { sphere.radius = 0.5, location = [2, 0, 0] }]";
     assert_eq!(overlap(&text(dumbbell)), found("wall", "thing", 0.5));
-    // A ring is not convex: its middle is empty, and it is not watched.
+    // A ring is not convex: its middle is empty, so it is not watched.
     assert_eq!(overlap(&text("torus = { radius = 1, tube_radius = 0.1 }")), None);
 }
 
@@ -100,7 +100,7 @@ fn first_frame(scene: &Scene) -> Frame {
     Frames::new(scene).next().unwrap().unwrap()
 }
 
-/// The grid finds the pairs that a look at every pair finds, whatever their sizes, and whichever rest.
+/// The grid finds the same pairs as a test of every pair, for all sizes, and for resting and moving bodies.
 #[test]
 fn near_pairs_are_those_of_all_pairs() {
     for resting in [1, 3, 400] {
@@ -152,7 +152,7 @@ fn the_work_grows_with_the_number_of_bodies_and_not_with_that_of_pairs() {
     assert!(many < 5 * few, "{few} for 500 bodies, {many} for 2000");
 }
 
-/// A thousand bodies at one place are half a million pairs, all of which overlap as expected.
+/// A thousand bodies at one position are half a million pairs, all of which overlap as expected.
 #[test]
 fn where_all_is_near_all_nothing_is_watched() {
     let scene = Scene::parse(

@@ -1,4 +1,4 @@
-//! The corners of a trail: at the impacts between two frames.
+//! The corners of a trail at impacts between two frames.
 
 use glam::DVec3;
 
@@ -6,17 +6,18 @@ use super::way::Passed;
 use crate::dynamics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
-/// The most impacts that a trail shows between two of its points. More would be too close to tell apart.
+/// The largest number of impacts between two points of a trail. More would be too close to distinguish.
 pub(super) const MOST: usize = 4;
 
 /// A body at a moment.
 pub(super) type At = (f64, BodySnapshot);
 
-/// The points of a trail at the impacts from one moment to a later one, two for each: the velocity jumps from the first to the second.
-/// `impulse` is that of an impact on the body, N s.
+/// The points of a trail at the impacts between two moments, two for each impact: the velocity jumps from the first to the second.
+/// `impulse` returns the impulse of an impact on the body, N s.
 ///
-/// An impact says when it was, not where the centre of the body was. The flights before the first and after the last impact follow
-/// from the two moments, those between from the impulses, all under the forces of the two moments: exactly, where a constant force acts.
+/// An impact has a time, but not the position of the body's centre. The flights before the first and after the last impact follow from
+/// the two moments; those between follow from the impulses. All use the forces of the two moments, so they are exact under a constant
+/// force.
 pub(super) fn between(
     (before, after): (&At, &At),
     impacts: &[Impact],
@@ -44,7 +45,7 @@ pub(super) fn between(
     let pairs = forth.into_iter().zip(back.into_iter().rev());
     pairs
         .flat_map(|(forth, back)| {
-            // Each flight is known best near the moment that it begins at.
+            // Each flight is most accurate near its starting moment.
             let part = (forth.time - before.0) / (after.0 - before.0);
             let location = forth.location.lerp(back.location, part);
             let point = |velocity| Passed { time: forth.time, location, velocity, frame: None };
@@ -53,7 +54,7 @@ pub(super) fn between(
         .collect()
 }
 
-/// The motion of a point of a body under a constant force, forth or back in time.
+/// The motion of a point of a body under a constant force, forwards or backwards in time.
 #[derive(Clone, Copy)]
 struct Flight {
     time: f64,
@@ -70,7 +71,7 @@ impl Flight {
         Flight { time: *time, location, velocity, acceleration: body.force / mass + towards_axis }
     }
 
-    /// Goes to an impact, and past it. It is returned as it is there, before the velocity jumps.
+    /// Advances to an impact and past it. Returns the flight at the impact, before the velocity jumps.
     fn pass(&mut self, (time, jump): (f64, DVec3), sense: f64) -> Flight {
         let span = time - self.time;
         self.location += self.velocity * span + 0.5 * self.acceleration * (span * span);

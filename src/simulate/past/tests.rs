@@ -35,7 +35,7 @@ fn ghosts_are_where_the_body_was_and_none_is_where_it_is() {
 
 #[test]
 fn a_ghost_at_the_time_of_a_frame_is_that_frame() {
-    // 3 × 0.2 is not the same number as 15 / 25.
+    // 3 × 0.2 differs from 15 / 25 by rounding.
     let scene = scene("ghosts.every = 0.2");
     let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
     assert_eq!(frames[15].past.ghosts.len(), 3);
@@ -69,7 +69,7 @@ fn a_trail_begins_so_many_seconds_ago_on_the_exact_way() {
     }
 }
 
-/// A point at the rim of a wheel that rolls goes along a cycloid, and stands still where it touches the ground.
+/// A point on the rim of a rolling wheel follows a cycloid, and stops where it touches the ground.
 #[test]
 fn a_trail_of_a_point_turns_with_its_body() {
     let text = "simulation = { duration = 4, integrator = 'rk4' }\n[body.wheel]\nshape.sphere.radius = 0.5
@@ -80,7 +80,7 @@ fn a_trail_of_a_point_turns_with_its_body() {
     for point in points {
         let (sin, cos) = libm::sincos(2.0 * point.time);
         let place = DVec3::new(point.time - 0.5 * sin, -0.5 * cos, 0.0);
-        // rk4 turns by 2 rad/s with steps of 1/250 s: (h ω)⁵/120 a step, times 1,000.
+        // rk4 rotates by 2 rad/s with steps of 1/250 s; its error is (h ω)⁵/120 per step, times 1,000.
         assert!(point.location.abs_diff_eq(place, 3e-10), "{point:?}");
         assert!(point.velocity.abs_diff_eq(DVec3::new(1.0 - cos, sin, 0.0), 1e-9), "{point:?}");
     }
@@ -100,8 +100,8 @@ fn a_long_trail_has_bounded_points() {
     assert!((MOST_POINTS / 2..=MOST_POINTS + 1).contains(&most), "{most}");
 }
 
-/// A ball that falls from 1.25 m and bounces: the trail has a corner where it touches the floor, however far apart frames are, and the way between is
-/// that of free fall.
+/// A ball falls from 1.25 m and bounces. Its trail has a corner at each touch of the floor, for any frame rate, and follows free fall
+/// between them.
 #[test]
 fn a_trail_has_its_corners_at_the_impacts() {
     let text = "simulation = { duration = 4, frame_rate = 7, gravity = [0, -10, 0], integrator = 'velocity-verlet', contacts = 'event-driven' }

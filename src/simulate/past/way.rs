@@ -1,4 +1,4 @@
-//! The way of a body, of which a trail is made.
+//! The path of a body, for its trail.
 
 use glam::DVec3;
 
@@ -6,40 +6,40 @@ use super::corners;
 use crate::dynamics::BodySnapshot;
 use crate::scene::Trail;
 
-/// The most points of a trail; where frames are more, every second, fourth, … is kept.
+/// The largest number of points of a trail. With more frames, only every second, fourth, … is kept.
 pub(super) const MOST_POINTS: usize = 512;
 
-/// The way of a body, or of a point of it, up to a moment.
+/// The path of a body, or of a point of it, up to a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// Points of the way, the oldest first; the last is the present one.
+    /// Points of the path, the oldest first; the last is the present one.
     pub points: Vec<Passed>,
     /// The number of frames from one kept point to the next.
     pub stride: usize,
 }
 
-/// A point that a body has passed, or a point of it.
+/// A point of the path of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passed {
-    /// When, s.
+    /// The time, s.
     pub time: f64,
-    /// Where, m.
+    /// The position, m.
     pub location: DVec3,
-    /// How fast, m/s.
+    /// The velocity, m/s.
     pub velocity: DVec3,
-    /// The number of the frame that this is the body of, if the point is kept for later frames; none at an impact.
+    /// The number of its frame, if the point is kept for later frames; `None` at an impact.
     pub frame: Option<usize>,
 }
 
 impl Passed {
-    /// The place of the body between this point and a later one, m: on a cubic that matches locations and velocities at both. So
-    /// the path under a constant force is exact, however far apart the points are.
+    /// The position between this point and a later one, m, on a cubic that matches locations and velocities at both. So the path under a
+    /// constant force is exact, for any distance of the points.
     pub fn towards(&self, next: &Passed, time: f64) -> DVec3 {
         let span = next.time - self.time;
         if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
-            // A body that turns back between has been hit, or is slow: no curve is better than a straight line.
+            // A body that reverses in between was hit, or is slow: a straight line is as good as any curve.
             let part = if span > 0.0 { (time - self.time) / span } else { 1.0 };
             return self.location.lerp(next.location, part);
         }
@@ -57,7 +57,7 @@ impl Passed {
     }
 }
 
-/// A way from a time on, which may be between two of its points.
+/// Cuts a path to the part from a time on, which may lie between two of its points.
 pub(super) fn cut(points: &mut Vec<Passed>, from: f64) {
     let before = points.iter().take_while(|point| point.time <= from).count();
     let Some(last) = before.checked_sub(1) else { return };
@@ -79,8 +79,8 @@ fn frames_within(intervals: f64) -> usize {
     intervals as usize
 }
 
-/// The number of frames from one kept point of a trail to the next, as seen from a frame: the smallest power of two that keeps
-/// the trail within [`MOST_POINTS`].
+/// The number of frames from one kept point of a trail to the next at a frame: the smallest power of two that keeps the trail within
+/// [`MOST_POINTS`].
 pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
     let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
     (within.min(frame) / MOST_POINTS + 1).next_power_of_two()

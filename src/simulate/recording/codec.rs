@@ -6,16 +6,15 @@
 //! | --- | --- |
 //! | the number of the frame, or 2³² − 1 between frames | `u32` |
 //! | time; kinetic, potential, total energy; drift; linear momentum; angular momentum; the accounts; the penetration | `f64` each |
-//! | the number of runs, and of each run: a mask, and for how many bodies that holds | `u32`; `u8`, `u32` |
-//! | of each body, the numbers that its mask names | `f64` each |
-//! | where there are joints: runs of masks, and numbers, in the same way | |
-//! | where impacts are counted: runs of masks, and counts, in the same way | |
-//! | there as well: the number of contacts, and of each two bodies, place, normal, force, friction | `u32`; `f64` |
-//! | there as well: the number of impacts since the moment before, and of each two bodies, time, place, normal, impulse, energy | `u32`; `f64` |
+//! | the number of runs, and for each run: a mask, and its number of bodies | `u32`; `u8`, `u32` |
+//! | for each body, the numbers selected by its mask | `f64` each |
+//! | with joints: runs of masks, and numbers, in the same way | |
+//! | with counted impacts: runs of masks, and counts, in the same way | |
+//! | with counted impacts: the number of contacts, and for each: two bodies, position, normal, force, friction | `u32`; `f64` |
+//! | likewise: the number of impacts since the last moment, and for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
 //!
-//! A bit of a mask says that a column has changed: location, orientation, velocity, angular velocity, force; of a
-//! joint, force and torque. Before the first moment of a page, all numbers are those of a body at rest at the origin, and of a joint
-//! that does nothing.
+//! A bit of a mask marks a changed column: for a body, location, orientation, velocity, angular velocity, force; for a joint, force and
+//! torque. Before the first moment of a page, all bodies are at rest at the origin, and all joints are without load.
 
 mod decoder;
 mod encoder;
@@ -38,9 +37,9 @@ const HEAD: usize = 12 + Accounts::NAMES.len();
 const NUMBERS: usize = 16;
 /// The first number of each column of a body, and the end of the last one.
 const COLUMNS: [usize; 6] = [0, 3, 7, 10, 13, NUMBERS];
-/// The mask of a body that is not there.
+/// The mask of an absent body.
 const ABSENT: u8 = 0x80;
-/// The number that stands for no frame.
+/// The number for moments between frames.
 const NO_FRAME: u32 = u32::MAX;
 
 const AT_REST: [f64; NUMBERS] = {
@@ -54,10 +53,10 @@ const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
 /// The numbers of a joint.
 const JOINT_NUMBERS: usize = 6;
 
-/// The begin and the end of the one column of a count.
+/// The start and end of the only column of a count.
 const COUNT_COLUMNS: [usize; 2] = [0, 1];
 
-/// How many bodies and joints a run has, and how many numbers count its impacts.
+/// The numbers of bodies, joints and impact counts of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     /// The number of bodies.
@@ -69,7 +68,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Those of a scene.
+    /// The counts of a scene.
     pub fn of(scene: &Scene) -> Counts {
         Counts { bodies: scene.bodies.len(), joints: scene.joints.len(), impacts: ImpactCounts::size(scene) }
     }

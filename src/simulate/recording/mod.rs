@@ -1,7 +1,7 @@
-//! A run that has been simulated: the state of every frame and of the moments between, to be read in any order.
+//! A recorded run: the states of all frames and of moments between them, readable in any order.
 //!
-//! Memory does not grow with it: moments stand in pages of at most 32 moments or about 1 MB, which a [`Store`] keeps.
-//! A page can be read without those before it. The recorded part of a run can be read while the run goes on.
+//! Memory does not grow with the run: a [`Store`] keeps the moments in pages of at most 32 moments or about 1 MB. A page can be read
+//! without those before it. A run can be read while it is still being recorded.
 
 mod codec;
 mod events;
@@ -26,7 +26,7 @@ const MOMENTS: usize = 32;
 /// or after this many bytes.
 const BYTES: usize = 1 << 20;
 
-/// The moments of a run, from the first on. One writes, any number read.
+/// The moments of a run, from the first on. One writer adds to it; any number of readers may read.
 pub struct Recording {
     counts: Counts,
     encoder: Mutex<Encoder>,
@@ -39,11 +39,11 @@ pub struct Recording {
 struct Contents {
     /// The time of each moment, s, in rising order.
     times: Vec<f64>,
-    /// The number of the moment of each frame.
+    /// The index of each frame's moment.
     frames: Vec<u32>,
-    /// The number of the first moment of each page that is in the store.
+    /// The index of the first moment of each page in the store.
     pages: Vec<u32>,
-    /// The page that is not full yet, and the number of its first moment.
+    /// The page that is not full yet, and the index of its first moment.
     open: Vec<u8>,
     first: usize,
 }
@@ -55,19 +55,19 @@ impl Recording {
         Recording { counts, encoder, contents, store }
     }
 
-    /// A recording that was [described](Self::index) before, of which the store has all pages.
+    /// A recording from its [index](Self::index), with all pages in the store.
     ///
     /// # Errors
-    /// If the description is not one.
+    /// If the index is invalid.
     pub fn with_index(counts: Counts, index: &[u8], store: Box<dyn Store>) -> io::Result<Recording> {
         let contents = RwLock::new(Contents::from_bytes(index)?);
         Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
     }
 
-    /// Like [`with_index`](Self::with_index), of a run that goes on.
+    /// Like [`with_index`](Self::with_index), for a run that continues.
     ///
     /// # Errors
-    /// If the description is not one.
+    /// If the index is invalid.
     pub(super) fn to_be_continued(
         counts: Counts,
         index: &[u8],
@@ -119,7 +119,7 @@ impl Recording {
         Ok(())
     }
 
-    /// How many frames there are so far.
+    /// The number of frames so far.
     pub fn frames(&self) -> usize {
         self.contents().frames.len()
     }
@@ -147,12 +147,12 @@ impl Recording {
         self.contents.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The number of the moment at a time (s), if that was recorded.
+    /// The index of the moment at a time (s), if it was recorded.
     pub(super) fn moment_at(&self, time: f64) -> Option<usize> {
         self.contents().times.binary_search_by(|other| other.total_cmp(&time)).ok()
     }
 
-    /// The number of the moment of a frame.
+    /// The index of a frame's moment.
     pub(super) fn moment_of(&self, frame: usize) -> Option<usize> {
         self.contents().frames.get(frame).map(|&moment| moment as usize)
     }
@@ -163,7 +163,7 @@ impl Recording {
         contents.frames.partition_point(|&frame| frame as usize <= moment).saturating_sub(1)
     }
 
-    /// The page that holds a moment, as far as it is written.
+    /// The page of a moment, as far as it is written.
     fn page_of(&self, moment: usize) -> io::Result<Page> {
         let contents = self.contents();
         if moment >= contents.first {
@@ -211,41 +211,41 @@ impl Contents {
     }
 }
 
-/// A page as it was when it was read. One that was not full may have more moments now, behind these.
+/// A page at the time of reading. If it was not full, it may have grown since.
 struct Page {
     moments: Range<usize>,
     bytes: Arc<[u8]>,
 }
 
-/// Reads a recording moment by moment, from wherever it is put.
+/// Reads a recording moment by moment, from any position.
 pub struct Reader {
     recording: Arc<Recording>,
     next: usize,
-    /// The page that it is in.
+    /// The current page.
     page: Option<Page>,
     decoder: Decoder,
-    /// The number of the moment that the decoder is at.
+    /// The index of the decoder's moment.
     at: usize,
-    /// The one body that the decoder knows; none: it knows all.
+    /// The only body that the decoder knows; `None` if it knows all.
     known: Option<usize>,
     #[cfg(test)]
     decoded: usize,
 }
 
 impl Reader {
-    /// Goes to the moment of a number.
+    /// Moves to a moment.
     pub(super) fn seek(&mut self, moment: usize) {
         self.next = moment;
     }
 
-    /// Goes to a frame; whether it is there.
+    /// Moves to a frame. Returns whether it exists.
     pub(super) fn seek_frame(&mut self, frame: usize) -> bool {
         let moment = self.recording.moment_of(frame);
         self.next = moment.unwrap_or(usize::MAX);
         moment.is_some()
     }
 
-    /// The number of the moment that comes next.
+    /// The index of the next moment.
     pub(super) fn position(&self) -> usize {
         self.next
     }
@@ -255,10 +255,10 @@ impl Reader {
         self.advance(None, Decoder::decode)
     }
 
-    /// A frame as it was recorded.
+    /// A frame in its recorded form.
     ///
     /// # Errors
-    /// If it is not there, or cannot be read.
+    /// If it does not exist, or cannot be read.
     pub fn frame(&mut self, frame: usize) -> io::Result<Snapshot> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -266,10 +266,10 @@ impl Reader {
         Ok(self.entry()?.ok_or_else(damaged)?.snapshot)
     }
 
-    /// A frame as it can be seen, without its past.
+    /// A frame without its past.
     ///
     /// # Errors
-    /// If it is not there, or cannot be read.
+    /// If it does not exist, or cannot be read.
     pub fn seen(&mut self, frame: usize) -> io::Result<Frame> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -277,11 +277,11 @@ impl Reader {
         Ok(Frame::of_entry(frame, self.entry()?.ok_or_else(damaged)?))
     }
 
-    /// A frame that knows one body only, and that body; none if it is not there. It takes less time than to read all, above all
-    /// frame after frame.
+    /// A frame with only one body, and that body; `None` if it is absent. This is faster than reading all bodies, above all for
+    /// consecutive frames.
     ///
     /// # Errors
-    /// If the frame is not there, or cannot be read.
+    /// If the frame does not exist, or cannot be read.
     pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Frame, Option<BodySnapshot>)> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -305,7 +305,7 @@ impl Reader {
         }
         if !self.page.as_ref().is_some_and(|page| page.moments.contains(&moment)) {
             let page = self.recording.page_of(moment)?;
-            // In a page that has only grown, the decoder is where it was.
+            // If the page has only grown, the decoder's position is still valid.
             if self.page.as_ref().is_none_or(|before| before.moments.start != page.moments.start) {
                 self.at = page.moments.start;
                 self.decoder.begin_page();

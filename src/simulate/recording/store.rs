@@ -3,22 +3,22 @@
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A place for the pages of a recording: one writes, any number read.
+/// Stores the pages of a recording: one writer, any number of readers.
 pub trait Store: Send + Sync {
-    /// Adds a page; pages have numbers from 0 on.
+    /// Adds a page; pages are numbered from 0.
     ///
     /// # Errors
     /// If there is no room for it.
     fn put(&self, page: &[u8]) -> io::Result<()>;
 
-    /// The page of a number.
+    /// The page with a number.
     ///
     /// # Errors
-    /// If it cannot be read, or is not what was put there.
+    /// If it cannot be read, or is not what was stored.
     fn page(&self, number: usize) -> io::Result<Arc<[u8]>>;
 }
 
-/// Pages in memory, however many there are.
+/// Any number of pages in memory.
 #[derive(Default)]
 pub struct MemoryStore(Mutex<Vec<Arc<[u8]>>>);
 

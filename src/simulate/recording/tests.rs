@@ -14,8 +14,7 @@ fn push(recording: &Recording, frame: usize) {
     recording.push(&Entry { frame: Some(frame), snapshot, impacts, counts }).unwrap();
 }
 
-/// A moment holds the changes since the one before. A reader that follows a run must not decode the page from its beginning for
-/// each frame.
+/// A moment holds the changes since the last one. A reader that follows a run must not decode the page from its start for each frame.
 #[test]
 fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
     let recording =
@@ -24,14 +23,14 @@ fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
     for frame in 0..FRAMES {
         push(&recording, frame);
         let x = f64::from(u32_of(frame));
-        // Also the first frame of a page is there before the page is full.
+        // The first frame of a page is also readable before the page is full.
         assert_eq!(all.frame(frame).unwrap().bodies[0].location.x, x);
         assert_eq!(one.body(frame, 0).unwrap().1.unwrap().location.x, x);
     }
     assert_eq!((all.decoded, one.decoded), (FRAMES, FRAMES));
 }
 
-/// A reader that has read one body only knows nothing of the others.
+/// After reading only one body, a reader does not know the others.
 #[test]
 fn one_body_and_all_can_be_read_in_any_order() {
     let recording =

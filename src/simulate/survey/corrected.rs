@@ -1,4 +1,4 @@
-//! Bodies that start otherwise than the scene says.
+//! Bodies whose start differs from the scene.
 
 use glam::DVec3;
 
@@ -6,16 +6,16 @@ use super::super::Frame;
 use crate::dynamics::BodySnapshot;
 use crate::scene::Scene;
 
-/// A body starts with another velocity than the scene gives it, because joints hold it.
+/// A body whose initial velocity differs from the scene's, because joints hold it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corrected {
     /// Its name.
     pub body: String,
-    /// The velocity that it starts with, m/s.
+    /// Its initial velocity, m/s.
     pub velocity: DVec3,
-    /// The angular velocity that it starts with, rad/s.
+    /// Its initial angular velocity, rad/s.
     pub angular_velocity: DVec3,
-    /// How many other bodies do so.
+    /// The number of other such bodies.
     pub others: usize,
 }
 
@@ -32,7 +32,7 @@ impl Corrected {
             let body = &scene.bodies[id];
             let is_free = !body.start.fixed && body.motion.is_none();
             let start = &body.start;
-            // A body without a given velocity is set in motion by its guide or drive.
+            // A body without a given velocity may get one from its guide or motor.
             let is_given = start.velocity != DVec3::ZERO || start.angular_velocity != DVec3::ZERO;
             is_free
                 && is_given

@@ -1,4 +1,4 @@
-//! Planes that bodies go through, since nothing keeps them from it.
+//! Planes through which bodies pass, since no contacts stop them.
 
 use glam::DVec3;
 
@@ -6,40 +6,40 @@ use super::super::Frame;
 use crate::dynamics::{BodySnapshot, RigidBody, Shape};
 use crate::scene::{Body, Scene};
 
-/// Bodies go through a plane, because nothing stops them.
+/// A plane through which bodies pass, because nothing stops them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
-    /// The name of the plane; none for the ground of the environment.
+    /// The name of the plane; `None` for the ground of the environment.
     pub plane: Option<String>,
-    /// The name of the first body that goes through it.
+    /// The name of the first body that passes through it.
     pub body: String,
-    /// The time of the first frame in which it is seen to, s.
+    /// The time of the first frame after its passage, s.
     pub time: f64,
-    /// How many other bodies go through the plane later.
+    /// The number of other bodies that pass through the plane later.
     pub others: usize,
 }
 
-/// The bodies that forces move: only these can go through a plane. A scene of many planes has few of them.
+/// The bodies that forces move: only these can pass through a plane. Scenes with many planes have few of them.
 pub(super) fn free(scene: &Scene) -> impl Iterator<Item = usize> {
     let bodies = scene.bodies.iter().enumerate();
     bodies.filter(|(_, body)| !body.start.fixed && body.motion.is_none()).map(|(id, _)| id)
 }
 
-/// A plane that is watched for bodies that go through it.
+/// A plane that is watched for bodies that pass through it.
 pub(super) struct Watched {
     name: Option<String>,
-    /// The body that it is, if it is one.
+    /// The body of the plane, if it is one.
     body: Option<usize>,
-    /// Whether it was there in the frame before.
+    /// Whether it was present in the last frame.
     is_there: bool,
     point: DVec3,
     normal: DVec3,
-    /// The bodies that may still go through it, by their numbers, and the side on which each began.
+    /// The indices of bodies that may still pass through it, with their initial sides.
     bodies: Vec<(usize, f64)>,
     crossing: Option<Crossing>,
 }
 
-/// The planes of a scene in which bodies can go through them.
+/// The planes of a scene through which bodies can pass.
 pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
     if scene.simulation.contacts.is_some() {
         return Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
 }
 
 impl Watched {
-    /// Looks at a frame in which some bodies have come.
+    /// Updates the watched bodies in a frame in which some bodies have come.
     pub(super) fn see(
         &mut self,
         scene: &Scene,
@@ -79,20 +79,20 @@ impl Watched {
         match (was_there, self.is_there) {
             (_, false) => return self.bodies.clear(),
             (true, true) => self.begin(scene, come.iter().copied()),
-            // It comes itself: now all begin.
+            // The plane itself has come: all bodies start now.
             (false, true) => self.begin(scene, free.iter().filter_map(|id| frame.body(*id))),
         }
         self.watch(scene, frame, crossed);
     }
 
-    /// Notes those of some bodies that do not touch the plane as they come.
+    /// Adds the new bodies that do not touch the plane.
     fn begin<'a>(&mut self, scene: &Scene, come: impl Iterator<Item = &'a BodySnapshot>) {
         for body in come {
             self.bodies.extend(self.beginner(scene, body).map(|side| (body.id, side)));
         }
     }
 
-    /// Looks for bodies that have gone through the plane, and marks them in `crossed`.
+    /// Finds bodies that have passed through the plane, and marks them in `crossed`.
     fn watch(&mut self, scene: &Scene, frame: &Frame, crossed: &mut [bool]) {
         let mut gone = Vec::new();
         let mut bodies = std::mem::take(&mut self.bodies);
@@ -117,7 +117,7 @@ impl Watched {
         }
     }
 
-    /// The side on which a body begins, if it does not touch the plane then.
+    /// The initial side of a body, if it does not touch the plane.
     fn beginner(&self, scene: &Scene, body: &BodySnapshot) -> Option<f64> {
         let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
         let shape = &scene.bodies[body.id].shape;
@@ -131,7 +131,7 @@ impl Watched {
         side * (body.location - self.point).dot(self.normal) - reach
     }
 
-    /// The rounding error for a body that just touches, m.
+    /// The rounding error for a touching body, m.
     fn tolerance(&self, body: &BodySnapshot) -> f64 {
         1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
     }

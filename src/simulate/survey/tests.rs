@@ -59,8 +59,8 @@ fn the_drift_is_relative_to_the_whole_run() {
         shape.sphere.radius = 1
         ",
     );
-    // Per kilogram: Euler–Cromer falls ½ g t dt too far, so its energy is g × that too small, 5 J at the end of 10 s;
-    // and ½ (g t)² is 5000 J. At the first frame, relative to what was kinetic by then, it would be a quarter.
+    // Per kilogram: Euler–Cromer falls ½ g t dt too far, so its energy is too small by g times that, 5 J at the end of 10 s; ½ (g t)² is
+    // 5000 J. Relative to the kinetic energy at the first frame, the error would be a quarter.
     assert!((survey.drift + 1e-3).abs() < 1e-9, "{}", survey.drift);
 }
 
@@ -99,7 +99,7 @@ fn the_first_body_through_a_plane_is_named_with_its_time() {
         ground.height = -100
         ",
     );
-    // 3 t + t² reaches the gap of 1 m at t = 0.303 s, so the frame at 0.4 s is the first to see it.
+    // 3 t + t² reaches the gap of 1 m at t = 0.303 s, so the frame at 0.4 s is the first after the passage.
     let expected =
         Crossing { plane: Some("floor".to_owned()), body: "fast".to_owned(), time: 0.4, others: 1 };
     assert_eq!(survey.crossings, [expected]);
@@ -138,7 +138,7 @@ fn the_given_ground_counts_and_the_default_one_does_not() {
     assert_eq!(survey.crossings[0].plane, None);
 }
 
-/// A box that is let down into a contact hardly moves: its drift is large, but little of what contacts have taken.
+/// A box that is lowered into a contact hardly moves: its drift is large, but small compared to the energy taken by contacts.
 #[cfg(feature = "time-stepping")]
 #[test]
 fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
@@ -182,6 +182,6 @@ fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
     let rest = survey.without_strays.unwrap();
     assert_eq!((rest.seen.min, rest.seen.max), (DVec3::splat(-0.5), DVec3::new(9.5, 0.5, 0.5)));
     assert!((survey.spans.last().unwrap().seen.max.y - 200.5).abs() < 1e-9);
-    // An arrow may reach out of the box of the others.
+    // An arrow may reach beyond the box of the others.
     assert_eq!(surveyed(&scene("arrows.velocity = true")).without_strays, None);
 }

@@ -1,4 +1,4 @@
-//! Bytes become moments again. They come from a file, so nothing in them is trusted.
+//! Decodes bytes into moments. They come from a file, so nothing in them is trusted.
 
 use std::io;
 
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 
-/// Reads a page from its beginning on.
+/// Reads a page from its start.
 #[derive(Default)]
 pub(in super::super) struct Decoder {
     last: Last,
@@ -21,12 +21,12 @@ pub(in super::super) struct Decoder {
 }
 
 impl Decoder {
-    /// A decoder for this many bodies and joints, at the beginning of a page.
+    /// A decoder at the start of a page, for these counts.
     pub(in super::super) fn new(counts: Counts) -> Decoder {
         Decoder { last: Last::new(counts), at: 0 }
     }
 
-    /// Goes back to the beginning of a page, of this or another recording with the same counts.
+    /// Restarts at the start of a page, of this or another recording with the same counts.
     pub(in super::super) fn begin_page(&mut self) {
         self.last.begin_page();
         self.at = 0;
@@ -81,8 +81,8 @@ impl Decoder {
         Ok(())
     }
 
-    /// Reads of the next moment one body and the counts of impacts only, and says whether the body is there. What is known of other
-    /// bodies, of joints and of contacts is lost.
+    /// Reads only one body and the counts of impacts from the next moment. Returns whether the body is present. The decoder then no
+    /// longer knows the other bodies, joints and contacts.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
         let Parts { head, bodies: (runs, mut values), counts, .. } =
             parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
@@ -140,10 +140,10 @@ impl Head {
     }
 }
 
-/// A mask, and for how many bodies it holds.
+/// A mask, and the number of bodies to which it applies.
 type Run = (u8, usize);
 
-/// A moment in a page: of bodies, joints and counts of impacts, the runs and the bytes of the values; of contacts and impacts,
+/// The parts of a moment in a page: for bodies, joints and impact counts, the runs and the bytes of the values; for contacts and impacts,
 /// the bytes.
 struct Parts<'a> {
     head: Head,
@@ -154,8 +154,7 @@ struct Parts<'a> {
     impacts: &'a [u8],
 }
 
-/// The parts of the moment at a place of a page, for a run with these numbers of joints and impact counts. The place moves to the
-/// next moment.
+/// The parts of the moment at an offset of a page, for these numbers of joints and impact counts. The offset advances to the next moment.
 fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
@@ -180,7 +179,7 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -
     Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
 }
 
-/// The bytes of a list whose items have `numbers` numbers each, and the bytes behind the list.
+/// The bytes of a list whose items have `numbers` numbers each, and the bytes after the list.
 fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
@@ -197,10 +196,10 @@ fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> i
     bytes.chunks(8 * N).map(thing).collect()
 }
 
-/// Runs, the bytes of their values, and the bytes behind them.
+/// Runs, the bytes of their values, and the bytes after them.
 type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
 
-/// Reads runs of masks that name columns.
+/// Reads runs of masks that select columns.
 fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
@@ -215,7 +214,7 @@ fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     Ok(((runs, values), rest))
 }
 
-/// How many numbers there are with this mask.
+/// The number of values selected by a mask.
 fn width(mask: u8, columns: &[usize]) -> usize {
     if mask == ABSENT {
         return 0;
@@ -228,7 +227,7 @@ fn width(mask: u8, columns: &[usize]) -> usize {
         .sum()
 }
 
-/// Reads the columns that a mask names, and returns the bytes behind them.
+/// Reads the columns selected by a mask, and returns the bytes after them.
 fn take_changed<'a>(
     mut values: &'a [u8],
     mask: u8,
@@ -243,7 +242,7 @@ fn take_changed<'a>(
     Ok(values)
 }
 
-/// Reads numbers, and returns the bytes behind them.
+/// Reads numbers, and returns the bytes after them.
 fn take<'a>(bytes: &'a [u8], numbers: &mut [f64]) -> io::Result<&'a [u8]> {
     let (mine, rest) = bytes.split_at_checked(8 * numbers.len()).ok_or_else(damaged)?;
     for (number, chunk) in numbers.iter_mut().zip(mine.as_chunks::<8>().0) {

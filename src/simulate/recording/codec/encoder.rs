@@ -1,4 +1,4 @@
-//! Moments become bytes.
+//! Encodes moments as bytes.
 
 use super::super::super::simulation::Entry;
 use super::super::events::{contact_numbers, impact_numbers};
@@ -6,19 +6,19 @@ use super::last::Last;
 use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
 use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
 
-/// Turns moments into bytes, one after another.
+/// Encodes moments one after another.
 pub(in super::super) struct Encoder {
     last: Last,
     masks: Vec<u8>,
 }
 
 impl Encoder {
-    /// An encoder for this many bodies and joints.
+    /// An encoder for these counts.
     pub(in super::super) fn new(counts: Counts) -> Encoder {
         Encoder { last: Last::new(counts), masks: Vec::new() }
     }
 
-    /// A new page begins: it can be read without those before it.
+    /// Starts a new page, which can be read without those before it.
     pub(in super::super) fn begin_page(&mut self) {
         self.last.begin_page();
     }
@@ -70,7 +70,7 @@ impl Encoder {
         put_runs(bytes, start, masks);
     }
 
-    /// The counts of impacts, the contacts of the moment, and the impacts since the one before.
+    /// Appends the impact counts, the contacts of the moment, and the impacts since the last one.
     fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
         let Self { last: Last { impacts, .. }, masks } = self;
         masks.clear();
@@ -89,12 +89,12 @@ impl Encoder {
     }
 }
 
-/// Appends the columns of some numbers that have changed; a mask that names them.
+/// Appends the changed columns of some numbers. Returns the mask that selects them.
 fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[f64]) -> u8 {
     let mut mask = 0;
     for (column, range) in columns.windows(2).enumerate() {
         let (new, old) = (&numbers[range[0]..range[1]], &last[range[0]..range[1]]);
-        // By their bits: -0 is not 0.
+        // Compares bits, since -0 differs from 0.
         if new.iter().zip(old).any(|(new, old)| new.to_bits() != old.to_bits()) {
             mask |= 1 << column;
             put(bytes, new);
@@ -103,7 +103,7 @@ fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[
     mask
 }
 
-/// Puts the runs of some masks at a place.
+/// Inserts the runs of some masks at an offset.
 fn put_runs(bytes: &mut Vec<u8>, start: usize, masks: &[u8]) {
     let mut runs = Vec::new();
     for run in masks.chunk_by(|a, b| a == b) {

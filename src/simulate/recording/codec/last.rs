@@ -1,8 +1,8 @@
-//! The numbers of the moment before, against which a moment is written and read.
+//! The numbers of the last moment, relative to which the next is written and read.
 
 use super::{AT_REST, Counts, JOINT_NUMBERS, NUMBERS};
 
-/// The numbers of the moment before. Before the first moment of a page, bodies are at rest at the origin, and joints do nothing.
+/// The numbers of the last moment. Before the first moment of a page, bodies are at rest at the origin, and joints are without load.
 #[derive(Default)]
 pub(super) struct Last {
     pub(super) bodies: Vec<[f64; NUMBERS]>,
@@ -11,7 +11,7 @@ pub(super) struct Last {
 }
 
 impl Last {
-    /// At the beginning of a page.
+    /// The numbers at the start of a page.
     pub(super) fn new(Counts { bodies, joints, impacts }: Counts) -> Last {
         Last {
             bodies: vec![AT_REST; bodies],
@@ -20,7 +20,7 @@ impl Last {
         }
     }
 
-    /// Goes back to the beginning of a page.
+    /// Restarts at the start of a page.
     pub(super) fn begin_page(&mut self) {
         self.bodies.fill(AT_REST);
         self.joints.fill([0.0; JOINT_NUMBERS]);

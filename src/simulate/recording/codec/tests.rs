@@ -50,7 +50,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
     }
 }
 
-/// Bodies come and go; -0 stays -0; what stays as it is takes no bytes but those of its run.
+/// Bodies come and go; -0 stays -0; unchanged values take no bytes except those of their run.
 #[test]
 fn moments_are_read_as_they_were_written() {
     let entries = [
