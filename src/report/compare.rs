@@ -1,4 +1,4 @@
-//! The run beside itself: at half and at a quarter of its step, and beside a twin that begins a hair elsewhere.
+//! Compares a run with itself at half and a quarter of its step, and with a twin from a slightly different start.
 
 use glam::DVec3;
 
@@ -13,17 +13,17 @@ use crate::scene::Scene;
 /// The values compared at a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moment {
-    /// s
+    /// The time, s.
     pub(super) time: f64,
-    /// How far any point of a body is at most from where half the step has it, m; none after the end of either.
+    /// The largest distance of a body's point from the same point at half the step, m. `None` after the end of either run.
     pub(super) off: Option<f64>,
-    /// The sums of the squares of the distances of all bodies: from half the step, and from there to a quarter, m².
+    /// The sums over all bodies of the squared distances: between the step and its half, and between its half and its quarter, m².
     pub(super) squares: Option<[f64; 2]>,
-    /// The error of the energy, J.
+    /// The energy error, J.
     pub(super) energy: f64,
-    /// The change of linear and angular momentum: in the run, and at half the step.
+    /// The changes of linear and angular momentum: in the run, and at half the step.
     pub(super) changed: [[f64; 2]; 2],
-    /// The twin: mean squares of the distances of places (m²), of velocities, and of orientations.
+    /// The distance of the twin: the mean squares for positions (m²), velocities and orientations.
     pub(super) apart: Option<[f64; 3]>,
 }
 
@@ -31,28 +31,28 @@ pub(super) struct Moment {
 #[derive(Debug, Default)]
 pub(super) struct Compared {
     pub(super) moments: Vec<Moment>,
-    /// For each body: where it is off most in place and in orientation, the time at which a point of it is off most, and how far it
-    /// travels, m.
+    /// For each body: its largest errors in position and orientation, the time of the largest error of a point, and the length of its
+    /// path, m.
     pub(super) bodies: Vec<Off>,
-    /// The diagonal of the box in which bodies move, m, by the finest run.
+    /// The diagonal of the box around the motion of bodies, m, from the finest run.
     pub(super) size: f64,
-    /// The fastest that a body is, m/s.
+    /// The largest speed of a body, m/s.
     pub(super) fastest: f64,
     pub(super) largest_kinetic: f64,
     /// The largest sums of the magnitudes of all momenta.
     pub(super) momenta: [f64; 2],
-    /// What the accounts of energy hold at the end of the run.
+    /// The energy accounts at the end of the run.
     pub(super) accounts: Accounts,
-    /// The runs at the step, its half, its quarter, and the twin, as far as they broke down.
+    /// The breakdowns of the runs at the step, its half, its quarter, and of the twin.
     pub(super) ended: [Option<Ended>; 4],
     pub(super) steps: [u64; 3],
-    /// The error of the energy where it is largest at half the step, over the largest kinetic energy.
+    /// The largest energy error at half the step, relative to the largest kinetic energy.
     pub(super) drift_at_half: f64,
-    /// The largest distance of the runs at half and at a quarter of the step, m.
+    /// The largest distance between the runs at half and a quarter of the step, m.
     pub(super) off_at_half: f64,
 }
 
-/// How far off a body is at most.
+/// The largest errors of a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Off {
     pub(super) most: Distance,
@@ -60,7 +60,7 @@ pub(super) struct Off {
     pub(super) way: f64,
 }
 
-/// Where and how bodies are when they are seen first.
+/// The first snapshot of each body.
 struct Seen {
     before: Vec<Option<DVec3>>,
     momenta: Option<[[DVec3; 2]; 2]>,
@@ -69,7 +69,7 @@ struct Seen {
     energy_at_half: f64,
 }
 
-/// Makes these runs.
+/// Makes and compares the runs.
 pub(super) fn compare(
     scene: &Scene,
     own: Setting,
@@ -107,7 +107,7 @@ impl Compared {
         let [run, half, quarter, twin] = moments else { return };
         for (kept, moment) in seen.boxes.iter_mut().zip([run, half, quarter]) {
             let here = moment.as_ref().and_then(|moment| measured.around(moment));
-            // A finer run that ends early does not say how large all is.
+            // A finer run that ends early does not show the full size.
             *kept = match (*kept, here) {
                 (Some(kept), Some(here)) => Some(union(kept, here)),
                 (kept, here) => kept.or(here),
@@ -164,7 +164,7 @@ impl Compared {
         }
     }
 
-    /// How far any point of a body is off at most at a moment, m.
+    /// The largest error of any point of a body at a moment, m.
     fn see_off(&mut self, measured: &Measured, moments: [&Snapshot; 2]) -> f64 {
         let mut most = 0.0_f64;
         for (body, distance) in points(measured, moments) {
@@ -181,7 +181,7 @@ impl Compared {
     }
 }
 
-/// How far the bodies of two moments are apart, each with its number among those that are compared.
+/// The distances of bodies between two moments, each with its index among the compared bodies.
 pub(super) fn points<'s>(
     measured: &'s Measured,
     moments: [&'s Snapshot; 2],
@@ -190,7 +190,7 @@ pub(super) fn points<'s>(
         .filter_map(move |body| Some((body, measured.distance(body, measured.pair(body, moments)?))))
 }
 
-/// Mean squares of how far two moments are apart: in places (m²), velocities and orientations.
+/// The mean-square distances between two moments: positions (m²), velocities and orientations.
 fn apart(measured: &Measured, moments: [&Snapshot; 2]) -> [f64; 3] {
     let (mut sums, mut count) = ([0.0; 3], 0.0);
     for body in 0..measured.bodies.len() {

@@ -1,4 +1,4 @@
-//! Several runs that advance side by side, so that they can be compared and none has to be kept.
+//! Several runs that advance side by side, so that they can be compared without storing them.
 
 use super::Stopped;
 use crate::dynamics::Snapshot;
@@ -6,46 +6,46 @@ use crate::scene::Scene;
 use crate::simulate::{SimulateError, Snapshots};
 use crate::threads;
 
-/// Told how much has been computed, in evaluations of the forces; false where somebody wants to stop.
+/// Receives the amount of computation so far, in force evaluations. Returns false to stop.
 pub type Watch<'a> = dyn FnMut(f64) -> bool + 'a;
 
-/// Why and when a run ended before its last frame.
+/// The end of a run before its last frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ended {
-    /// The time of the last frame before, s; none: there was no frame.
+    /// The time of the last frame, s; `None` if there was no frame.
     pub after: Option<f64>,
-    /// Why.
+    /// The reason.
     pub why: SimulateError,
 }
 
 /// A run that is compared with others.
 pub(super) struct Track<'a> {
     snapshots: Snapshots<'a>,
-    /// States that are computed and not yet compared.
+    /// Computed states that have not been compared yet.
     waiting: std::collections::VecDeque<Snapshot>,
     pub(super) ended: Option<Ended>,
     last: Option<f64>,
     /// The cost of an interval between two frames, in force evaluations.
     cost: f64,
-    /// The most timesteps that it may make, and whether it would have made more.
+    /// The largest number of timesteps, and whether more would have been needed.
     most: u64,
     pub(super) is_long: bool,
 }
 
 impl<'a> Track<'a> {
-    /// The run of a scene, which takes so many evaluations of the forces for each frame.
+    /// The run of a scene, with its number of force evaluations per frame.
     pub(super) fn new(scene: &'a Scene, cost: f64) -> Track<'a> {
         let waiting = std::collections::VecDeque::new();
         let snapshots = Snapshots::new(scene);
         Track { snapshots, waiting, ended: None, last: None, cost, most: u64::MAX, is_long: false }
     }
 
-    /// The same, which stops after about so many timesteps: of a method that chooses them, nobody knows how many there will be.
+    /// The same with a limit of about this many timesteps, since adaptive methods do not know their number in advance.
     pub(super) fn of_at_most(self, steps: u64) -> Track<'a> {
         Track { most: steps, ..self }
     }
 
-    /// How many timesteps have been made.
+    /// The number of timesteps so far.
     pub(super) fn steps(&self) -> u64 {
         self.snapshots.steps()
     }
@@ -68,14 +68,14 @@ impl<'a> Track<'a> {
     }
 }
 
-/// Advances runs of a scene to its end; `see` is told of each frame, as far as each run has it.
+/// Advances runs of a scene to its end. `see` receives each frame, with the runs that have reached it.
 pub(super) fn together(
     tracks: &mut [Track<'_>],
     scene: &Scene,
     watch: &mut Watch<'_>,
     see: &mut dyn FnMut(&[Option<Snapshot>]),
 ) -> Result<(), Stopped> {
-    /// The number of states, of single bodies, that are computed before they are compared.
+    /// The largest number of states of single bodies that wait for their comparison.
     const ROOM: usize = 4096;
     let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;

@@ -1,30 +1,30 @@
-//! How far two runs of a scene are apart.
+//! The distance between two runs of a scene.
 
 use glam::{DQuat, DVec3};
 
 use crate::dynamics::{BodySnapshot, Shape, Snapshot};
 use crate::scene::Scene;
 
-/// The bodies that are compared: those that forces move.
+/// The compared bodies: those that forces move.
 pub(super) struct Measured {
-    /// The numbers of these bodies in the scene.
+    /// Their indices in the scene.
     pub(super) bodies: Vec<usize>,
-    /// For each of them, how far its farthest point is from its centre, m; 0 for a ball, which looks the same however it is turned.
+    /// For each body, the distance of its farthest point from its centre, m; 0 for a ball, which looks the same in every orientation.
     reach: Vec<f64>,
-    /// The radius of a ball around each of them, m.
+    /// For each body, the radius of its bounding ball, m.
     radius: Vec<f64>,
     mass: Vec<f64>,
     inertia: Vec<f64>,
 }
 
-/// How far a body is from where another run has it.
+/// The distance between a body and the same body in another run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Distance {
     /// Between the centres, m.
     pub(super) place: f64,
     /// The angle between the two orientations, rad.
     pub(super) angle: f64,
-    /// Between points of the body, at most, m.
+    /// The largest distance between points of the body, m.
     pub(super) point: f64,
 }
 
@@ -45,21 +45,21 @@ impl Measured {
         Measured { reach, radius, mass, inertia, bodies }
     }
 
-    /// A body of two moments, by its number among those that are compared; none where it is away.
+    /// A compared body at two moments, by its index; `None` while it is absent.
     pub(super) fn pair<'s>(&self, body: usize, moments: [&'s Snapshot; 2]) -> Option<[&'s BodySnapshot; 2]> {
         let id = *self.bodies.get(body)?;
         let [one, two] = moments.map(|moment| moment.body(id));
         Some([one?, two?])
     }
 
-    /// How far a body of two moments is apart.
+    /// The distance between a body at two moments.
     pub(super) fn distance(&self, body: usize, [one, two]: [&BodySnapshot; 2]) -> Distance {
         let place = (one.location - two.location).length();
         let angle = angle(one.orientation, two.orientation);
         Distance { place, angle, point: place + angle * self.reach[body] }
     }
 
-    /// The box around the bodies of a moment; none where there is none.
+    /// The box around the bodies of a moment; `None` if there are none.
     pub(super) fn around(&self, moment: &Snapshot) -> Option<[DVec3; 2]> {
         let places = self.bodies.iter().zip(&self.radius).filter_map(|(&id, radius)| {
             let place = moment.body(id)?.location;
@@ -68,7 +68,7 @@ impl Measured {
         places.reduce(union)
     }
 
-    /// The largest that linear and angular momentum could be as bodies move: if all momenta had one direction.
+    /// Upper bounds of linear and angular momentum: the sums if all momenta had the same direction.
     pub(super) fn momenta(&self, moment: &Snapshot) -> [f64; 2] {
         let (mut linear, mut angular) = (0.0, 0.0);
         for (body, &id) in self.bodies.iter().enumerate() {
@@ -82,12 +82,12 @@ impl Measured {
     }
 }
 
-/// The box around two boxes.
+/// The box around both boxes.
 pub(super) fn union([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> [DVec3; 2] {
     [a.min(c), b.max(d)]
 }
 
-/// The angle of the turn from one orientation to another, rad; exact also where it is tiny.
+/// The angle of the rotation from one orientation to another, rad; accurate also for tiny angles.
 fn angle(one: DQuat, two: DQuat) -> f64 {
     let turn = one.conjugate() * two;
     2.0 * libm::atan2(turn.xyz().length(), turn.w.abs())

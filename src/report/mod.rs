@@ -1,19 +1,20 @@
-//! How right a run is: the run beside itself at smaller steps, beside a twin that begins a hair elsewhere, and by other methods.
+//! The accuracy of a run: it is compared with itself at smaller steps, with a twin from a slightly different start, and with other
+//! methods.
 //!
 //! | what | where |
 //! | --- | --- |
-//! | a method and its step, as they are tried and written | `setting` |
+//! | a method and its step | `setting` |
 //! | several runs side by side, frame by frame | `lockstep` |
-//! | how far two moments are apart | `measure` |
+//! | the distance between two moments | `measure` |
 //! | the run, half its step, a quarter of it, and the twin | `compare` |
-//! | error, order, momenta, how long the film is right | `verdict` |
-//! | how fast neighbours part | `neighbours` |
-//! | which step and method reach an accuracy | `trials` |
-//! | all of it as text, and as a picture | `text`, `plot` |
+//! | error, order, momenta, the time until which the film is accurate | `verdict` |
+//! | the rate at which neighbours separate | `neighbours` |
+//! | the step and method that reach an accuracy | `trials` |
+//! | the report as text, and as a picture | `text`, `plot` |
 //!
-//! The error is Richardson's estimate: with a method of order p, a run at the step h is off by about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1)
-//! (E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). Nothing is kept of the runs: memory
-//! does not grow with them, but for some numbers a frame.
+//! The error is Richardson's estimate: with a method of order p, a run at the step h has an error of about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1) (E.
+//! Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). The runs are not stored: only a few numbers per
+//! frame are.
 
 mod compare;
 mod lockstep;
@@ -40,58 +41,57 @@ pub use neighbours::Parting;
 pub use trials::{Trial, Untried};
 pub use verdict::{BodyError, Conserved, Order, Trusted};
 
-/// The accuracy that is wanted where nobody says another: about a pixel of an image.
+/// The default accuracy: about a pixel of an image.
 pub const ACCURACY: f64 = 1e-3;
 
 /// The error of a computation that the caller has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
-/// How right a run is.
+/// The accuracy of a run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Assessment {
     /// The name of the method.
     pub integrator: &'static str,
     /// Its order.
     pub order: u32,
-    /// The timestep, s; none where the method chooses it.
+    /// The timestep, s; `None` if the method chooses it.
     pub timestep: Option<f64>,
-    /// The tolerance by which it does.
+    /// The tolerance of an adaptive method.
     pub tolerance: Option<f64>,
     /// The timesteps from one frame to the next.
     pub steps_per_frame: u32,
-    /// How many bodies are moved by forces. Where there are none, nothing is integrated, and nothing else is known.
+    /// The number of bodies that forces move. If there are none, nothing is integrated, and the rest is empty.
     pub bodies_moved: usize,
     /// The time of the last frame, s.
     pub end: f64,
     /// The verdict on the run. `None` if nothing is integrated.
     pub verdict: Option<Verdict>,
-    /// The accuracy that is wanted, as a part of the size of the scene.
+    /// The wanted accuracy, as a fraction of the size of the scene.
     pub accuracy: f64,
-    /// The methods and steps that were tried.
+    /// The tested methods and steps.
     pub trials: Vec<Trial>,
-    /// The number of the trial that reaches the accuracy with the fewest evaluations of the forces.
+    /// The index of the trial that reaches the accuracy with the fewest force evaluations.
     pub recommended: Option<usize>,
-    /// The methods that were not tried, or not as finely as they would have to be.
+    /// The methods that were not tested, or not as finely as necessary.
     pub untried: Vec<Untried>,
-    /// Whether there are particles, of which nothing is known.
+    /// Whether there are particles, whose accuracy is unknown.
     pub has_particles: bool,
 }
 
 /// The phase of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// The run is compared with itself at smaller steps.
+    /// Comparing the run with itself at smaller steps.
     Comparing,
-    /// Other steps and methods are tried.
+    /// Testing other steps and methods.
     Trying,
 }
 
-/// Finds out how right the run of a scene is. `watch` is told what is being done, and which part of that; where it answers false, all
-/// ends.
+/// Assesses the accuracy of a scene's run. `watch` receives the phase and its progress; it returns false to stop.
 ///
 /// # Errors
-/// If `watch` has ended it.
+/// If `watch` has stopped it.
 pub fn assess(
     scene: &Scene,
     accuracy: f64,

@@ -1,9 +1,9 @@
-//! How fast neighbours part: a twin of the run begins a hair beside it, and the growth of their distance tells regular motion from
-//! chaos.
+//! The separation of neighbours: a twin of the run starts very near it, and the growth of their distance distinguishes regular motion
+//! from chaos.
 //!
-//! The two are told apart by MEGNO, the mean exponential growth of nearby orbits (P. M. Cincotta, C. Simó, *Astronomy and
-//! Astrophysics Supplement* 147, 205, 2000): with the distance d, Y(t) = (2/t) ∫ (ḋ/d) s ds, and its mean over time. Where d
-//! grows like tⁿ, Y is 2n, so 2 for most regular motion; where it grows like exp(λt), the mean of Y is λt/2.
+//! The criterion is MEGNO, the mean exponential growth of nearby orbits (P. M. Cincotta, C. Simó, *Astronomy and Astrophysics Supplement*
+//! 147, 205, 2000): with the distance d, Y(t) = (2/t) ∫ (ḋ/d) s ds, and its mean over time. If d grows like tⁿ, Y is 2n, so 2 for most
+//! regular motion. If d grows like exp(λt), the mean of Y is λt/2.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -11,22 +11,22 @@ use serde::Serialize;
 use super::measure::Measured;
 use crate::scene::Scene;
 
-/// How far the twin begins beside the run, as a part of the size of the scene.
+/// The initial distance of the twin, as a fraction of the size of the scene.
 pub(super) const APART: f64 = 1e-9;
 
-/// From this part of the size of the scene on, neighbours are no neighbours any more.
+/// Beyond this fraction of the size of the scene, the two no longer count as neighbours.
 const FAR: f64 = 0.02;
 
 /// Above this mean of Y the motion is chaotic: a distance that grows like t² has 4.
 const CHAOTIC: f64 = 5.0;
 
-/// Below this it is regular.
+/// Below this mean of Y the motion is regular.
 const REGULAR: f64 = 3.5;
 
-/// Neighbours that get so many times farther apart do not part regularly, whatever the mean of Y.
+/// If the distance grows by more than this factor, the motion is not regular, whatever the mean of Y.
 const LARGE: f64 = 1e4;
 
-/// How neighbours part.
+/// The separation of neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Parting {
@@ -34,17 +34,17 @@ pub enum Parting {
     Unknown,
     /// No faster than in regular motion.
     Regular {
-        /// How many times their first distance they are apart at the end.
+        /// The ratio of their final distance to their initial one.
         growth: f64,
     },
-    /// Faster than in regular motion; the run is too short to tell whether it goes on so.
+    /// Faster than in regular motion, but the run is too short to tell whether this continues.
     Unclear {
-        /// How many times their first distance they are apart at the end.
+        /// The ratio of their final distance to their initial one.
         growth: f64,
     },
-    /// Within a short time: impacts tear them apart.
+    /// Within a short time, by impacts.
     Sudden {
-        /// When they are no neighbours any more, s.
+        /// The time at which they stop being neighbours, s.
         time: f64,
     },
     /// Exponentially.
@@ -56,8 +56,8 @@ pub enum Parting {
     },
 }
 
-/// The scene of the twin: what forces move begins a hair elsewhere and a hair faster. Where bodies touch, only faster, so that
-/// none begins within another. A motion in a plane stays in it.
+/// The scene of the twin: moving bodies start at slightly different positions with slightly different velocities. Bodies with contacts
+/// get only different velocities, so that none overlap. Plane motion stays in its plane.
 pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
     let mut twin = scene.clone();
     let starts = || scene.bodies.iter().map(|body| body.start.location);
@@ -67,7 +67,7 @@ pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
     let fastest = scene.bodies.iter().map(|body| body.start.velocity.length()).fold(0.0, f64::max);
     let widest = scene.bodies.iter().filter_map(|body| body.shape.bounding_radius()).fold(0.0, f64::max);
     let pull = scene.simulation.gravity.length();
-    // How fast things get is only known later: an order of magnitude is enough.
+    // The speeds are not known yet; an order of magnitude is enough.
     let size = match (max - min).length() {
         0.0 => widest + (fastest + pull * end) * end,
         size => size,
@@ -81,22 +81,22 @@ pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
         }
         let faster = apart / end;
         start.velocity += faster * direction(3 * number + 1, free);
-        // In a plane, bodies turn about its normal alone.
+        // In plane motion, bodies rotate only about its normal.
         let about = if free == DVec3::ONE { free } else { DVec3::ONE - free };
         start.angular_velocity += APART / end * direction(3 * number + 2, about);
     }
     twin
 }
 
-/// The axes of a motion in a plane: those along which something moves, is pulled, or differs in place: 1 each, and 0 for the other.
-/// All are 1 where the motion is in no plane.
+/// The axes of a plane motion, 1 each, and 0 for the normal: axes along which something moves, is pulled, or differs in position. All are
+/// 1 if the motion is not plane.
 fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
     let mut free = DVec3::ZERO;
     let mut first = None;
     for &id in &measured.bodies {
         let start = &scene.bodies[id].start;
         let from = start.location - *first.get_or_insert(start.location);
-        // Only a body that is turned or turns about one axis stays in a plane.
+        // Only a body with an orientation and a rotation about one axis stays in a plane.
         let turns = start.angular_velocity;
         let in_plane = DVec3::new(turns.y.abs() + turns.z.abs(), turns.x.abs() + turns.z.abs(), 0.0)
             + DVec3::Z * (turns.x.abs() + turns.y.abs());
@@ -104,12 +104,12 @@ fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
     }
     free += scene.simulation.gravity.abs();
     let free = DVec3::from_array(free.to_array().map(|extent| f64::from(u8::from(extent > 0.0))));
-    // A body that follows a given motion may lead others anywhere, and a body that moves along a line lies in many planes.
+    // A body with a given motion may lead others anywhere, and a body that moves along a line lies in many planes.
     let is_led = scene.bodies.iter().any(|body| body.motion.is_some());
     if is_led || free.element_sum() < 2.0 { DVec3::ONE } else { free }
 }
 
-/// Directions that are spread over the sphere, in the axes that are free; the same on every run.
+/// Directions that are spread over the sphere, within the free axes; the same in every run.
 fn direction(number: usize, free: DVec3) -> DVec3 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     #[allow(clippy::cast_precision_loss, reason = "any number will do")]
@@ -120,10 +120,10 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
     (DVec3::new(around * cos, height, around * sin) * free).normalize_or_zero()
 }
 
-/// How neighbours part whose distances are these at these times, s; a distance of 1 is the size of the scene. And the
-/// mean of Y, which is 0 where nothing is known.
+/// The separation of neighbours from their distances at some times, s; a distance of 1 is the size of the scene. Also returns the mean of
+/// Y, which is 0 if unknown.
 pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
-    /// Fewer moments than this tell nothing.
+    /// With fewer moments than this, the result is unknown.
     const FEW: usize = 8;
     let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
     let begin = distances.iter().position(|distance| *distance > 0.0).unwrap_or(near);
@@ -149,7 +149,7 @@ pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
     (found, mean)
 }
 
-/// The mean of Y over time, and over the second half of it; of times from 0 on (s) and logarithms of distances.
+/// The mean of Y over time, and over the second half of it, from times from 0 on (s) and logarithms of distances.
 fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
     let end = seen.last().map_or(0.0, |last| last.0);
     let (mut integral, mut sum, mut late) = (0.0, 0.0, 0.0);
@@ -163,7 +163,7 @@ fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
     if end > 0.0 { (sum / end, 2.0 * late / end) } else { (0.0, 0.0) }
 }
 
-/// The slope of the line that fits best, 1/s.
+/// The slope of the best-fitting line, 1/s.
 fn slope(seen: &[(f64, f64)]) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
     let count = seen.len() as f64;
@@ -188,7 +188,7 @@ mod tests {
     fn exponential_growth_is_told_from_powers_of_time() {
         assert!(matches!(of(|_| 1.0), Parting::Regular { growth: 1.0 }));
         assert!(matches!(of(|t| 1.0 + 50.0 * t), Parting::Regular { .. }));
-        // An orbit: it grows with time, and is a hundred times larger near the sun.
+        // An orbit: the distance grows with time, and is a hundred times larger near the sun.
         let orbit = |t: f64| (1.0 + 30.0 * t) * (1.0 + 99.0 * libm::pow(libm::cos(t), 20.0));
         assert!(matches!(of(orbit), Parting::Regular { .. }), "{:?}", of(orbit));
         assert!(matches!(of(|t| 1.0 + 30.0 * t * t), Parting::Regular { .. } | Parting::Unclear { .. }));

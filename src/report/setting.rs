@@ -1,20 +1,20 @@
-//! How a run is advanced: by which method, and how finely.
+//! The settings of a run: its method, and its fineness.
 
 use crate::dynamics::{Method, World};
 use crate::scene::{ContactLaw, Scene, Simulation};
 use crate::simulate::{evaluations, world};
 
-/// The least tolerance that is tried: below it, rounding decides.
+/// The smallest tolerance that is tested. Below it, rounding errors dominate.
 const LEAST_TOLERANCE: f64 = 1e-13;
 
-/// A method and its step, or its tolerance where it chooses its steps by one.
+/// A method with its step, or with its tolerance if it chooses its steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     pub(super) method: &'static Method,
-    /// The timesteps from one frame to the next. Of a method whose steps know nothing of frames, how many times as finely it is advanced as the
-    /// scene says.
+    /// The timesteps from one frame to the next. For a method with steps independent of frames, the factor by which it is finer than in
+    /// the scene.
     pub(super) steps: u32,
-    /// The step and the tolerance that such a method has in the scene.
+    /// The step and the tolerance of such a method in the scene.
     step: f64,
     tolerance: f64,
 }
@@ -34,12 +34,12 @@ impl Setting {
         Setting { method, steps, step, tolerance }
     }
 
-    /// The same with so many times the steps. Of an adaptive method, a tenth of the tolerance stands for twice the steps.
+    /// The same with this many times the steps. For an adaptive method, a tenth of the tolerance counts as twice the steps.
     pub(super) fn finer(self, times: u32) -> Setting {
         Setting { steps: self.steps.saturating_mul(times), ..self }
     }
 
-    /// The timestep, s; none where the method chooses it.
+    /// The timestep, s; `None` if the method chooses it.
     pub(super) fn timestep(self, scene: &Scene) -> Option<f64> {
         match (self.method.adaptive, self.method.ahead) {
             (true, _) => None,
@@ -48,13 +48,13 @@ impl Setting {
         }
     }
 
-    /// The tolerance; none where the method has none.
+    /// The tolerance; `None` if the method has none.
     pub(super) fn tolerance(self) -> Option<f64> {
         let finer = self.tolerance / libm::pow(10.0, f64::from(self.steps.max(1).ilog2()));
         self.method.adaptive.then(|| finer.max(LEAST_TOLERANCE.min(self.tolerance)))
     }
 
-    /// A scene that is advanced so. What is its own setting changes nothing.
+    /// The scene with this setting. The scene's own setting changes nothing.
     pub(super) fn applied(self, scene: &Scene, own: Setting) -> Scene {
         let mut scene = scene.clone();
         if !std::ptr::eq(self.method, own.method) || self.steps != own.steps {
@@ -65,15 +65,15 @@ impl Setting {
         scene
     }
 
-    /// How often a run evaluates the forces: about as often, where impacts divide steps.
+    /// The number of force evaluations of a run; approximate if impacts divide steps.
     #[allow(clippy::cast_precision_loss, reason = "two digits of it are needed")]
     pub(super) fn cost(self, scene: &Scene) -> f64 {
         let intervals = scene.simulation.frames().saturating_sub(1) as f64;
         intervals * f64::from(self.steps) * evaluations(self.method) as f64
     }
 
-    /// The step to write into a scene, s: the timestep with as few digits as give the same number of steps.
-    /// The step as a scene writes it. `None` if the method chooses its own steps.
+    /// The step to write into a scene, s: the fewest digits that give the same number of steps. `None` if the method chooses its own
+    /// steps.
     pub(super) fn written(self, scene: &Scene) -> Option<f64> {
         let step = self.timestep(scene)?;
         if self.method.ahead.is_some() {
@@ -89,7 +89,7 @@ impl Setting {
     }
 }
 
-/// Why a scene cannot be advanced by a method; none: it can.
+/// The reason why a scene cannot use a method; `None` if it can.
 pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
     let simulation = &scene.simulation;
     if std::ptr::eq(simulation.method, method) {
@@ -109,14 +109,14 @@ pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
     }
 }
 
-/// A positive number, rounded up to so many digits, but for rounding.
+/// A positive number, rounded up to this many digits; rounding errors are ignored.
 fn rounded_up(number: f64, digits: usize) -> f64 {
     let text = format!("{number:.*e}", digits - 1);
     let near: f64 = text.parse().unwrap_or(number);
     let exponent: Option<i64> = text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok());
     let (Some(exponent), true) = (exponent, near < number * (1.0 - 1e-12)) else { return near };
     let unit: f64 = format!("1e{}", exponent + 1 - digits as i64).parse().unwrap_or_default();
-    // Through text, so that 0.0016 + 0.0001 is 0.0017.
+    // By text, so that 0.0016 + 0.0001 is 0.0017.
     format!("{:.*e}", digits - 1, near + unit).parse().unwrap_or(number)
 }
 

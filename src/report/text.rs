@@ -1,4 +1,4 @@
-//! How right a run is, in words.
+//! The report as text.
 
 use std::fmt::Write;
 
@@ -7,14 +7,14 @@ use super::verdict::{Conserved, Order, Trusted, Verdict};
 use super::{Assessment, Parting, Trial, Untried};
 use crate::dynamics::Method;
 
-/// The number of bodies that are named.
+/// The largest number of bodies that are named.
 const NAMED: usize = 5;
 
-/// Behind the name of what a line is about.
+/// The indent of lines without a heading.
 const INDENT: &str = "          ";
 
 impl Assessment {
-    /// All that is known, for people. The commands of its answers are about the scene of this name, as a shell takes it.
+    /// The whole report as text. `shown` is the name of the scene in suggested commands, quoted for a shell.
     pub fn to_text(&self, shown: &str) -> String {
         let mut out = format!("{shown}: {}, {}\n", self.integrator, self.fineness());
         match &self.verdict {
@@ -35,7 +35,7 @@ impl Assessment {
         out
     }
 
-    /// The tolerance, or the timestep and how many there are in a frame, where that is a whole number.
+    /// The tolerance, or the timestep with the number of timesteps per frame if that is an integer.
     fn fineness(&self) -> String {
         if let Some(tolerance) = self.tolerance {
             return format!("tolerance {}", digits(tolerance, 3));
@@ -128,7 +128,7 @@ impl Assessment {
                     digits(doubling_time, 2),
                     digits(lyapunov_time, 2)
                 );
-                // From the rounding of numbers to 1 % of the scene.
+                // Starting from rounding errors, up to 1 % of the size of the scene.
                 let by_rounding = lyapunov_time * libm::log(0.01 / f64::EPSILON);
                 match by_rounding < self.end {
                     true => format!(
@@ -227,7 +227,7 @@ impl Assessment {
         }
     }
 
-    /// Whether a trial is the run as it is.
+    /// Whether a trial is the unchanged run.
     fn is_own(&self, trial: &Trial) -> bool {
         trial.integrator == self.integrator && trial.steps_per_frame == self.steps_per_frame
     }
@@ -276,7 +276,7 @@ impl Verdict {
     }
 }
 
-/// When a trial broke down.
+/// The time at which a trial broke down.
 fn broke_down(trial: &Trial) -> String {
     match trial.ended.as_ref().and_then(|ended| ended.after) {
         Some(after) => format!("breaks down after {} s", digits(after, 3)),
@@ -284,7 +284,7 @@ fn broke_down(trial: &Trial) -> String {
     }
 }
 
-/// How much farther neighbours are apart at the end.
+/// The growth of the distance of neighbours.
 fn apart(growth: f64) -> String {
     match growth {
         growth if growth < 2.0 => "neighbours stay together".to_owned(),
@@ -329,11 +329,11 @@ fn part(of: f64, whole: f64) -> f64 {
 }
 
 fn line(out: &mut String, about: &str, what: &str) {
-    // A text cannot fail to grow.
+    // Writing to a string cannot fail.
     let _ = writeln!(out, "{about:<10}{what}");
 }
 
-/// Columns, the first of texts and the others of numbers.
+/// A table; the first column is text, the others are numbers.
 fn table<const N: usize>(out: &mut String, rows: &[[String; N]]) {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     for row in rows {
@@ -357,7 +357,7 @@ fn percent(part: f64) -> String {
     if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", digits(percent, 2)) }
 }
 
-/// A number to so many digits.
+/// A number with this many digits.
 pub(super) fn digits(number: f64, digits: usize) -> String {
     if number == 0.0 {
         return "0".to_owned();

@@ -1,4 +1,4 @@
-//! Which step, and which method, reaches a wanted accuracy: each is tried before it is recommended.
+//! Finds the step and the method that reach a wanted accuracy. Each is tested before it is recommended.
 
 use serde::Serialize;
 
@@ -12,26 +12,26 @@ use crate::dynamics::Method;
 use crate::scene::Scene;
 use crate::simulate::evaluations;
 
-/// A method and a step that were tried, and what came of it.
+/// The result of a tested method and step.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trial {
     /// The name of the method.
     pub integrator: &'static str,
-    /// The step to write into the scene, s; none where the method chooses it.
+    /// The step to write into the scene, s; `None` if the method chooses it.
     pub step: Option<f64>,
-    /// The timestep that this makes, s.
+    /// The resulting timestep, s.
     pub timestep: Option<f64>,
-    /// The tolerance to write into the scene, of a method that chooses its steps by it.
+    /// The tolerance to write into the scene, for an adaptive method.
     pub tolerance: Option<f64>,
     /// The timesteps from one frame to the next.
     pub steps_per_frame: u32,
     /// The timesteps of the run.
     pub steps: u64,
-    /// How often the run evaluates the forces; a little more often where impacts divide steps.
+    /// The number of force evaluations; slightly more if impacts divide steps.
     pub evaluations: u64,
-    /// How far any point of a body is off at most, m, by a run at half the step; none where one of the two broke down.
+    /// The largest error of any point of a body, m, from a run at half the step. `None` if one of the two broke down.
     pub error: Option<f64>,
-    /// The error of the energy where it is largest, relative to the largest kinetic energy.
+    /// The largest energy error, relative to the largest kinetic energy.
     pub drift: f64,
     /// Whether it reaches the wanted accuracy.
     pub reaches: bool,
@@ -39,21 +39,21 @@ pub struct Trial {
     pub(super) ended: Option<Ended>,
     #[serde(skip)]
     pub(super) setting: Setting,
-    /// The diagonal of the box in which bodies move, m.
+    /// The diagonal of the box around the motion of bodies, m.
     #[serde(skip)]
     pub(super) size: f64,
 }
 
-/// A method that was not tried, or not as finely as it would have to be.
+/// A method that was not tested, or not as finely as necessary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Untried {
     /// Its name.
     pub integrator: &'static str,
-    /// Why not.
+    /// The reason.
     pub why: String,
 }
 
-/// The trials, in the order of methods and of falling steps, and the methods that were not tried.
+/// The trials, in order of methods and falling steps, and the methods that were not tested.
 #[derive(Debug, Default)]
 pub(super) struct Trials {
     pub(super) tried: Vec<Trial>,
@@ -66,7 +66,7 @@ pub(super) fn factor(order: f64) -> f64 {
     ratio / (ratio - 1.0)
 }
 
-/// The methods that a scene may be tried with, the scene's own first. Another one of first order is no cure.
+/// The methods to test with a scene, its own first. Other first-order methods would not help.
 fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     let own = scene.simulation.method;
     let of_use = |method: &&&Method| method.order > 1 && !method.is_of_planets();
@@ -78,10 +78,10 @@ fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     (tried.collect(), untried.collect())
 }
 
-/// How much may be tried, in evaluations of the forces: so many times the run itself,
+/// The budget of the search, in force evaluations: this many times the run itself,
 const RUNS: f64 = 4.0;
 
-/// or so many evaluations of a single body, if that is more: about two seconds.
+/// or this many evaluations of a single body, if that is more: about two seconds.
 const EVALUATIONS: f64 = 6e6;
 
 /// The goal of a trial.
@@ -89,16 +89,16 @@ pub(super) struct Goal<'a> {
     pub(super) scene: &'a Scene,
     pub(super) measured: &'a Measured,
     pub(super) own: Setting,
-    /// The part of the size of the scene by which a point may be off.
+    /// The allowed error of a point, as a fraction of the size of the scene.
     pub(super) accuracy: f64,
-    /// The order that the scene's own method shows.
+    /// The observed order of the scene's own method.
     pub(super) order: Order,
-    /// The size of the scene, m; 0 where the run is too wrong to know it.
+    /// The size of the scene, m; 0 if the run is too inaccurate to tell.
     pub(super) size: f64,
 }
 
 impl Goal<'_> {
-    /// How much may be tried, in evaluations of the forces.
+    /// The budget of the search, in force evaluations.
     pub(super) fn budget(&self) -> f64 {
         let (scene, bodies) = (self.scene, self.measured.bodies.len() as f64);
         let pairs = scene.forces.iter().flat_map(|force| force.kind.acting()).map(|force| force.pairs());
@@ -113,18 +113,18 @@ impl Goal<'_> {
         trial.error.is_some_and(|error| error <= self.accuracy * size)
     }
 
-    /// Tries methods and steps, within the budget; of the scene's own setting it is known what it reaches.
+    /// Tests methods and steps within the budget. `known` are the results of the scene's own setting.
     pub(super) fn search(&self, known: Vec<Trial>, watch: &mut Watch<'_>) -> Result<Trials, Stopped> {
         let mut left = self.budget();
         let (methods, untried) = methods(self.scene);
         let mut trials = Trials { tried: Vec::new(), untried };
-        // The scene's own method comes last: it is known already what it reaches.
+        // The scene's own method comes last, since its accuracy is already known.
         let mut own = Some(known);
         for method in methods.iter().skip(1).chain(&methods[..1]) {
             let is_own = std::ptr::eq(*method, self.own.method);
             let known = if is_own { own.take().unwrap_or_default() } else { Vec::new() };
             if is_own && matches!(self.order, Order::None { .. }) {
-                // No step brings it nearer.
+                // Smaller steps do not help.
                 trials.tried.extend(known);
                 continue;
             }
@@ -144,8 +144,7 @@ impl Goal<'_> {
         Ok(trials)
     }
 
-    /// Tries steps of a method until one reaches the accuracy and none that is much longer does. Says why there is no such step, if
-    /// there is none.
+    /// Tests steps of a method until one reaches the accuracy and no much longer one does. Otherwise gives the reason.
     fn search_method(
         &self,
         method: &'static Method,
@@ -153,12 +152,12 @@ impl Goal<'_> {
         left: &mut f64,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Trial>, Option<String>), Stopped> {
-        /// The number of time steps tried with each method.
+        /// The largest number of steps tested with each method.
         const TRIES: usize = 5;
         for _ in 0..TRIES {
             let Some(steps) = self.next_steps(method, &tried) else { return Ok((tried, None)) };
             let setting = Setting::new(method, steps, self.scene);
-            // The run, and the one at half its step.
+            // The run, and the run at half its step.
             let cost = 3.0 * setting.cost(self.scene);
             if cost > *left {
                 let is_reached = tried.iter().any(|trial| self.reaches(trial));
@@ -175,14 +174,14 @@ impl Goal<'_> {
                 *left *= 0.5;
                 return Ok((tried, Some("it takes more steps than are tried here".to_owned())));
             };
-            // How many steps an adaptive method makes is known afterwards.
+            // The number of steps of an adaptive method is only known afterwards.
             *left -= cost.max(3.0 * trial.evaluations as f64 * f64::from(u8::from(method.adaptive)));
             tried.push(trial);
         }
         Ok((tried, None))
     }
 
-    /// How many steps a frame are worth trying next; none: it is known how many it takes.
+    /// The next number of steps per frame to test. `None` if the right number is known.
     fn next_steps(&self, method: &'static Method, tried: &[Trial]) -> Option<u32> {
         if method.adaptive {
             return match tried.last() {
@@ -191,7 +190,7 @@ impl Goal<'_> {
             };
         }
         let Some(last) = tried.last() else {
-            // As many as take as long as the run.
+            // The number that takes as long as the run.
             let each = evaluations(method).max(1) as f64 / evaluations(self.own.method).max(1) as f64;
             return Some(nice(f64::from(self.own.steps) / each));
         };
@@ -203,7 +202,7 @@ impl Goal<'_> {
         let wanted = self.accuracy * size;
         let from = coarsest_good.unwrap_or(last);
         let steps = f64::from(from.steps_per_frame);
-        // With a margin, by the order of the method.
+        // With a margin, from the order of the method.
         let by_order = |error: f64| libm::pow(1.5 * error / wanted, 1.0 / f64::from(method.order));
         match (coarsest_good, from.error) {
             (Some(good), Some(error)) => {
@@ -213,7 +212,7 @@ impl Goal<'_> {
                 is_new.then_some(coarser)
             }
             (_, Some(error)) => {
-                // An error as large as the scene does not grow any more, so that it says little.
+                // An error as large as the scene cannot grow further, so it gives little information.
                 let least = if error > 0.05 * size { 4.0 } else { 1.2 };
                 Some(nice(steps * by_order(error).clamp(least, 64.0)))
             }
@@ -222,7 +221,7 @@ impl Goal<'_> {
         .filter(|steps| *steps < u32::MAX / 4)
     }
 
-    /// Makes a run and the same at half its step; none where an adaptive method takes more than half of the evaluations of the forces that are left.
+    /// Makes a run, and the same at half its step. `None` if an adaptive method takes more than half of the remaining force evaluations.
     fn attempt(&self, setting: Setting, left: f64, watch: &mut Watch<'_>) -> Result<Option<Trial>, Stopped> {
         let scene = self.scene;
         let settings = [setting, setting.finer(2)];
@@ -281,13 +280,13 @@ impl Goal<'_> {
     }
 }
 
-/// The trial that costs least among those that reach the accuracy.
+/// The cheapest trial that reaches the accuracy.
 pub(super) fn cheapest(trials: &[Trial]) -> Option<usize> {
     let good = trials.iter().enumerate().filter(|(_, trial)| trial.reaches);
     good.min_by_key(|(_, trial)| (trial.evaluations, trial.steps)).map(|(place, _)| place)
 }
 
-/// The least of 1, 2, 4, 5, 8, 10, 20, 40 … that is not below a number.
+/// The smallest of 1, 2, 4, 5, 8, 10, 20, 40 … that is at least the given number.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -15,7 +15,7 @@ use crate::simulate::evaluations;
 /// The verdict on an integrated run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// The error of the energy where it is largest, relative to the largest kinetic energy.
+    /// The largest energy error, relative to the largest kinetic energy.
     pub drift: f64,
     /// The energy in each account at the end, J; empty accounts are left out.
     pub accounts: Vec<(&'static str, f64)>,
@@ -23,23 +23,23 @@ pub struct Verdict {
     pub linear_momentum: Conserved,
     /// Angular momentum about the origin.
     pub angular_momentum: Conserved,
-    /// The size of the scene: the diagonal of the box in which bodies move, m.
+    /// The size of the scene: the diagonal of the box around the motion of bodies, m.
     pub size: f64,
-    /// How far any point of a body is off at most, m.
+    /// The largest error of any point of a body, m.
     pub error: f64,
     /// The error of each body that forces move, the largest first.
     pub bodies: Vec<BodyError>,
-    /// The order that the runs show.
+    /// The observed order of the method.
     pub order: Order,
-    /// How neighbours part.
+    /// The separation of neighbours.
     pub neighbours: Parting,
-    /// The mean exponential growth of their distance, by which that is told: 2 for most regular motion; 0 where it is not known.
+    /// The mean exponential growth of their distance, which is its criterion: 2 for most regular motion; 0 if unknown.
     pub megno: f64,
-    /// Until when the run reaches the wanted accuracy.
+    /// The time until which the run reaches the wanted accuracy.
     pub trusted: Trusted,
-    /// Until when no point is off by more than 1 % of the size of the scene.
+    /// The time until which no point has an error above 1 % of the size of the scene.
     pub trusted_to_a_percent: Trusted,
-    /// Which of the runs broke down.
+    /// The runs that broke down.
     pub broken: Vec<Broken>,
     /// The curves of a plot.
     #[serde(skip)]
@@ -49,17 +49,17 @@ pub struct Verdict {
 /// The curves of a plot, frame by frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    /// s
+    /// The times, s.
     pub(super) times: Vec<f64>,
-    /// The error of the energy, relative to the largest kinetic energy.
+    /// The energy error, relative to the largest kinetic energy.
     pub(super) drift: Vec<f64>,
-    /// How far any point is off at most, as a part of the size of the scene.
+    /// The largest error of any point, as a fraction of the size of the scene.
     pub(super) error: Vec<f64>,
-    /// How far the twin is apart, as a part of how far it can be.
+    /// The distance of the twin, as a fraction of the largest possible distance.
     pub(super) neighbours: Vec<f64>,
 }
 
-/// Whether a momentum is kept.
+/// The conservation of a momentum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Conserved {
@@ -67,74 +67,74 @@ pub enum Conserved {
     Still,
     /// External forces change it, at any step.
     Changed,
-    /// It would stay the same, and is off by this part of the sum of all magnitudes.
+    /// It should be conserved; this is its error.
     Kept {
         /// The largest change, relative to the largest sum of the magnitudes of all momenta.
         drift: f64,
     },
 }
 
-/// How far a body is off.
+/// The error of a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyError {
     /// Its name.
     pub body: String,
-    /// How far its centre is off at most, m.
+    /// The largest error of its centre, m.
     pub place: f64,
-    /// When, s.
+    /// The time of the largest error, s.
     pub time: f64,
-    /// How far it travels, m.
+    /// The length of its path, m.
     pub way: f64,
-    /// How much its orientation is off at most, degrees.
+    /// The largest error of its orientation, degrees.
     pub orientation: f64,
 }
 
-/// How the error falls with the step.
+/// The decrease of the error with the step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Order {
-    /// The runs differ by rounding alone.
+    /// The runs differ only by rounding errors.
     Rounding,
     /// Too few frames can be compared.
     Unknown,
-    /// The error falls as the method promises.
+    /// The error decreases with the order of the method.
     Nominal {
-        /// The order that was measured.
+        /// The measured order.
         measured: f64,
     },
-    /// The error falls, but otherwise.
+    /// The error decreases with another order.
     Other {
-        /// The order that was measured.
+        /// The measured order.
         measured: f64,
     },
     /// The method chooses its steps, and the error falls with its tolerance.
     Adaptive,
-    /// The runs do not come nearer to each other as the step falls: nobody knows the error.
+    /// The differences of the runs do not decrease with the step, so the error is unknown.
     None {
-        /// The order that was measured.
+        /// The measured order.
         measured: f64,
     },
 }
 
-/// Until when a run reaches an accuracy.
+/// The time until which a run reaches an accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Trusted {
-    /// The time of the last frame that does, s; none: not even the first after the start.
+    /// The time of the last such frame, s; `None` if not even the first frame after the start is accurate.
     pub until: Option<f64>,
     /// Its number.
     pub frame: usize,
-    /// Whether it is the last of the run.
+    /// Whether it is the last frame of the run.
     pub to_the_end: bool,
 }
 
 /// A run that broke down.
 #[derive(Clone, Debug, Serialize)]
 pub struct Broken {
-    /// Which.
+    /// Its name.
     pub run: &'static str,
-    /// The time of the last frame before, s.
+    /// The time of the last frame, s.
     pub after: Option<f64>,
-    /// Why.
+    /// The reason.
     pub why: String,
 }
 
@@ -145,14 +145,13 @@ impl Broken {
 }
 
 impl Order {
-    /// The observed order. It uses only times at which the runs are close to each other; elsewhere, their difference says
-    /// nothing.
+    /// The observed order. It uses only times at which the runs are close to each other; elsewhere, their difference is meaningless.
     fn of(compared: &Compared, method: &Method) -> Order {
-        /// Differences below this part of the size are rounding.
+        /// Differences below this fraction of the size count as rounding.
         const ROUNDING: f64 = 1e-11;
-        /// The runs are near each other up to this part of the size,
+        /// The runs count as close up to this fraction of the size,
         const NEAR: f64 = 0.05;
-        /// and so much of an order is no difference.
+        /// and orders that differ by less than this count as equal.
         const SAME: f64 = 0.35;
         let far = |moment: &&Moment| moment.off.is_some_and(|off| off <= NEAR * compared.size);
         let near = compared.moments.iter().skip(1).take_while(far).filter_map(|moment| moment.squares);
@@ -240,12 +239,12 @@ impl Verdict {
         }
     }
 
-    /// Whether the run is right enough to know how large it is.
+    /// Whether the run is accurate enough to know its size.
     pub(super) fn knows_the_size(&self) -> bool {
         self.error < 0.1 * self.size && self.broken.is_empty()
     }
 
-    /// The trials of the scene's own method, which are known already: at the step, and at half of it.
+    /// The known trials of the scene's own method: at its step, and at half of it.
     pub(super) fn known(&self, scene: &Scene, own: Setting, compared: &Compared) -> Vec<Trial> {
         let factor = self.order.factor(own.method);
         let errors = [self.error, factor * compared.off_at_half];
@@ -275,9 +274,9 @@ impl Verdict {
     }
 }
 
-/// Whether a momentum is kept: what changes it from outside does so at half the step as well; an error is less there.
+/// Whether a momentum is conserved. A change from outside is the same at half the step; an error becomes smaller.
 fn conserved(compared: &Compared, kind: usize) -> Conserved {
-    /// A change below this part is an error, whatever it is at half the step.
+    /// A change below this fraction is an error, even if it is the same at half the step.
     const SMALL: f64 = 1e-9;
     let most = compared.momenta[kind];
     if most == 0.0 {
@@ -295,7 +294,7 @@ fn conserved(compared: &Compared, kind: usize) -> Conserved {
 }
 
 impl Trusted {
-    /// Until when a run is off by at most so many metres.
+    /// The time until which a run's error is at most `most` metres.
     fn of(compared: &Compared, factor: f64, most: f64, ended: bool) -> Trusted {
         let is_right = |moment: &&Moment| moment.off.is_some_and(|off| factor * off <= most);
         let frames = compared.moments.iter().take_while(is_right).count();

@@ -1,4 +1,4 @@
-//! An axis: from values to the part of its length, and the values that are named along it.
+//! An axis: it maps values to fractions of its length, and chooses its labels.
 
 use super::text::digits;
 
@@ -9,10 +9,10 @@ pub(super) struct Axis {
     is_logarithmic: bool,
 }
 
-/// The most steps between the values at an axis.
+/// The largest number of steps between labels.
 const TICKS: f64 = 6.0;
 
-/// Less than this is nothing.
+/// Smaller values count as zero.
 const LEAST: f64 = 1e-18;
 
 impl Axis {
@@ -21,7 +21,7 @@ impl Axis {
         Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: false }
     }
 
-    /// Around all values and zero, a little wider than these.
+    /// Around all values and zero, with a small margin.
     pub(super) fn around<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
         let finite = values.filter(|value| value.is_finite());
         let (min, max) =
@@ -32,7 +32,7 @@ impl Axis {
         }
     }
 
-    /// In whole powers of ten around all values that are larger than nothing.
+    /// In whole powers of ten around all values that do not count as zero.
     pub(super) fn logarithmic<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
         let positive = values.filter(|value| value.is_finite() && **value > LEAST).map(|v| libm::log10(*v));
         let range = positive.fold(None, |range: Option<[f64; 2]>, value| match range {
@@ -44,13 +44,13 @@ impl Axis {
         Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: true }
     }
 
-    /// The place of a value along the axis, 0 to 1.
+    /// The position of a value along the axis, 0 to 1.
     pub(super) fn part(&self, value: f64) -> f64 {
         let place = if self.is_logarithmic { libm::log10(value.max(LEAST)) } else { value };
         (place - self.min) / (self.max - self.min)
     }
 
-    /// The values that are named, each with its name.
+    /// The labelled values with their labels.
     pub(super) fn ticks(&self) -> Vec<(f64, String)> {
         let range = self.max - self.min;
         if self.is_logarithmic {
@@ -69,7 +69,7 @@ impl Axis {
     }
 }
 
-/// Values at equal distances, not beyond the last.
+/// Equidistant values up to the last.
 fn steps(first: f64, every: f64, last: f64) -> impl Iterator<Item = f64> {
     (0..20).map(move |k| first + f64::from(k) * every).take_while(move |value| *value <= last + 1e-9 * every)
 }

@@ -1,10 +1,10 @@
-//! Charts of several curves with logarithmic axes: errors over what they cost.
+//! Charts of several curves with logarithmic axes: errors over costs.
 
 use super::axis::Axis;
 use super::{Anchor, FAINT_INK, GRID, INK, Picture, Rgb};
 
-/// The colors of curves, which are told apart also by eyes that do not see red and green. Source: M. Okabe & K. Ito, *Color Universal Design*
-/// (2008), with yellow made darker.
+/// The colors of curves, which people with red–green color blindness can distinguish. Source: M. Okabe & K. Ito, *Color Universal Design*
+/// (2008), with a darker yellow.
 const COLORS: [Rgb; 8] = [
     [0, 0, 0],
     [230, 159, 0],
@@ -21,16 +21,16 @@ const TOP: f64 = 92.0;
 const LEFT: f64 = 90.0;
 const GAP: [f64; 2] = [100.0, 96.0];
 const SIZE: [f64; 2] = [430.0, 330.0];
-/// Charts stand side by side in rows of so many.
+/// The number of charts in a row.
 const COLUMNS: usize = 2;
-/// The width of a letter, and of the piece of a curve before a name.
+/// The width of a letter, and of the sample line before a name.
 const LETTER: f64 = 9.0;
 const SAMPLE: f64 = 26.0;
 
-/// A curve through points: what it has cost, and the error.
+/// A curve through points: costs and errors.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Its name. Curves of the same name have the same color in all charts.
+    /// Its name. Curves with the same name have the same color in all charts.
     pub name: String,
     /// Its points.
     pub points: Vec<[f64; 2]>,
@@ -139,7 +139,7 @@ mod tests {
             .collect();
         assert_eq!(curves.len(), 3);
         assert!(curves[0].1 == curves[2].1 && curves[0].1 != curves[1].1);
-        // A power law is straight.
+        // A power law is a straight line.
         let points = &curves[0].0;
         assert!((points[0][1] + points[2][1] - 2.0 * points[1][1]).abs() < 1e-9);
         assert_eq!((points[0], points[2][0] - points[0][0]), ([LEFT, TOP + 26.0], SIZE[0]));

@@ -1,6 +1,6 @@
-//! An assessment as a picture: the drift of the energy, the error and the distance of neighbours over time.
+//! An assessment as a picture: the energy drift, the error and the distance of neighbours over time.
 //!
-//! The picture is a list of lines and texts in pixels, from which an SVG and a PNG are made alike.
+//! The picture is a list of lines and texts in pixels; an SVG and a PNG are made from the same list.
 
 mod axis;
 mod chart;
@@ -32,11 +32,11 @@ const WIDTH: f64 = 1100.0;
 const LEFT: f64 = 120.0;
 const RIGHT: f64 = 40.0;
 const TOP: f64 = 92.0;
-/// The height of a panel, and the distance from the lower edge of one to the upper edge of the next.
+/// The height of a panel, and the distance between two panels.
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 66.0;
 
-/// The point of a text that its place gives: start, middle or end.
+/// The point of a text at its position: start, middle or end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Anchor {
     Start,
@@ -44,7 +44,7 @@ enum Anchor {
     End,
 }
 
-/// An element of a picture. Places are in pixels, from the upper left corner.
+/// An element of a picture. Positions are in pixels, from the upper left corner.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Line {
@@ -62,7 +62,7 @@ enum Item {
     },
 }
 
-/// A picture that is not drawn yet.
+/// A picture in the form of its elements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     width: f64,
@@ -76,13 +76,13 @@ struct Panel<'a> {
     times: &'a [f64],
     values: Vec<f64>,
     is_logarithmic: bool,
-    /// A value that is marked.
+    /// A marked value.
     mark: Option<f64>,
     color: Rgb,
 }
 
 impl Picture {
-    /// The picture of an assessment, under a title; none where nothing is integrated.
+    /// The picture of an assessment, under a title. `None` if nothing is integrated.
     pub fn of(assessment: &Assessment, title: &str) -> Option<Picture> {
         let verdict = assessment.verdict.as_ref()?;
         let panels = panels(assessment, verdict);
@@ -115,7 +115,7 @@ impl Picture {
         LEFT + times.part(time) * (self.width - LEFT - RIGHT)
     }
 
-    /// A thin line along an axis, which is sharp on pixels.
+    /// A thin line along an axis, aligned to pixels.
     fn rule(&mut self, points: Vec<[f64; 2]>, color: Rgb) {
         let onto_pixels = |point: [f64; 2]| point.map(|place| place.floor() + 0.5);
         self.line(points.into_iter().map(onto_pixels).collect(), 1.0, color);
@@ -152,7 +152,7 @@ impl Picture {
             self.rule(vec![[left, y(mark)], [right, y(mark)]], FAINT_INK);
         }
         let points = panel.times.iter().zip(&panel.values);
-        // Zero has no place on a logarithmic axis.
+        // Zero cannot be shown on a logarithmic axis.
         let points =
             points.filter(|(_, value)| value.is_finite() && (!panel.is_logarithmic || **value > 0.0));
         let points = points.map(|(time, value)| [self.across(times, *time), y(*value).clamp(top, bottom)]);
@@ -204,7 +204,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
     ]
 }
 
-/// A curve without the points that nobody can see: of those within a pixel's width, the first, the highest, the lowest and the last.
+/// A curve without invisible points: within a pixel's width, the first, highest, lowest and last point remain.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     let mut rest = points;

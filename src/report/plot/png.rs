@@ -49,7 +49,7 @@ struct Canvas {
     reason = "places are within some thousand pixels"
 )]
 impl Canvas {
-    /// Draws a polyline: a pixel is covered by how near its middle is to the nearest piece.
+    /// Draws a polyline. The coverage of a pixel depends on the distance of its centre from the nearest segment.
     fn line(&mut self, points: &[[f64; 2]], width: f64, color: Rgb) {
         let reach = width / 2.0 + 1.0;
         let bound = |axis: usize, end: usize| {
@@ -90,7 +90,7 @@ impl Canvas {
         }
     }
 
-    /// Writes a text, of the letters of ASCII; a question mark stands for each other one.
+    /// Writes a text in ASCII letters; a question mark replaces each other letter.
     fn text(&mut self, [x, y]: [f64; 2], text: &str, (anchor, large): (Anchor, bool), color: Rgb) {
         let letters = if large { RasterHeight::Size20 } else { RasterHeight::Size16 };
         let advance = get_raster_width(FontWeight::Regular, letters) as f64;
@@ -123,7 +123,7 @@ impl Canvas {
     }
 }
 
-/// Puts a color over a pixel, by a part of 255.
+/// Blends a color into a pixel, with a weight of up to 255.
 fn mix(pixel: &mut [u8; 3], color: Rgb, part: u8) {
     for (byte, ink) in pixel.iter_mut().zip(color) {
         let (ground, ink, part) = (u32::from(*byte), u32::from(ink), u32::from(part));

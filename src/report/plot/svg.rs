@@ -14,7 +14,7 @@ pub fn svg(picture: &Picture) -> String {
         hex(GROUND)
     );
     for item in &picture.items {
-        // A text cannot fail to grow.
+        // Writing to a string cannot fail.
         let _ = match item {
             Item::Line { points, width, color } => {
                 let points: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
@@ -49,7 +49,7 @@ fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// A text between tags. What XML cannot hold is left out.
+/// Text between tags. Characters that XML does not allow are left out.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().filter(|c| !c.is_control()) {
