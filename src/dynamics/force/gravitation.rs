@@ -19,8 +19,8 @@ pub struct Gravitation {
     pub constant: f64,
     /// The softening length ε, m.
     pub softening: f64,
-    /// The opening angle of the tree: the largest ratio of size to distance at which a group of bodies acts as a whole, above 0 and up to
-    /// 1. `None` sums over all pairs.
+    /// The opening angle of the tree, above 0 and up to 1: the largest ratio of size to distance at which a group of bodies acts as a
+    /// whole. `None` sums over all pairs.
     ///
     /// The forces of the tree are not exactly opposite, and not exactly the gradient of its potential. So momentum and energy drift by
     /// about the error of the forces, 4e-4 at an angle of 0.5.

@@ -11,7 +11,7 @@
 //! | with joints: runs of masks, and numbers, in the same way | |
 //! | with counted impacts: runs of masks, and counts, in the same way | |
 //! | with counted impacts: the number of contacts, and for each: two bodies, position, normal, force, friction | `u32`; `f64` |
-//! | likewise: the number of impacts since the last moment, and for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
+//! | likewise: the number of impacts since the last moment; for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
 //!
 //! A bit of a mask marks a changed column: for a body, location, orientation, velocity, angular velocity, force; for a joint, force and
 //! torque. Before the first moment of a page, all bodies are at rest at the origin, and all joints are without load.
