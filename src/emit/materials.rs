@@ -150,7 +150,8 @@ impl MaterialText {
     /// A pattern is made for a ball of radius 1. Its size on a body is that for a ball of the same drawn volume: a crate has as
     /// many rings of wood as a matchbox.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
-        let (Pattern::Centred | Pattern::Cut, Some(volume)) = (self.pattern, body.drawn().volume()) else {
+        let (Pattern::Centred | Pattern::Cut, Some(radius)) = (self.pattern, body.drawn().radius_of_ball())
+        else {
             return self.usage();
         };
         let mut place = String::new();
@@ -159,7 +160,7 @@ impl MaterialText {
             Style { unit: 1.0, ..style }.vector(&mut place, of_name(&body.name));
         }
         place.push_str(" scale ");
-        style.length(&mut place, libm::cbrt(volume * 0.75 / std::f64::consts::PI));
+        style.length(&mut place, radius);
         let no_shadow = if self.glows { " no_shadow" } else { "" };
         format!("material {{ {}{place} }}{no_shadow}", self.identifier)
     }

@@ -220,7 +220,7 @@ fn placed(scene: &Scene) -> Vec<PieceText> {
     let mut all = Vec::new();
     for (number, body) in scene.bodies.iter().enumerate() {
         let drawn = body.drawn();
-        let radius = drawn.volume().map_or(1.0, |volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
+        let radius = drawn.radius_of_ball().unwrap_or(1.0);
         all.extend(pieces(&drawn).into_iter().map(|piece| {
             let Piece { form, scale, location, orientation, color } = piece;
             PieceText {

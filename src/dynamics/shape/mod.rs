@@ -132,6 +132,11 @@ impl Shape {
         })
     }
 
+    /// The radius of a ball of the same volume, m; `None` where there is no volume.
+    pub(crate) fn radius_of_ball(&self) -> Option<f64> {
+        self.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI))
+    }
+
     /// The principal moments of inertia, kg m², of a homogeneous solid of `mass` kg.
     ///
     /// A plane has no finite moments, and a mesh that is not closed has none that are known; zero stands for them, which

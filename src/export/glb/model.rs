@@ -74,7 +74,7 @@ impl Model<'_> {
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
         // A pattern is made for a ball of radius 1. A body gets the pattern of a ball with its volume.
-        let ball = body.shape.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI));
+        let ball = body.shape.radius_of_ball();
         for mut piece in pieces {
             let mut pattern = ball;
             if piece.form == Form::PLANE {
