@@ -2,7 +2,7 @@
 
 #[cfg(feature = "render")]
 use crate::cache;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::{EmitError, Emitter};
 use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
@@ -284,6 +284,32 @@ fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
     Diagnostic::warning(Code::Overlap, message).help(format!("they pass through each other; {STOPS}"))
+}
+
+impl RunError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> Code {
+        match self {
+            RunError::Simulate(error) => error.code(),
+            RunError::Emit(error) => error.code(),
+        }
+    }
+
+    /// The error as a diagnostic, with its places in the scene or a template.
+    pub fn report(&self) -> Report {
+        match self {
+            RunError::Simulate(error) => error.report(),
+            RunError::Emit(error) => error.report(),
+        }
+    }
+
+    /// A way to mend it, unless the message makes it plain.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            RunError::Simulate(error) => error.help(),
+            RunError::Emit(_) => None,
+        }
+    }
 }
 
 impl From<SimulateError> for RunError {

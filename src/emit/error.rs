@@ -24,6 +24,26 @@ pub enum EmitError {
 }
 
 impl EmitError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> Code {
+        match self {
+            EmitError::Indistinct(_) => Code::Indistinct,
+            EmitError::OutOfRange { .. } | EmitError::Blind { .. } | EmitError::Template(_) => {
+                Code::CannotEmit
+            }
+        }
+    }
+
+    /// The error as a diagnostic, with its place if it has one.
+    pub fn report(&self) -> Report {
+        match self {
+            EmitError::Template(report) | EmitError::Indistinct(report) => report.clone(),
+            EmitError::OutOfRange { .. } | EmitError::Blind { .. } => {
+                Report::of_error(self.code(), self.to_string())
+            }
+        }
+    }
+
     /// The error of a template: in which file, with which text, and where in it.
     pub(super) fn of_template(
         error: &minijinja::Error,

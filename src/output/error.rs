@@ -6,8 +6,6 @@ use std::path::PathBuf;
 
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::emit::EmitError;
-use crate::simulate::{Broken, Diverged, SimulateError, Stalled, Stuck, Undefined};
 
 /// Why scripts could not be written or compared.
 #[derive(Debug)]
@@ -28,20 +26,8 @@ pub enum OutputError {
     Locked(PathBuf),
     /// A file could not be read, written or removed.
     Io(PathBuf, io::Error),
-    /// The state became non-finite.
-    Diverged(Diverged),
-    /// A force has no finite value.
-    Undefined(Box<Undefined>),
-    /// A joint cannot be kept.
-    Broken(Broken),
-    /// A contact cannot be computed.
-    Stuck(Box<Stuck>),
-    /// No step is short enough for a body.
-    Stalled(Box<Stalled>),
-    /// The recording of the run could not be written or read.
-    Recording(String),
-    /// A script cannot be written.
-    Emit(EmitError),
+    /// The run cannot be simulated, read or drawn.
+    Run(RunError),
 }
 
 impl OutputError {
@@ -56,76 +42,27 @@ impl OutputError {
             OutputError::Locked(_) => Code::FolderLocked,
             OutputError::Io(_, error) if is_full(error) => Code::DiskFull,
             OutputError::Io(..) => Code::CannotWrite,
-            OutputError::Diverged(_) => Code::Diverged,
-            OutputError::Undefined(undefined) => undefined.why.0,
-            OutputError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
-            OutputError::Broken(_) => Code::BrokenJoint,
-            OutputError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
-            OutputError::Stuck(_) => Code::Jammed,
-            OutputError::Stalled(_) => Code::Stalled,
-            OutputError::Recording(_) => Code::NoRecording,
-            OutputError::Emit(EmitError::Indistinct(_)) => Code::Indistinct,
-            OutputError::Emit(_) => Code::CannotEmit,
+            OutputError::Run(error) => error.code(),
         }
     }
 
-    /// The error as a diagnostic; that of a template with its place.
+    /// The error as a diagnostic; that of a run with its places in the scene or a template.
     pub fn report(&self) -> Report {
-        if let OutputError::Emit(EmitError::Template(report) | EmitError::Indistinct(report)) = self {
-            return report.clone();
+        if let OutputError::Run(error) = self {
+            return error.report();
         }
         let diagnostic = Diagnostic::error(self.code(), self.to_string());
         let diagnostic = match self.help() {
             Some(help) => diagnostic.help(help),
             None => diagnostic,
         };
-        if let OutputError::Broken(Broken { place: (Some(span), sources), .. }) = self {
-            return Report { sources: sources.clone(), diagnostics: vec![diagnostic.at(*span, "")] };
-        }
-        if let OutputError::Undefined(undefined) = self
-            && let (Some(span), sources) = &undefined.place
-        {
-            let diagnostic = diagnostic.at(*span, undefined.why.2.clone());
-            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
-        }
-        if let OutputError::Stalled(stalled) = self {
-            let (span, sources) = &stalled.place;
-            let diagnostic = span.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, ""));
-            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
-        }
-        if let OutputError::Stuck(stuck) = self {
-            let (spans, sources) = &stuck.place;
-            let diagnostic = spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, ""));
-            return Report { sources: sources.clone(), diagnostics: vec![diagnostic] };
-        }
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
     /// A way to mend it, unless the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            OutputError::Diverged(_) => Some(
-                "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
-            ),
-            OutputError::Broken(broken) if broken.time == 0.0 => Some(
-                "with the other joints of its bodies, it cannot: their lengths and points contradict each other",
-            ),
-            OutputError::Broken(_) => Some(
-                "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
-            ),
-            OutputError::Stuck(stuck) if stuck.depth.is_some() => Some(
-                "move them apart, or let them pass through each other: `collides = false`, or the same `collision_group`",
-            ),
-            OutputError::Stuck(_) => Some(
-                "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
-            ),
-            OutputError::Stalled(_) => Some(
-                "two point-like bodies may meet there: give `gravitation` or `coulomb` a `softening`, move them, or end the scene before that \
-                 time: `--set simulation.duration=…`",
-            ),
-            OutputError::Recording(_) => Some(
-                "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
-            ),
+            OutputError::Run(error) => error.help(),
             OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
             OutputError::Link(_) => Some("remove the link"),
             OutputError::Locked(_) => {
@@ -168,44 +105,17 @@ impl fmt::Display for OutputError {
                 write!(f, "another jabuka writes to the folder `{}`", path.display())
             }
             OutputError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
-            OutputError::Diverged(error) => error.fmt(f),
-            OutputError::Undefined(error) => error.fmt(f),
-            OutputError::Broken(error) => error.fmt(f),
-            OutputError::Stuck(error) => error.fmt(f),
-            OutputError::Stalled(error) => error.fmt(f),
-            OutputError::Recording(message) => write!(f, "the run could not be recorded: {message}"),
-            OutputError::Emit(error) => error.fmt(f),
+            OutputError::Run(RunError::Simulate(error)) => f.write_str(&error.message()),
+            OutputError::Run(RunError::Emit(error)) => error.fmt(f),
         }
     }
 }
 
 impl std::error::Error for OutputError {}
 
-impl From<SimulateError> for OutputError {
-    fn from(error: SimulateError) -> OutputError {
-        match error {
-            SimulateError::Diverged(error) => OutputError::Diverged(error),
-            SimulateError::Undefined(error) => OutputError::Undefined(error),
-            SimulateError::Broken(error) => OutputError::Broken(error),
-            SimulateError::Stuck(error) => OutputError::Stuck(error),
-            SimulateError::Stalled(error) => OutputError::Stalled(error),
-            SimulateError::Recording(message) => OutputError::Recording(message),
-        }
-    }
-}
-
-impl From<EmitError> for OutputError {
-    fn from(error: EmitError) -> OutputError {
-        OutputError::Emit(error)
-    }
-}
-
-impl From<RunError> for OutputError {
-    fn from(error: RunError) -> OutputError {
-        match error {
-            RunError::Simulate(error) => error.into(),
-            RunError::Emit(error) => error.into(),
-        }
+impl<E: Into<RunError>> From<E> for OutputError {
+    fn from(error: E) -> OutputError {
+        OutputError::Run(error.into())
     }
 }
 

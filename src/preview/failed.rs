@@ -3,6 +3,7 @@
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
+use crate::RunError;
 use crate::diagnostic::Report;
 use crate::output::OutputError;
 use crate::render::RenderError;
@@ -25,6 +26,12 @@ impl From<std::io::Error> for Failed {
 
 impl From<OutputError> for Failed {
     fn from(error: OutputError) -> Failed {
+        Failed::Report(error.report())
+    }
+}
+
+impl From<RunError> for Failed {
+    fn from(error: RunError) -> Failed {
         Failed::Report(error.report())
     }
 }

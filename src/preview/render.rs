@@ -11,7 +11,7 @@ use super::failed::Failed;
 use super::run::{RunId, Simulation};
 use crate::Run;
 use crate::diagnostic::{Code, Report};
-use crate::output::{self, Folder, OutputError};
+use crate::output::{self, Folder};
 use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
 use crate::simulate::Recorded;
@@ -99,10 +99,10 @@ impl Renderer {
         }
         let scene = &run.scene;
         let recorded = Recorded::of_parts(scene, run.recording(), outcome.survey.clone());
-        let whole = Run::of(recorded).map_err(OutputError::from)?;
+        let whole = Run::of(recorded)?;
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
-        let seen = seen.map_err(OutputError::from)?.unwrap_or(whole);
+        let seen = seen?.unwrap_or(whole);
         // Scripts that belong to no scene go to this folder: nothing in it is a script.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));

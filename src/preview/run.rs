@@ -13,13 +13,11 @@ use super::swarms;
 use crate::cache::{Cache, Spill};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::dynamics::Effort;
-use crate::output::OutputError;
 use crate::picture::Plan;
 use crate::simulate::{
-    Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, SimulateError,
-    Survey,
+    Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, Survey,
 };
-use crate::{Run, RunError, Scene};
+use crate::{Run, Scene};
 
 /// The number of a run, unique within a server, so that data of one run never pass for another's.
 pub(super) type RunId = u64;
@@ -172,7 +170,7 @@ impl Simulation {
         let plan = |camera| Plan::new(scene, camera, &survey);
         let views = scene.views.iter().map(|view| plan(&view.camera));
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
-        let run = Run::of(recorded).map_err(failed)?;
+        let run = Run::of(recorded).map_err(|error| error.report())?;
         let mut diagnostics = run.warnings();
         for (name, stride) in swarms::thinned(self) {
             let message = format!("this page shows 1 of {stride} particles of `{name}`");
@@ -209,7 +207,7 @@ impl Simulation {
         let mut recorder =
             Recorder::new(scene, self.moments.clone(), &Effort::default(), Box::new(spill.clone()));
         self.show(Arc::clone(recorder.recording()));
-        while recorder.advance().map_err(broken)?.is_some() {
+        while recorder.advance().map_err(|error| error.report())?.is_some() {
             if self.cancelled.load(Ordering::Relaxed) {
                 return Err(Report::default());
             }
@@ -219,7 +217,7 @@ impl Simulation {
                 told = Instant::now();
             }
         }
-        let recorded = recorder.finish().map_err(broken)?;
+        let recorded = recorder.finish().map_err(|error| error.report())?;
         self.cache.keep(&spill, recorded.recording(), begun.elapsed());
         Ok(recorded)
     }
@@ -229,7 +227,7 @@ impl Simulation {
         let mut collected = PastOfRun { bounds: recorded.survey().bounds(), ..PastOfRun::default() };
         if Frames::recorded(&self.scene, recorded.recording()).remember_anything() {
             for frame in recorded.frames() {
-                let frame = frame.map_err(broken)?;
+                let frame = frame.map_err(|error| error.report())?;
                 collected.ghosts = frame.past.ghosts;
                 if !frame.past.lagging.is_empty() {
                     collected.lagging.push(frame.past.lagging);
@@ -239,14 +237,6 @@ impl Simulation {
         *self.past.lock().unwrap_or_else(PoisonError::into_inner) = collected;
         Ok(())
     }
-}
-
-fn broken(error: SimulateError) -> Report {
-    OutputError::from(error).report()
-}
-
-fn failed(error: RunError) -> Report {
-    OutputError::from(error).report()
 }
 
 pub(super) fn no_room(error: &io::Error) -> Report {

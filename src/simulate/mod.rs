@@ -17,6 +17,7 @@
 
 mod asked;
 mod build;
+mod diagnose;
 mod exposure;
 mod frame;
 mod frames;

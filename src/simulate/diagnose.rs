@@ -1,0 +1,91 @@
+//! Why a run cannot be simulated, as a diagnostic.
+
+use super::{Broken, SimulateError};
+use crate::diagnostic::{Code, Diagnostic, Report, Sources};
+
+impl SimulateError {
+    /// The kind of mistake, as a diagnostic's code.
+    pub fn code(&self) -> Code {
+        match self {
+            SimulateError::Diverged(_) => Code::Diverged,
+            SimulateError::Undefined(undefined) => undefined.why.0,
+            SimulateError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
+            SimulateError::Broken(_) => Code::BrokenJoint,
+            SimulateError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
+            SimulateError::Stuck(_) => Code::Jammed,
+            SimulateError::Stalled(_) => Code::Stalled,
+            SimulateError::Recording(_) => Code::NoRecording,
+        }
+    }
+
+    /// The message of the diagnostic.
+    pub fn message(&self) -> String {
+        match self {
+            SimulateError::Recording(message) => format!("the run could not be recorded: {message}"),
+            SimulateError::Diverged(_)
+            | SimulateError::Undefined(_)
+            | SimulateError::Broken(_)
+            | SimulateError::Stuck(_)
+            | SimulateError::Stalled(_) => self.to_string(),
+        }
+    }
+
+    /// The error as a diagnostic, with its places in the scene.
+    pub fn report(&self) -> Report {
+        let diagnostic = Diagnostic::error(self.code(), self.message());
+        let diagnostic = match self.help() {
+            Some(help) => diagnostic.help(help),
+            None => diagnostic,
+        };
+        let (diagnostic, sources) = match self {
+            SimulateError::Broken(Broken { place: (Some(span), sources), .. }) => {
+                (diagnostic.at(*span, ""), sources.clone())
+            }
+            SimulateError::Undefined(undefined) => match &undefined.place {
+                (Some(span), sources) => (diagnostic.at(*span, undefined.why.2.clone()), sources.clone()),
+                (None, _) => (diagnostic, Sources::default()),
+            },
+            SimulateError::Stalled(stalled) => {
+                let (span, sources) = &stalled.place;
+                (span.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, "")), sources.clone())
+            }
+            SimulateError::Stuck(stuck) => {
+                let (spans, sources) = &stuck.place;
+                (spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, "")), sources.clone())
+            }
+            SimulateError::Diverged(_) | SimulateError::Broken(_) | SimulateError::Recording(_) => {
+                (diagnostic, Sources::default())
+            }
+        };
+        Report { sources, diagnostics: vec![diagnostic] }
+    }
+
+    /// A way to mend it, unless the message makes it plain.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            SimulateError::Diverged(_) => Some(
+                "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+            ),
+            SimulateError::Broken(broken) if broken.time == 0.0 => Some(
+                "with the other joints of its bodies, it cannot: their lengths and points contradict each other",
+            ),
+            SimulateError::Broken(_) => Some(
+                "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
+            ),
+            SimulateError::Stuck(stuck) if stuck.depth.is_some() => Some(
+                "move them apart, or let them pass through each other: `collides = false`, or the same `collision_group`",
+            ),
+            SimulateError::Stuck(_) => Some(
+                "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
+            ),
+            SimulateError::Stalled(_) => Some(
+                "two point-like bodies may meet there: give `gravitation` or `coulomb` a `softening`, move them, or end the scene before that \
+                 time: `--set simulation.duration=…`",
+            ),
+            SimulateError::Recording(_) => Some(
+                "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
+            ),
+            SimulateError::Undefined(_) => None,
+        }
+    }
+}
