@@ -117,7 +117,7 @@ impl Spans {
         self.now.as_ref().map(|(span, _)| span.bounds)
     }
 
-    /// The whole run without the few bodies that fly far away. `None` if there are none, or if arrows are shown, since these may reach
+    /// The whole run without the bodies that fly far away. `None` if there are none, or if arrows are shown, since these may reach
     /// far themselves.
     pub(super) fn without_strays(&self, scene: &Scene) -> Option<Span> {
         if self.has_arrows {

@@ -26,7 +26,7 @@ pub struct Survey {
     /// The space that the run takes, from the start to several moments; the last is the end. A body counts until it passes through a
     /// plane. Empty if all bodies are planes.
     pub spans: Vec<Span>,
-    /// The space of the whole run without a few of many bodies that fly far away; only their starts count. `None` if there are none.
+    /// The space of the whole run without the bodies that fly far away; only their starts count. `None` if there are none.
     pub without_strays: Option<Span>,
     /// The first passage of a body through each given plane or ground; empty if contacts stop bodies.
     pub crossings: Vec<Crossing>,

@@ -16,8 +16,8 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         Key::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
             .unit("m")
             .default(
-                "fits the whole motion into the picture, except for a few of many bodies that fly far \
-                 away; if bodies would be too small, follows the only body above ground, or shows only the \
+                "fits the whole motion into the picture; of eight or more bodies, up to a third that \
+                 fly far away are left out; if bodies would be too small, follows the only body above ground, or shows only the \
                  start of the motion",
             )
             .also(&["position", "pos", "eye", "from"]),
