@@ -38,7 +38,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     }
     for force in &scene.forces {
         match &force.kind {
-            // How a spring is drawn does not matter.
+            // The look of a spring does not affect the motion, so the digest leaves `look` out.
             ForceKind::Spring { links, look: _ } => {
                 writeln!(text, "{links:?}")?;
             }

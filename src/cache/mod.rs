@@ -122,7 +122,7 @@ impl Cache {
         })
     }
 
-    /// The folder, if anything is kept.
+    /// The cache folder. `None` if caching is off.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()

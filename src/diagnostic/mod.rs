@@ -89,7 +89,7 @@ impl Diagnostic {
         self
     }
 
-    /// Notes that a label shows the fix already.
+    /// Marks the fix as shown by a label already, so that the printed diagnostic does not show the fix twice.
     #[must_use]
     pub fn fix_is_said(mut self) -> Diagnostic {
         self.fix.iter_mut().for_each(|fix| fix.is_said = true);

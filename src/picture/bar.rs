@@ -1,4 +1,4 @@
-//! The scale bar: the length of a metre at the middle of the motion.
+//! The scale bar. Its width shows a length, m, at the scale of the centre of the framed bounds.
 
 use glam::DVec3;
 
@@ -41,7 +41,7 @@ impl Bar {
 #[derive(Clone, Debug)]
 pub(super) struct ScaleBars {
     bar: ScaleBar,
-    /// The middle of the motion.
+    /// The centre of the framed bounds, m. The bar is to scale at this point.
     middle: DVec3,
     /// The height of a line of text on the screen.
     height: f64,
@@ -64,7 +64,7 @@ impl ScaleBars {
         Some((length, length * spot.metre))
     }
 
-    /// The bar in the image plane of a camera, and its number; none if the middle of the motion is behind the
+    /// The bar and its number, in the image plane of a camera. `None` if the centre of the framed bounds is behind the
     /// camera.
     pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
         let (length, width) = self.extent(screen)?;

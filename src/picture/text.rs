@@ -78,7 +78,8 @@ impl Vertical {
     }
 }
 
-/// The height on the screen of a text line that is `pixels` high in the image.
+/// Converts the height of a text line from pixels of the output image to units of the image plane, in which the picture
+/// is 2 wide.
 pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }

@@ -52,7 +52,7 @@ pub enum ForceKind {
     Spring {
         /// The springs, one behind the other.
         links: Vec<Spring>,
-        /// How they are drawn, if they are.
+        /// The look of the springs. `None` if the springs are not drawn.
         look: Option<SpringLook>,
     },
 }

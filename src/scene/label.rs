@@ -258,7 +258,7 @@ pub enum JointMeasure {
     Angle,
     /// The position of a slider along its axis, m.
     Position,
-    /// The rate of that, rad/s or m/s.
+    /// The rate of change of the hinge angle, rad/s, or of the slider position, m/s.
     Speed,
 }
 

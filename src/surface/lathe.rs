@@ -91,7 +91,8 @@ fn turned(profile: &[Point], sides: u32) -> Triangles {
             |which: usize, side: u32| start[which] + if pair[which].is_single() { 0 } else { side % sides };
         for side in 0..sides {
             let quad @ [a, b, c, d] = [at(0, side), at(0, side + 1), at(1, side + 1), at(1, side)];
-            // At a tip, use the corner that belongs to this side.
+            // At an apex, `c` and `d` are one point, but only `d` has the normal of this side. Turn the quad, so that its
+            // triangle uses `d`.
             if pair[1].radius == 0.0 { out.quad([b, c, d, a]) } else { out.quad(quad) }
         }
     }

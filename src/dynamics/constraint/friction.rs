@@ -231,7 +231,8 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Distributes friction by the last normal forces: points with larger loads take more of it, so that all reach their limits together.
+    /// Weights the friction rows by the last normal forces. Points with larger normal forces then carry more of the
+    /// friction, so that all points reach their friction limits together.
     pub(super) fn share_load(&mut self) {
         let loads: Vec<f64> = self.grips.iter().map(|grip| self.unknown[grip.normal].max(0.0)).collect();
         let sum: f64 = loads.iter().sum();

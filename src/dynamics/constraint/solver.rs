@@ -127,7 +127,7 @@ impl Solver {
         self.is_ready = true;
     }
 
-    /// Decides which of the held rows are active: those that others imply are not.
+    /// Selects the active rows: the rows in mode `Held`, except redundant rows, which follow from other active rows.
     pub(super) fn hold(&mut self) {
         for (held, mode) in self.held.iter_mut().zip(&self.modes) {
             *held = *mode == Mode::Held;

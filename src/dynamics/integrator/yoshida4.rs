@@ -4,10 +4,12 @@ use super::super::{Loads, State, System};
 use super::velocities::Velocities;
 use super::{Integrator, Method, splitting};
 
-/// Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150 (1990) 262.
+/// Yoshida's method. Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150
+/// (1990) 262.
 ///
-/// The second-order step must be symmetric in time, or the fourth order is lost. So it is half a drift, a kick, and half a drift. Forces
-/// that depend on velocity use the mean of the velocities before and after the kick.
+/// Each second-order step must be symmetric in time, or the method loses its fourth order. So each step is a drift for
+/// half of its time, a kick, and a second such drift. Forces that depend on velocity use the mean of the velocities
+/// before and after the kick.
 pub(super) const METHOD: Method = Method {
     name: "yoshida4",
     order: 4,

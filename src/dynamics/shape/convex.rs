@@ -100,7 +100,8 @@ fn of_edge(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3) -> DVec3 {
     end
 }
 
-/// Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+/// Finds the point of the triangle a, b, c that is nearest to the origin, and reduces `simplex` to the vertices of the
+/// corner, edge or face that contains the point. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 fn of_triangle(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let [d1, d2] = [ab.dot(-a), ac.dot(-a)];

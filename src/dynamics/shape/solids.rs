@@ -61,10 +61,11 @@ pub(super) fn cone_centre(radius: f64, top_radius: f64, height: f64) -> f64 {
     height / 4.0 * weighted / cone_sum(radius, top_radius)
 }
 
-/// About the axis ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³), here with R − r taken out; across it half of that, and the mean square
-/// of the distance from the centre of mass along the axis, ³⁄₈₀ h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
+/// The principal moments of inertia per mass, m², of a cone or frustum. About the axis: ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³),
+/// with the factor R − r cancelled. Across the axis: half of that moment plus the mean square of y − y_c, which is ³⁄₈₀
+/// h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
 pub(super) fn cone(radius: f64, top_radius: f64, height: f64) -> DVec3 {
-    // Fourth powers of lengths may be no numbers; those of ratios are.
+    // The fourth powers of lengths may overflow. The ratios of the radii to the larger radius are at most 1.
     let widest = radius.max(top_radius);
     let (radius, top_radius) = (radius / widest, top_radius / widest);
     let (a, b, sum) = (radius * radius, top_radius * top_radius, cone_sum(radius, top_radius));

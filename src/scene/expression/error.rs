@@ -20,7 +20,7 @@ pub struct ExpressionError {
     pub fix: Option<Box<str>>,
 }
 
-/// A mistake of the given kind.
+/// Creates an error with a code, the wrong bytes of the formula, and a message. It has no label, help or fix yet.
 pub(super) fn error(code: Code, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
     ExpressionError { code, range, message: message.into(), label: String::new(), help: None, fix: None }
 }

@@ -6,8 +6,8 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 /// Longer lines are none: the longest polygon that is drawn has some hundred corners.
 const LONGEST: u64 = 1 << 24;
 
-/// The lines of a file, as a reader of another crate gets them. It is handed one line at a time, so the number of the
-/// last one is that of the line at which the reader fails.
+/// Feeds the lines of a mesh file, one at a time, to the parser of an external crate (for OBJ or STL). If the parser
+/// fails, `number` is the number of the faulty line.
 pub(super) struct Lines<'a> {
     file: BufReader<File>,
     /// The number of lines that have been read.

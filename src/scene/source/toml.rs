@@ -136,7 +136,7 @@ impl Reader<'_> {
         Node { span, value }
     }
 
-    /// A list, of which either all can be read or nothing is.
+    /// Reads a list. If one item is invalid, the whole list is invalid.
     fn list(&mut self, items: &[Spanned<DeValue<'_>>]) -> Value {
         let items: Vec<Node> = items.iter().map(|item| self.node(item)).collect();
         if items.iter().any(|item| matches!(item.value, Value::Invalid)) {
