@@ -1,4 +1,4 @@
-//! Angles that are probably in the wrong unit: functions take radians, and orientations are in degrees.
+//! Finds angles that are probably in the wrong unit. Functions take radians; orientations are in degrees.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::parser::Part;
 const GIVES_RADIANS: [&str; 5] = ["asin", "acos", "atan", "atan2", "rad"];
 
 impl Formula {
-    /// Finds an angle that looks like degrees, given to a function that takes radians, as in `cos(45)`. `value` gives the value
+    /// Finds the argument of `sin`, `cos` or `tan` that looks like degrees, as in `cos(45)`. `value` returns the value
     /// of a name.
     pub(in crate::scene) fn degrees_for_radians(
         &self,
@@ -24,21 +24,21 @@ impl Formula {
                 Part::Name(range) => value(&self.text()[range.clone()])?,
                 _ => return None,
             };
-            // Nobody means 45 radians.
+            // Multiples of 5 from 15 to 720 are usual angles in degrees, and unlikely angles in radians.
             let is_usual = angle.abs() >= 15.0 && angle % 5.0 == 0.0 && angle.abs() <= 720.0;
             (matches!(function.name, "sin" | "cos" | "tan") && is_usual).then(|| argument.range.clone())
         })
     }
 
-    /// Whether the value looks like an angle in radians: it is made with `pi`, `tau` or a function that gives radians, and
-    /// `deg` is not used.
+    /// Whether the value of the formula looks like an angle in radians: the formula uses `pi`, `tau` or a function that
+    /// returns radians, and does not use `deg`.
     pub(in crate::scene) fn is_in_radians(&self) -> bool {
         let calls = |names: &[&str]| {
             self.nodes
                 .iter()
                 .any(|node| matches!(&node.part, Part::Call(function, _) if names.contains(&function.name)))
         };
-        // Within a sine, an angle is in radians by right.
+        // The argument of a sine is in radians, as it must be.
         let has_sine = calls(&["sin", "cos", "tan", "sinh", "cosh", "tanh"]);
         let has_pi = self.names().any(|(name, _)| matches!(name, "pi" | "tau"));
         let divides_by_it = self.text().contains("/pi") || self.text().contains("/ pi");

@@ -1,4 +1,4 @@
-//! The derivative of a formula with respect to one of its names, as a formula.
+//! Differentiates a formula with respect to one of its names. The derivative is a formula too.
 
 use std::f64::consts::{LN_2, LN_10};
 use std::ops::Range;
@@ -9,9 +9,10 @@ use super::parser::Id;
 use super::resolve::{Resolved, Value};
 
 impl Resolved {
-    /// The derivative with respect to the name in a slot. Where a formula has a kink or a jump, it is that of one side.
+    /// The derivative with respect to the name in `slot`. At a kink or a jump of the formula, it is the derivative of
+    /// one side.
     ///
-    /// Random numbers must have been drawn: see [`Resolved::with_draws`].
+    /// The formula must have no random draws left: see [`Resolved::with_draws`].
     #[must_use]
     pub fn derivative(&self, slot: usize) -> Resolved {
         let mut deriver = Deriver {
@@ -20,7 +21,7 @@ impl Resolved {
             range: 0..0,
             slopes: Vec::with_capacity(self.nodes.len()),
         };
-        // The formula itself, whose parts the derivative is made of, under the same numbers.
+        // The derivative contains parts of the formula. Copying all nodes keeps the ids of the parts.
         deriver.builder.nodes.clone_from(&self.nodes);
         for node in &self.nodes {
             deriver.range = node.range.clone();
@@ -34,7 +35,8 @@ impl Resolved {
 }
 
 impl Resolved {
-    /// How many operations a program of it would have: what stands in several places is computed in each.
+    /// The number of operations in the compiled program. A part that is used several times is counted each time, since
+    /// the program computes it each time.
     #[must_use]
     pub(in crate::scene) fn operations(&self) -> u64 {
         let mut sizes: Vec<u64> = Vec::with_capacity(self.nodes.len());
@@ -55,9 +57,9 @@ impl Resolved {
 struct Deriver {
     builder: Builder,
     slot: usize,
-    /// The place of the part that is being differentiated.
+    /// The place, in the text, of the part that is being differentiated.
     range: Range<usize>,
-    /// The derivatives of the parts; none where it is zero.
+    /// The derivative of each part. `None` for a derivative that is zero.
     slopes: Vec<Option<Id>>,
 }
 
@@ -79,7 +81,7 @@ impl Deriver {
         }
     }
 
-    /// (f(u))' = f'(u) u'
+    /// Differentiates a function of u: (f(u))' = f'(u) u'. `slope` is u'.
     fn unary(&mut self, operation: Unary, u: Id, slope: Id) -> Option<Id> {
         let outer = match operation {
             Unary::Not | Unary::Sign | Unary::Floor | Unary::Ceil | Unary::Round | Unary::Trunc => {
@@ -151,7 +153,7 @@ impl Deriver {
                 let (left, right) = (du.map(|du| self.product(du, v)), dv.map(|dv| self.product(u, dv)));
                 self.sum(left, right)
             }
-            // (u/v)' = (u' − (u/v) v') / v
+            // The quotient rule: (u/v)' = (u' − (u/v) v') / v.
             Binary::Divide => {
                 let part = dv.map(|dv| {
                     let ratio = self.quotient(u, v);
@@ -159,7 +161,7 @@ impl Deriver {
                 });
                 self.difference(du, part).map(|top| self.quotient(top, v))
             }
-            // u − v floor(u/v)
+            // The remainder is u − v floor(u/v), so its derivative is u' − floor(u/v) v'.
             Binary::Modulo => {
                 let part = dv.map(|dv| {
                     let ratio = self.quotient(u, v);
@@ -198,7 +200,7 @@ impl Deriver {
         }
     }
 
-    /// (uᵛ)' = v uᵛ⁻¹ u' + uᵛ ln(u) v'
+    /// Differentiates a power: (uᵛ)' = v uᵛ⁻¹ u' + uᵛ ln(u) v'. `du` is u', and `dv` is v'.
     fn power(&mut self, u: Id, v: Id, du: Option<Id>, dv: Option<Id>) -> Option<Id> {
         let left = du.map(|du| {
             let one = self.constant(1.0);
@@ -223,14 +225,14 @@ impl Deriver {
         let whole = self.two(Binary::Subtract, b, a);
         let slope_of_whole = self.difference(db, da);
         match operation {
-            // (a + (b − a) c)'
+            // The derivative of a + (b − a) c.
             Ternary::Lerp => {
                 let part = slope_of_whole.map(|slope| self.product(slope, c));
                 let turn = dc.map(|dc| self.product(whole, dc));
                 let sum = self.sum(part, turn);
                 self.sum(da, sum)
             }
-            // 6 p (1 − p) p' with p = (c − a) / (b − a), and nothing outside.
+            // The derivative is 6 p (1 − p) p' with p = (c − a) / (b − a), and 0 where p is outside 0 … 1.
             Ternary::Smoothstep => {
                 let above = self.two(Binary::Subtract, c, a);
                 let part = self.quotient(above, whole);
@@ -269,7 +271,7 @@ impl Deriver {
         self.two(Binary::Divide, a, b)
     }
 
-    /// a / b; where a is 0, also by 0: what stands still at the tip of a root does not move.
+    /// The quotient a / b, or 0 where a is 0. So the derivative of √u is 0 where both u and u' are 0.
     fn quotient_or_zero(&mut self, a: Id, b: Id) -> Id {
         let (quotient, zero) = (self.quotient(a, b), self.constant(0.0));
         self.builder.choice(a, quotient, zero, self.range.clone())
@@ -295,7 +297,7 @@ impl Deriver {
         self.two(Binary::Subtract, number, a)
     }
 
-    /// A sum of what may be zero.
+    /// The sum of two derivatives. `None` stands for zero.
     fn sum(&mut self, a: Option<Id>, b: Option<Id>) -> Option<Id> {
         match (a, b) {
             (Some(a), Some(b)) => Some(self.two(Binary::Add, a, b)),

@@ -1,4 +1,4 @@
-//! The tree of a resolved formula → a program.
+//! Compiles the tree of a resolved formula into a program.
 
 use super::error::{ExpressionError, syntax};
 use super::operation::{Binary, Unary, whole_exponent};
@@ -7,7 +7,7 @@ use super::program::{Code, Instruction as I, MAX_STACK, Program};
 use super::resolve::{Resolved, Value};
 
 impl Resolved {
-    /// Makes a program.
+    /// Compiles the formula into a program.
     ///
     /// # Errors
     /// If the formula is nested too deeply.
@@ -15,7 +15,7 @@ impl Resolved {
         Ok(Program::new(self.code()?, self))
     }
 
-    /// Makes a program that cannot explain non-finite values.
+    /// Compiles the formula into code alone. Code cannot explain a non-finite value.
     ///
     /// # Errors
     /// If the formula is nested too deeply.
@@ -24,7 +24,7 @@ impl Resolved {
             needs: needs(self),
             resolved: self,
             code: Vec::new(),
-            // The operations that are still to come, the next one last: a long sum is deep, and nothing recurses.
+            // The remaining tasks, the next one last. A list instead of recursion: the tree of a long sum is deep.
             tasks: vec![Task::Value { id: self.root, depth: 0, to: 0 }],
             jumps: Vec::new(),
             deepest: 0,
@@ -42,26 +42,26 @@ impl Resolved {
     }
 }
 
-/// Work that remains.
+/// A remaining task.
 #[derive(Clone, Copy)]
 enum Task {
-    /// Emits code that leaves the value of a part in the accumulator. `depth` places of the stack are taken. The accumulator's
-    /// old value is to be saved at `to`.
+    /// Emits code that computes a part into the accumulator. The first `depth` places of the stack are taken. The code
+    /// first saves the old accumulator at the place `to` of the stack.
     Value {
         id: Id,
         depth: usize,
         to: usize,
     },
     Instruction(I),
-    /// Behind a condition: to the other branch where it does not hold.
+    /// Follows a condition: emits a jump to the second branch, for a condition that is zero.
     Then,
-    /// Behind the first branch: past the other.
+    /// Follows the first branch: emits a jump past the second branch.
     Otherwise,
-    /// Behind both.
+    /// Follows the second branch: sets the target of the jump past that branch.
     End,
 }
 
-/// An operand that an instruction can have with it.
+/// An operand that fits into an instruction: the number of an input, or a constant.
 #[derive(Clone, Copy)]
 enum Leaf {
     V(u32),
@@ -69,18 +69,18 @@ enum Leaf {
 }
 
 struct Emitter<'a> {
-    /// For each part, how many places of the stack it needs.
+    /// The number of stack places that each part needs.
     needs: Vec<usize>,
     resolved: &'a Resolved,
     code: Vec<I>,
     tasks: Vec<Task>,
-    /// Jumps whose aim is not known yet.
+    /// The places of jump instructions whose targets are not known yet.
     jumps: Vec<usize>,
     deepest: usize,
 }
 
-/// For each part, how many places of the stack its value needs, if of two operands the one that needs more comes first
-/// (Sethi and Ullman).
+/// The number of stack places that each part needs. Of two operands, the one that needs more places is computed first,
+/// which keeps the numbers low (Sethi and Ullman).
 fn needs(resolved: &Resolved) -> Vec<usize> {
     let mut needs: Vec<usize> = Vec::with_capacity(resolved.nodes.len());
     for node in &resolved.nodes {
@@ -119,14 +119,14 @@ impl Emitter<'_> {
         }
     }
 
-    /// Puts the last jump in its place.
+    /// Replaces the last jump without a target by `jump`.
     fn aim(&mut self, jump: I) {
         if let Some(place) = self.jumps.pop() {
             self.code[place] = jump;
         }
     }
 
-    /// Puts tasks in front of the others, in the order in which they are to be done.
+    /// Puts tasks before all other remaining tasks. The tasks run in the given order.
     fn next<const N: usize>(&mut self, tasks: [Task; N]) {
         self.tasks.extend(tasks.into_iter().rev());
     }
@@ -140,7 +140,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The leaves of a product of an input with an input or a constant.
+    /// The two factors of a part that multiplies an input by an input or a constant.
     fn product(&self, id: Id) -> Option<(u32, Leaf)> {
         let Value::Binary(Binary::Multiply, a, b) = self.resolved.nodes[id].value else { return None };
         match (self.leaf(a)?, self.leaf(b)?) {
@@ -200,7 +200,7 @@ impl Emitter<'_> {
         self.next([Task::Value { id: a, depth, to }, Task::Instruction(instruction)]);
     }
 
-    /// Any operation on two values, of which the one that needs more of the stack comes first.
+    /// Emits any operation on two operands. The operand that needs more stack places is computed first.
     #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
     fn binary(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) {
         let at = depth as u8;
@@ -230,7 +230,8 @@ impl Emitter<'_> {
         ]);
     }
 
-    /// Arithmetic with an operand that its instruction can have with it; says whether it was such.
+    /// Emits arithmetic on an operand that fits into the instruction. Returns `false`, and emits nothing, if no operand
+    /// fits.
     fn arithmetic(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) -> bool {
         let (left, right) = (self.leaf(a), self.leaf(b));
         if let Some(instruction) = both(operation, left, right, to) {
@@ -269,7 +270,7 @@ impl Emitter<'_> {
         true
     }
 
-    /// `x*v + c`, where x is no leaf.
+    /// The part x and the instruction for `x*v + c`, if x itself is neither an input nor a constant.
     fn horner(&self, operation: Binary, a: Id, b: Id) -> Option<(Id, I)> {
         let (sum, c) = match (operation, self.leaf(a), self.leaf(b)) {
             (Binary::Add, _, Some(Leaf::C(c))) => (a, c),
@@ -286,7 +287,7 @@ impl Emitter<'_> {
     }
 }
 
-/// The instruction for two operands that it has with it. To subtract a number is to add its negative.
+/// The instruction that contains both operands. It subtracts a constant by adding the negative constant.
 #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
 fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -> Option<I> {
     let to = to as u8;
@@ -309,7 +310,7 @@ fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -
     })
 }
 
-/// The operand to compute first, and the instruction that brings the other operand.
+/// The operand to compute first, and the instruction that contains the other operand.
 fn one(operation: Binary, a: Id, b: Id, left: Option<Leaf>, right: Option<Leaf>) -> Option<(Id, I)> {
     Some(match (operation, left, right) {
         (Binary::Add, _, Some(Leaf::V(v))) => (a, I::AddV { v }),

@@ -1,4 +1,4 @@
-//! Evaluation that checks every operation: the strict value, and the operation that became non-finite.
+//! Evaluates a formula strictly, and finds the first operation whose value is not finite.
 
 use super::error::{ExpressionError, error};
 use super::operation::{Binary, Ternary, Unary};
@@ -7,10 +7,10 @@ use super::resolve::{Resolved, Value};
 use crate::diagnostic::Code;
 
 impl Resolved {
-    /// The value; `inputs` are the numbers for the slots of the scope, then those for the draws.
+    /// The value of the formula. `inputs` are the numbers for the slots of the scope, then the numbers for the draws.
     ///
     /// # Errors
-    /// The first operation that gives no finite number, whether or not the result does: `min(1/0, 5)` is an error.
+    /// The first operation with a non-finite value, even if the result is finite: `min(1/0, 5)` is an error.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -24,7 +24,7 @@ impl Resolved {
         }
     }
 
-    /// The value of every part, whether or not it is asked for.
+    /// The values of all parts, including the parts that the result does not use.
     pub(super) fn values(&self, inputs: &[f64]) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -41,7 +41,7 @@ impl Resolved {
         values
     }
 
-    /// Why the value is not finite, with the place in the formula; none where it is.
+    /// Explains why the value is not finite, with the place in the formula. `None` if the value is finite.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -49,7 +49,7 @@ impl Resolved {
         self.culprit(&self.values(inputs))
     }
 
-    /// The first non-finite value among those that the result depends on.
+    /// Explains the first non-finite value among the parts that the result depends on.
     fn culprit(&self, values: &[f64]) -> Option<ExpressionError> {
         let mut is_used = vec![false; self.nodes.len()];
         is_used[self.root] = true;
@@ -72,7 +72,8 @@ impl Resolved {
                 }
             }
         }
-        // Operands stand before what is made of them, so those of the first one are finite.
+        // Operands have smaller ids than the operations that use them. So the operands of the first non-finite part are
+        // finite.
         first.map(|id| self.explain(id, values))
     }
 
@@ -144,7 +145,7 @@ fn sign(operation: Binary) -> Option<char> {
     }
 }
 
-/// A number as a formula would write it, and never with hundreds of zeros.
+/// Writes a number as in a formula. Very large and very small numbers get an exponent.
 fn figure(number: f64) -> String {
     if number == 0.0 || (1e-5..1e15).contains(&number.abs()) {
         number.to_string()

@@ -1,4 +1,4 @@
-//! Builds the tree of a resolved formula and folds constants.
+//! Builds the tree of a resolved formula and computes its constant parts.
 
 use std::ops::Range;
 
@@ -6,9 +6,10 @@ use super::operation::{Binary, Ternary, Unary};
 use super::parser::Id;
 use super::resolve::{Node, Value};
 
-/// A tree that is being built.
+/// A tree under construction.
 ///
-/// Non-finite constants are not folded: each evaluation computes them, and finds and names them.
+/// A constant part with a non-finite value stays an operation, so that an evaluation can name the operation that
+/// failed.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) nodes: Vec<Node>,
@@ -31,7 +32,7 @@ impl Builder {
     pub(super) fn binary(&mut self, operation: Binary, a: Id, b: Id, range: Range<usize>) -> Id {
         let folded = self.known(a).zip(self.known(b)).map(|(a, b)| operation.apply(a, b));
         let value = match (operation, self.known(b)) {
-            // The same products as the power would make.
+            // The product has the same bits as the power.
             (Binary::Power, Some(2.0)) if matches!(self.nodes[a].value, Value::Slot(_)) => {
                 Value::Binary(Binary::Multiply, a, a)
             }
@@ -50,7 +51,7 @@ impl Builder {
 
     pub(super) fn choice(&mut self, condition: Id, then: Id, otherwise: Id, range: Range<usize>) -> Id {
         match self.known(condition) {
-            // A copy, so that the last node is the whole.
+            // Copy the branch, so that the last node is the root.
             Some(0.0) => self.push(self.nodes[otherwise].value, range),
             Some(_) => self.push(self.nodes[then].value, range),
             None => self.push(Value::If(condition, then, otherwise), range),

@@ -1,10 +1,10 @@
-//! The functions and constants that formulas know.
+//! The functions and constants of formulas.
 
 use std::f64::consts;
 
 use super::operation::{Binary, Ternary, Unary};
 
-/// The constants, each with its value and meaning.
+/// The constants: name, value, meaning.
 pub static CONSTANTS: &[(&str, f64, &str)] = &[
     ("pi", consts::PI, "half the circumference of a circle of radius 1"),
     ("tau", consts::TAU, "2 pi, a full turn"),
@@ -14,15 +14,15 @@ pub static CONSTANTS: &[(&str, f64, &str)] = &[
 /// A function of formulas.
 #[derive(Debug)]
 pub struct Function {
-    /// Its name.
+    /// The name of the function.
     pub name: &'static str,
-    /// The names of its parameters, in order.
+    /// The names of the parameters, in order.
     pub parameters: &'static [&'static str],
-    /// Whether more may follow, each like the last one.
+    /// Whether the function takes more arguments, each like the last parameter.
     pub is_open: bool,
-    /// Its meaning, in a phrase.
+    /// The meaning of the function, in a phrase.
     pub meaning: &'static str,
-    /// Its computation.
+    /// The computation of the function.
     pub(super) work: Work,
 }
 
@@ -32,7 +32,7 @@ pub(super) enum Work {
     One(Unary),
     Two(Binary),
     Three(Ternary),
-    /// The operation on the first two, then on its result and the next.
+    /// Applies the operation to the first two arguments, then to the result and the next argument, and so on.
     Chain(Binary),
     Clamp,
     If,
@@ -53,7 +53,7 @@ const fn one(name: &'static str, operation: Unary, meaning: &'static str) -> Fun
     new(name, &["x"], Work::One(operation), meaning)
 }
 
-/// All of them, in the order of the documentation.
+/// All functions, in the order of the documentation.
 pub static FUNCTIONS: &[Function] = &[
     one("sin", Unary::Sin, "the sine of an angle in radians"),
     one("cos", Unary::Cos, "the cosine of an angle in radians"),
@@ -104,24 +104,24 @@ pub static FUNCTIONS: &[Function] = &[
 ];
 
 impl Function {
-    /// The function of that name.
+    /// The function with this name.
     pub fn named(name: &str) -> Option<&'static Function> {
         FUNCTIONS.iter().find(|function| function.name == name)
     }
 
-    /// Whether it can be of so many numbers.
+    /// Whether the function can take `count` arguments.
     pub(super) fn takes(&self, count: usize) -> bool {
         count == self.parameters.len() || (self.is_open && count > self.parameters.len())
     }
 
-    /// How it is written: `atan2(y, x)`.
+    /// The function as a call: `atan2(y, x)`.
     pub fn usage(&self) -> String {
         let more = if self.is_open { ", …" } else { "" };
         format!("{}({}{more})", self.name, self.parameters.join(", "))
     }
 }
 
-/// The constant of that name.
+/// The value of the constant with this name.
 pub(super) fn constant(name: &str) -> Option<f64> {
     CONSTANTS.iter().find(|(constant, ..)| *constant == name).map(|(_, value, _)| *value)
 }

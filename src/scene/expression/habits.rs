@@ -1,8 +1,8 @@
-//! Habits from other programs in formulas, and their equivalents here.
+//! Symbols and functions of other programs, with the equivalents in formulas.
 
 use super::error::{ExpressionError, syntax};
 
-/// The error for a symbol at the start of a text that belongs to no formula.
+/// The error for a symbol that no formula contains. `rest` begins with the symbol; `start` is its place in the formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     const SYMBOLS: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
@@ -54,7 +54,7 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
             None => error,
         };
     }
-    // A name in another alphabet is one mistake, not one for each letter.
+    // Report a name in another alphabet as one mistake, not as one for each letter.
     let first = rest.chars().next().map_or(0, char::len_utf8);
     let letters: usize = rest.chars().take_while(|c| c.is_alphanumeric()).map(char::len_utf8).sum();
     let word = &rest[..letters.max(first)];
@@ -63,7 +63,7 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
 }
 
-/// The sign of degrees, with the number before it.
+/// The error for a degree sign. Its range includes the number before the sign.
 pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
     let before = text[..at].trim_end();
     let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
@@ -75,7 +75,7 @@ pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
     }
 }
 
-/// The name here of a function of another program.
+/// The equivalent of a function of another program, as advice.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     const FUNCTIONS: [(&str, &str); 22] = [
         ("log", "write `ln` for the natural logarithm, `log10` or `log2`"),

@@ -1,4 +1,4 @@
-//! Text → tokens.
+//! Splits the text of a formula into tokens.
 
 use crate::diagnostic::Code;
 use std::ops::Range;
@@ -6,11 +6,11 @@ use std::ops::Range;
 use super::error::{ExpressionError, syntax};
 use super::habits;
 
-/// A word of a formula.
+/// A token of a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token {
     Number(f64),
-    /// Its text is the token's range.
+    /// A name. Its text is the range of the token.
     Name,
     Or,
     And,
@@ -30,11 +30,11 @@ pub(super) enum Token {
     Open,
     Close,
     Comma,
-    /// Behind the last one.
+    /// The end of the formula.
     End,
 }
 
-/// Reads a text token by token.
+/// Reads the tokens of a text, one at a time.
 pub(super) struct Lexer<'a> {
     text: &'a str,
     place: usize,
@@ -45,7 +45,7 @@ impl<'a> Lexer<'a> {
         Lexer { text, place: 0 }
     }
 
-    /// The next token and where it stands.
+    /// Reads the next token. Returns the token and its range in the text.
     pub(super) fn next(&mut self) -> Result<(Token, Range<usize>), ExpressionError> {
         let rest = &self.text[self.place..];
         let rest = rest.trim_start();
@@ -92,7 +92,7 @@ fn name(rest: &str) -> (Token, usize) {
     (token, length)
 }
 
-/// A number at the start of a text: `1`, `1.5`, `.5`, `1e-3`, `1_000`.
+/// Reads a number at the start of a text: `1`, `1.5`, `.5`, `1e-3`, `1_000`.
 fn number(rest: &str, start: usize) -> Result<(Token, usize), ExpressionError> {
     let bytes = rest.as_bytes();
     let digits = |from: usize| {
@@ -106,7 +106,7 @@ fn number(rest: &str, start: usize) -> Result<(Token, usize), ExpressionError> {
     }
     if matches!(bytes.get(length), Some(b'e' | b'E')) {
         let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
-        // `2e` may be a try to multiply by e; that is said later.
+        // `2e` may be an attempt to multiply by e. The parser reports the missing operator later.
         if bytes.get(length + 1 + sign).is_some_and(u8::is_ascii_digit) {
             length += 1 + sign;
             length += digits(length);

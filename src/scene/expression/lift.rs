@@ -1,4 +1,5 @@
-//! Formulas that differ in nothing but their numbers, as those of copies do, are one program with other inputs.
+//! Turns the numbers of formulas into inputs. Formulas that differ only in their numbers, as the formulas of copies do,
+//! then share one program.
 
 use std::collections::HashMap;
 
@@ -6,16 +7,16 @@ use super::operation::{Binary, whole_exponent};
 use super::parser::Id;
 use super::resolve::{Node, Resolved, Value};
 
-/// The numbers of formulas, each once: the inputs behind those for the names.
+/// The numbers of formulas, without repetition. As inputs, they come after the inputs for the names.
 #[derive(Default)]
 pub struct Constants {
     values: Vec<f64>,
-    /// The place of a number among them, by its bits.
+    /// The index in `values` of each number, by the bits of the number.
     places: HashMap<u64, usize>,
 }
 
 impl Constants {
-    /// The numbers, in the order of their inputs.
+    /// The numbers, in the order of the inputs.
     pub fn into_values(self) -> Box<[f64]> {
         self.values.into()
     }
@@ -31,10 +32,10 @@ impl Constants {
 }
 
 impl Resolved {
-    /// The same formula with its numbers as inputs, behind those for the names, and without parts that its value does not
-    /// need. It computes the same bits: an instruction with a number and one with an input do the same.
+    /// The same formula with its numbers as inputs, after the inputs for the names, and without unused parts. It
+    /// computes the same bits, since instructions on constants and on inputs do the same arithmetic.
     ///
-    /// Whole exponents stay: a power of each is computed in its own way.
+    /// Whole exponents stay constants, since each has its own sequence of products.
     pub fn lifted(&self, constants: &mut Constants) -> Resolved {
         let (is_used, is_exponent) = self.uses();
         let mut nodes: Vec<Node> = Vec::new();
@@ -57,12 +58,12 @@ impl Resolved {
         lifted
     }
 
-    /// Which parts the value is made of.
+    /// For each part, whether the value depends on the part.
     pub(super) fn parts_in_use(&self) -> Vec<bool> {
         self.uses().0
     }
 
-    /// Which parts the value is made of, and which of them are whole exponents.
+    /// For each part, whether the value depends on the part, and whether the part is a whole exponent.
     fn uses(&self) -> (Vec<bool>, Vec<bool>) {
         let mut is_used = vec![false; self.nodes.len()];
         let mut is_exponent = vec![false; self.nodes.len()];
@@ -84,7 +85,7 @@ impl Resolved {
         (is_used, is_exponent)
     }
 
-    /// Appends what makes a program of it, so that two formulas with the same words have the same program.
+    /// Appends the formula as words, a key for its program: formulas with the same words have the same program.
     pub fn spell(&self, words: &mut Vec<u64>) {
         for node in &self.nodes {
             let (kind, operation) = match node.value {
@@ -102,18 +103,18 @@ impl Resolved {
                 value => words.extend(operands(value).map(|operand| operand as u64)),
             }
         }
-        // No part begins with this.
+        // No part begins with `u64::MAX`, so the word marks the end of the parts.
         words.extend([u64::MAX, self.root as u64]);
     }
 
-    /// The places of its parts in the text.
+    /// The range in the text of each part: start and end, in bytes.
     pub fn ranges(&self) -> Box<[[u32; 2]]> {
         #[allow(clippy::cast_possible_truncation, reason = "a formula is at most ten thousand bytes long")]
         let range = |node: &Node| [node.range.start as u32, node.range.end as u32];
         self.nodes.iter().map(range).collect()
     }
 
-    /// The same formula at other places of a text: see [`Resolved::ranges`].
+    /// The same formula with other ranges in a text: see [`Resolved::ranges`].
     #[must_use]
     pub fn at(&self, ranges: &[[u32; 2]]) -> Resolved {
         let nodes = self

@@ -1,9 +1,9 @@
-//! Formulas: the text of an expression → a small program that is evaluated millions of times.
+//! Formulas: compiles the text of an expression into a small program that is evaluated millions of times.
 //!
-//! A formula takes three steps. [`Formula::parse`] reads the text, [`Formula::resolve`] looks its names up in a
-//! [`Scope`] and folds what is constant, and [`Resolved::compile`] makes a [`Program`] of it, for what is evaluated in an inner
-//! loop; [`Program::compile`] does all three. What is needed only once is had from [`Resolved::value`], which is
-//! strict: the first operation with a non-finite result is an error at its place.
+//! This takes three steps. [`Formula::parse`] reads the text. [`Formula::resolve`] looks up the names in a [`Scope`]
+//! and computes constant parts. [`Resolved::compile`] makes a [`Program`] for an inner loop. [`Program::compile`] does
+//! all three steps. [`Resolved::value`] computes a value that is needed only once. It is strict: the first operation
+//! with a non-finite result is an error at its place.
 //!
 //! ```
 //! use jabuka::scene::expression::{Program, Scope};
@@ -18,7 +18,7 @@
 //! assert_eq!(error.expect("nothing can be divided by 0").code.name(), "division-by-zero");
 //! ```
 //!
-//! All functions are those of `libm` or exact, so values are the same bits on every platform.
+//! All functions come from `libm` or are exact, so values have the same bits on every platform.
 
 mod angles;
 mod derive;

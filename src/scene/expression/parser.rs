@@ -1,4 +1,4 @@
-//! Tokens → the tree of a formula, by the precedence of its operators (Pratt's method).
+//! Parses tokens into the tree of a formula, by operator precedence (Pratt's method).
 
 use std::ops::Range;
 
@@ -9,25 +9,25 @@ use super::lexer::{Lexer, Token};
 use super::operation::{Binary, Unary};
 use crate::diagnostic::{Code, nearest};
 
-/// The longest text that is read as a formula, in bytes.
+/// The largest length of a formula, bytes.
 pub const MAX_LENGTH: usize = 10_000;
-/// The greatest nesting depth of operands. A parenthesis behind an operator counts as two.
+/// The largest nesting depth of operands. A parenthesis after an operator counts as two levels.
 const MAX_DEPTH: usize = 200;
 
-/// A formula that has been read, and whose names have not been looked up.
+/// A parsed formula. Its names are not looked up yet.
 ///
-/// Operands stand before what is made of them, so that nothing that looks at the tree recurses.
+/// Operands come before the operations that use them, so that a loop over the nodes replaces recursion.
 #[derive(Clone, Debug)]
 pub struct Formula {
     text: Box<str>,
-    /// The last one is the whole.
+    /// The nodes of the tree. The last one is the root.
     pub(super) nodes: Vec<Node>,
 }
 
-/// The place of a node in its tree.
+/// The index of a node in its tree.
 pub(super) type Id = usize;
 
-/// A part of a formula, and where it stands.
+/// A part of a formula, and its range in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) part: Part,
@@ -38,7 +38,7 @@ pub(super) struct Node {
 #[derive(Clone, Debug)]
 pub(super) enum Part {
     Number(f64),
-    /// The place of the name, without parentheses around it.
+    /// The range of a name in the text, without parentheses around the name.
     Name(Range<usize>),
     Unary(Unary, Id),
     Binary(Binary, Id, Id),
@@ -48,7 +48,7 @@ pub(super) enum Part {
 }
 
 impl Formula {
-    /// Reads a formula.
+    /// Parses a formula.
     ///
     /// # Errors
     /// If the syntax is wrong, a function is unknown, or a function has too many or too few arguments.
@@ -70,12 +70,12 @@ impl Formula {
         }
     }
 
-    /// The text that it was read from.
+    /// The text of the formula.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The names of what is not a function, as often as they occur, and where.
+    /// The names in the formula and their ranges, in order and with repetitions. Names of functions are not included.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
         self.nodes.iter().filter_map(|node| match &node.part {
             Part::Name(range) => Some((&self.text[range.clone()], range.clone())),
@@ -87,10 +87,10 @@ impl Formula {
 struct Parser<'a> {
     text: &'a str,
     lexer: Lexer<'a>,
-    /// The next token, and where it stands.
+    /// The next token. `range` is its range in the text.
     token: Token,
     range: Range<usize>,
-    /// The place of the token before.
+    /// The range of the previous token.
     before: Range<usize>,
     nodes: Vec<Node>,
     depth: usize,
@@ -98,7 +98,7 @@ struct Parser<'a> {
     errors: Vec<ExpressionError>,
 }
 
-/// How tightly an operator binds to its left and to its right; none for what is no operator between two operands.
+/// The left and right binding strength of an operator between two operands. `None` for other tokens.
 fn power(token: Token) -> Option<(u8, u8)> {
     match token {
         Token::Or => Some((1, 2)),
@@ -111,17 +111,17 @@ fn power(token: Token) -> Option<(u8, u8)> {
         | Token::NotEqual => Some((COMPARISON, COMPARISON + 1)),
         Token::Plus | Token::Minus => Some((9, 10)),
         Token::Star | Token::Slash | Token::Percent => Some((11, 12)),
-        // From the right: 2^3^2 is 2^9.
+        // `^` groups from the right: 2^3^2 is 2^9.
         Token::Caret => Some((16, 15)),
         _ => None,
     }
 }
 
-/// How tightly `not` binds to its right.
+/// The right binding strength of `not`.
 const NOT: u8 = 5;
-/// How tightly comparisons bind.
+/// The binding strength of comparisons.
 const COMPARISON: u8 = 7;
-/// How tightly signs bind to their right: tighter than `*`, and less than `^`.
+/// The right binding strength of signs: stronger than `*`, weaker than `^`.
 const SIGN: u8 = 13;
 
 impl<'a> Parser<'a> {
@@ -162,7 +162,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// One operand and the operators that bind it at least so tightly.
+    /// Parses one operand, and the operators after it whose binding strength is at least `least`.
     fn expression(&mut self, least: u8) -> Result<Id, ExpressionError> {
         if self.depth >= MAX_DEPTH {
             let message = "too many parentheses, signs or powers stand in each other";
@@ -203,7 +203,7 @@ impl<'a> Parser<'a> {
             Token::Open => {
                 let inner = self.expression(0)?;
                 self.close(&range, "")?;
-                // The parentheses belong to what stands in them.
+                // The range of a part in parentheses includes the parentheses.
                 self.nodes[inner].range = range.start..self.before.end;
                 Ok(inner)
             }
@@ -227,7 +227,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The end of what `open` has opened; `between` says what else could stand there.
+    /// Reads the closing parenthesis for the opening one at `open`. `between` is help for an error: it says what else
+    /// is allowed here.
     fn close(&mut self, open: &Range<usize>, between: &str) -> Result<(), ExpressionError> {
         match self.token {
             Token::Close => self.advance(),
@@ -239,7 +240,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The error for an operand that follows another.
+    /// The error for an operand that directly follows another operand.
     fn no_operator(&self) -> ExpressionError {
         let (first, second) = (&self.text[self.before.clone()], &self.text[self.range.clone()]);
         if Function::named(first).is_some() {
@@ -249,7 +250,7 @@ impl<'a> Parser<'a> {
         let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         let both = self.before.start..self.range.end;
         if !is_name && matches!(self.token, Token::Name | Token::Open) {
-            // `2x`, `2(x + 1)` and `(a)(b)` mean a product to everyone.
+            // `2x`, `2(x + 1)` and `(a)(b)` are clearly meant as products.
             let units = if crate::scene::units::is_unit(second) { "; units are not written" } else { "" };
             return syntax(both, "an operator is missing")
                 .label(format!("write `{first}*{second}` to multiply{units}"))
@@ -259,7 +260,7 @@ impl<'a> Parser<'a> {
             .label(format!("nothing stands between `{first}` and `{second}`"))
     }
 
-    /// A function of its values; the name has been read.
+    /// Parses the arguments of a function. The parser has read the name already, at the range `name`.
     fn call(&mut self, name: Range<usize>) -> Result<Id, ExpressionError> {
         let word = &self.text[name.clone()];
         let open = self.range.clone();
@@ -311,7 +312,7 @@ fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
     let folded = word.to_lowercase();
     match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
         (Some(habit), _) => {
-            // The fix if only the name changes.
+            // Offer a fix only if the name is all that changes.
             let name = habit.strip_prefix("write `").and_then(|rest| rest.strip_suffix('`'));
             let name = name.filter(|name| FUNCTIONS.iter().any(|function| function.name == *name));
             let error = error.label(habit);

@@ -1,7 +1,8 @@
-//! A formula as a program: a list of instructions for a machine with an accumulator and a small stack.
+//! A compiled formula: a list of instructions for a machine with an accumulator and a small stack.
 //!
-//! Most instructions have their operands with them, so that `-k*x - c*v` is four of them: the time of an evaluation is nearly
-//! that of going from one instruction to the next. The stack is an array on the caller's stack, and nothing is allocated.
+//! Most instructions contain their operands, so `-k*x - c*v` has only four instructions. Most of the time of an
+//! evaluation goes into the steps from one instruction to the next. The stack is a local array, so an evaluation
+//! allocates nothing.
 
 use super::error::ExpressionError;
 use super::operation::whole_power;
@@ -9,19 +10,19 @@ use super::parser::Formula;
 use super::resolve::Resolved;
 use super::scope::Scope;
 
-/// A formula that has been compiled, to be evaluated many times. Its text for debugging is that of the formula, and not of the
-/// code, which has addresses.
+/// A compiled formula, for many evaluations. Its `Debug` text shows the formula, not the code: the code contains
+/// addresses, which change from run to run.
 #[derive(Clone)]
 pub struct Program {
     pub(super) code: Code,
     resolved: Box<Resolved>,
 }
 
-/// A program alone, without the formula that it was compiled from.
+/// The code of a program, without the formula.
 #[derive(Clone)]
 pub struct Code {
     pub(super) instructions: Box<[Instruction]>,
-    /// How much of the stack it uses.
+    /// The number of stack places that the code uses.
     pub(super) depth: usize,
 }
 
@@ -31,7 +32,7 @@ impl std::fmt::Debug for Program {
     }
 }
 
-/// The numbers that a program is given, by their places.
+/// The inputs of a program, by their indices.
 trait Inputs: Copy {
     fn at(self, place: u32) -> f64;
 }
@@ -43,7 +44,7 @@ impl Inputs for &[f64] {
     }
 }
 
-/// One number, and behind it those that are the same at every evaluation.
+/// The inputs of a program: one number that changes, then numbers that are the same at every evaluation.
 #[derive(Clone, Copy)]
 struct Before<'a>(f64, &'a [f64]);
 
@@ -57,19 +58,19 @@ impl Inputs for Before<'_> {
     }
 }
 
-/// The most that a program can use of the stack.
+/// The largest number of stack places that a program can use.
 pub(super) const MAX_STACK: usize = 256;
-/// The stack of most programs: an array is cleared at every evaluation, so a small one is quicker.
+/// The stack size for most programs. Each evaluation clears the stack, so a small stack is faster.
 const SMALL_STACK: usize = 4;
 
-/// One step. `acc` is the accumulator, `v` and `w` are inputs, `c` is a constant.
+/// One instruction. `acc` is the accumulator, `v` and `w` are inputs, `c` is a constant.
 ///
-/// Those that begin a new value first save the accumulator in the stack, at the place `to`; where it holds nothing of worth, the
-/// place is a free one. Operands on the stack are at the place `at`.
+/// An instruction that loads a new value first saves the accumulator at the place `to` of the stack. If the old value
+/// is not needed, `to` is a free place. `at` is the place of an operand on the stack.
 #[derive(Clone, Copy, Debug)]
 #[rustfmt::skip]
 pub(super) enum Instruction {
-    // A new value.
+    // Load a new value into the accumulator.
     LoadV { to: u8, v: u32 },
     LoadC { to: u8, c: f64 },
     AddVV { to: u8, v: u32, w: u32 },
@@ -82,7 +83,7 @@ pub(super) enum Instruction {
     DivVC { to: u8, v: u32, c: f64 },
     DivCV { to: u8, v: u32, c: f64 },
     CallV { to: u8, v: u32, f: fn(f64) -> f64 },
-    // The accumulator with an operand.
+    // Combine the accumulator with an input or a constant.
     AddV { v: u32 },
     AddC { c: f64 },
     SubV { v: u32 },
@@ -102,7 +103,7 @@ pub(super) enum Instruction {
     AddMulVC { v: u32, c: f64 },
     /// acc * v + c, as in Horner's scheme.
     MulVAddC { v: u32, c: f64 },
-    // The accumulator with the stack.
+    // Combine the accumulator with the stack.
     AddS { at: u8 },
     MulS { at: u8 },
     /// stack - acc
@@ -113,7 +114,7 @@ pub(super) enum Instruction {
     DivS { at: u8 },
     /// acc / stack
     DivAcc { at: u8 },
-    // The accumulator alone.
+    // Change the accumulator alone.
     Negate,
     Square,
     Cube,
@@ -124,18 +125,18 @@ pub(super) enum Instruction {
     Call2 { at: u8, f: fn(f64, f64) -> f64 },
     /// f(acc, stack)
     Call2Swapped { at: u8, f: fn(f64, f64) -> f64 },
-    /// f(stack, the next of the stack, acc)
+    /// f(stack, next stack place, acc)
     Call3 { at: u8, f: fn(f64, f64, f64) -> f64 },
-    // The next step.
+    // Jump to another instruction.
     JumpIfZero { to: u32 },
     Jump { to: u32 },
 }
 
 impl Program {
-    /// Reads, resolves and compiles a formula.
+    /// Parses, resolves and compiles a formula.
     ///
     /// # Errors
-    /// All that is wrong with it.
+    /// All mistakes in the formula.
     pub fn compile(text: &str, scope: &Scope) -> Result<Program, Vec<ExpressionError>> {
         Formula::parse(text)?.resolve(scope)?.compile().map_err(|error| vec![error])
     }
@@ -144,13 +145,13 @@ impl Program {
         Program { code, resolved: Box::new(resolved) }
     }
 
-    /// The formula that it was compiled from.
+    /// The formula that the program was compiled from.
     pub fn resolved(&self) -> &Resolved {
         &self.resolved
     }
 
-    /// The value, which may be infinite or NaN: see [`Program::explain_non_finite`]. `inputs` are the numbers for the slots of
-    /// the scope, then those for the draws.
+    /// The value of the formula, which may be infinite or NaN: see [`Program::explain_non_finite`]. `inputs` are the
+    /// numbers for the slots of the scope, then the numbers for the draws.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -159,7 +160,7 @@ impl Program {
         self.code.run(inputs)
     }
 
-    /// Why the value is not finite, with the place in the formula; none where it is.
+    /// Explains why the value is not finite, with the place in the formula. `None` if the value is finite.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -169,10 +170,10 @@ impl Program {
 }
 
 impl Code {
-    /// The value for the first input and those behind it; see [`Program::eval`].
+    /// The value for a first input and the inputs after it; see [`Program::eval`].
     ///
     /// # Panics
-    /// If there are fewer inputs than it uses.
+    /// If there are fewer inputs than the code uses.
     #[inline]
     pub fn eval(&self, first: f64, rest: &[f64]) -> f64 {
         self.run(Before(first, rest))
@@ -188,13 +189,14 @@ impl Code {
     }
 }
 
-/// Runs a program on a stack of `N` numbers, where `N` is a power of two and at least what the program uses.
+/// Runs a program on a stack of `N` places. `N` is a power of two, and at least the number of places that the program
+/// uses.
 fn run<const N: usize>(code: &[Instruction], inputs: impl Inputs) -> f64 {
     use Instruction as I;
     let mut stack = [0.0; N];
     let mut acc = 0.0;
     let mut next = 0;
-    // The remainder says to the compiler what is known of the place.
+    // With the remainder, the compiler knows that the place is within the stack.
     macro_rules! stack {
         ($at:expr) => {
             stack[$at as usize % N]

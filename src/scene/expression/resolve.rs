@@ -1,4 +1,4 @@
-//! The tree of a formula → a tree whose names are numbers or slots.
+//! Resolves the names of a formula: each becomes a number or a slot.
 
 use crate::diagnostic::Code;
 use std::ops::Range;
@@ -11,29 +11,29 @@ use super::parser::{Formula, Id, Part};
 use super::scope::{Binding, Scope};
 use crate::scene::units;
 
-/// A random number that a formula asks for with `uniform` or `normal`.
+/// A random number for one `uniform` or `normal` in a formula.
 ///
-/// A formula has no randomness of its own: for each of these words that it has, in the order of the text, an evaluation is
-/// given one more number behind those for the names.
+/// A formula draws no random numbers by itself. For each `uniform` and `normal`, in the order of the text, the caller
+/// passes one number after the inputs for the names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Draw {
-    /// From 0 to 1, each as likely.
+    /// A number from 0 to 1, with uniform distribution.
     Uniform,
-    /// After the normal distribution around 0, with deviation 1.
+    /// A number with normal distribution, mean 0 and standard deviation 1.
     Normal,
 }
 
-/// A formula whose names have been looked up.
+/// A formula with resolved names.
 #[derive(Clone, Debug)]
 pub struct Resolved {
-    /// Operands stand before what is made of them; what nothing is made of any more may stand between.
+    /// The nodes. Operands come before the operations that use them. Unused nodes may stand between.
     pub(super) nodes: Vec<Node>,
     pub(super) root: Id,
     pub(super) slots: usize,
     draws: Vec<Draw>,
 }
 
-/// A part of a resolved formula, and where it stands.
+/// A part of a resolved formula, and its range in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) value: Value,
@@ -48,15 +48,15 @@ pub(super) enum Value {
     Unary(Unary, Id),
     Binary(Binary, Id, Id),
     Ternary(Ternary, Id, Id, Id),
-    /// The second where the first is not 0, and else the third; only one of the two is computed.
+    /// The second part if the first is not 0, else the third. A program computes only one of the two.
     If(Id, Id, Id),
 }
 
 impl Formula {
-    /// Looks the names up.
+    /// Resolves the names of the formula.
     ///
     /// # Errors
-    /// Names that there are not, and random numbers where there can be none.
+    /// Unknown names, and random numbers if the scope does not allow them.
     pub fn resolve(&self, scope: &Scope) -> Result<Resolved, Vec<ExpressionError>> {
         let mut resolver =
             Resolver { scope, builder: Builder::default(), draws: Vec::new(), errors: Vec::new() };
@@ -78,17 +78,17 @@ impl Formula {
 }
 
 impl Resolved {
-    /// The random numbers that an evaluation needs behind those for the names.
+    /// The random numbers that an evaluation needs, after the inputs for the names.
     pub fn draws(&self) -> &[Draw] {
         &self.draws
     }
 
-    /// How many numbers an evaluation needs: one for each slot of the scope, then one for each draw.
+    /// The number of inputs of an evaluation: one for each slot of the scope, then one for each draw.
     pub fn inputs(&self) -> usize {
         self.slots + self.draws.len()
     }
 
-    /// A number as a formula with so many slots, of which it needs none.
+    /// A number as a formula with `slots` slots, none of which it uses.
     pub(in crate::scene) fn of_number(value: f64, slots: usize) -> Resolved {
         Resolved {
             nodes: vec![Node { value: Value::Constant(value), range: 0..0 }],
@@ -98,7 +98,7 @@ impl Resolved {
         }
     }
 
-    /// The value, if it needs nothing to be given.
+    /// The value of the formula, if it is a constant.
     pub fn as_constant(&self) -> Option<f64> {
         match self.nodes.get(self.root)?.value {
             Value::Constant(value) => Some(value),
@@ -106,12 +106,12 @@ impl Resolved {
         }
     }
 
-    /// Another tree for the same names.
+    /// A formula with the same slots and draws, but another tree.
     pub(super) fn with_nodes(&self, nodes: Vec<Node>, root: Id) -> Resolved {
         Resolved { nodes, root, slots: self.slots, draws: self.draws.clone() }
     }
 
-    /// The same with the random numbers drawn once and for all, so that evaluations need only those for the names.
+    /// The same formula with fixed random numbers: an evaluation then needs only the inputs for the names.
     #[must_use]
     pub fn with_draws(&self, drawn: &[f64]) -> Resolved {
         let mut builder = Builder::default();
@@ -146,7 +146,7 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// The resolved part; `ids` are those of the parts before.
+    /// Resolves a part. `ids` are the resolved ids of the earlier parts.
     fn node(&mut self, text: &str, part: &Part, range: &Range<usize>, ids: &[Id]) -> Id {
         let here = range.clone();
         match part {
@@ -169,7 +169,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// 1 where a value is not 0.
+    /// Emits a part that is 1 where a value is not 0, and 0 elsewhere.
     fn truth(&mut self, id: Id, range: &Range<usize>) -> Id {
         let zero = self.builder.constant(0.0, range.clone());
         self.builder.binary(Binary::NotEqual, id, zero, range.clone())
@@ -211,7 +211,7 @@ impl Resolver<'_> {
             (Work::Chain(operation), [first, rest @ ..]) => rest
                 .iter()
                 .fold(*first, |so_far, next| self.builder.binary(operation, so_far, *next, range.clone())),
-            // The parser counts the values.
+            // Unreachable: the parser checks the number of arguments.
             _ => self.builder.constant(0.0, here),
         }
     }

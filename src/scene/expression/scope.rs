@@ -1,4 +1,4 @@
-//! The names that a formula may use.
+//! The names that a formula can use.
 
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -11,24 +11,25 @@ use crate::diagnostic::nearest;
 pub(super) enum Binding {
     /// A number that is known when the formula is resolved.
     Constant(f64),
-    /// The number in this slot when the formula is evaluated.
+    /// The slot of a number that is passed at each evaluation.
     Slot(usize),
 }
 
-/// The names that a formula may use, besides the constants that every formula knows.
+/// The names that a formula can use, besides the constants of all formulas.
 #[derive(Clone, Debug)]
 pub struct Scope {
     names: HashMap<String, Binding>,
     slots: usize,
-    /// Names that come before all others, with the slots behind those of `names`.
+    /// Names that hide all other names. Their slots come after the slots of `names`.
     fields: &'static [&'static str],
     is_random: bool,
-    /// How many more names may be compared with unknown ones.
+    /// The number of comparisons left for suggestions of similar names. The limit bounds the time for a scene with many
+    /// unknown names.
     comparisons: Cell<usize>,
 }
 
 impl Default for Scope {
-    /// No names, and no `uniform` and `normal`.
+    /// A scope without names, `uniform` and `normal`.
     fn default() -> Scope {
         Scope {
             names: HashMap::new(),
@@ -41,49 +42,50 @@ impl Default for Scope {
 }
 
 impl Scope {
-    /// Lets formulas have random numbers: see [`Draw`](super::Draw).
+    /// Allows `uniform` and `normal` in formulas: see [`Draw`](super::Draw).
     #[must_use]
     pub fn with_draws(mut self) -> Scope {
         self.is_random = true;
         self
     }
 
-    /// Makes a name stand for a number that is known when the formula is resolved.
+    /// Defines a name as a number that is known when the formula is resolved.
     pub fn constant(&mut self, name: impl Into<String>, value: f64) {
         self.names.insert(name.into(), Binding::Constant(value));
     }
 
-    /// Makes a name stand for a number that is given at every evaluation, and says its place among those.
+    /// Defines a name as a number that is passed at each evaluation. Returns the slot of the name.
     pub fn slot(&mut self, name: impl Into<String>) -> usize {
         self.names.insert(name.into(), Binding::Slot(self.slots));
         self.slots += 1;
         self.slots - 1
     }
 
-    /// Makes these names stand for numbers that are given at every evaluation, in this order behind those of all other slots.
-    /// They take the place of those that were set before.
+    /// Replaces the field names. Their numbers are passed at each evaluation, in this order, after the numbers of all
+    /// other slots.
     pub(in crate::scene) fn set_fields(&mut self, fields: &'static [&'static str]) {
         self.fields = fields;
     }
 
-    /// Forgets a name that was the last to get a slot.
+    /// Removes a name, and frees its slot. The name must be the last one that got a slot.
     pub(in crate::scene) fn remove_slot(&mut self, name: &str) {
         if self.names.remove(name).is_some_and(|it| it == Binding::Slot(self.slots - 1)) {
             self.slots -= 1;
         }
     }
 
-    /// How many numbers an evaluation needs for the names, before those for random draws.
+    /// The number of slots: the inputs that an evaluation needs before the inputs for draws.
     pub fn slots(&self) -> usize {
         self.slots + self.fields.len()
     }
 
-    /// Whether a name can be given to something: letters, digits and `_`, no digit first, and no word of all formulas.
+    /// Checks whether a scene can define a name: letters, digits and `_`, no digit first, and no word that formulas
+    /// reserve.
     ///
     /// # Errors
-    /// Why it cannot.
+    /// The reason why a scene cannot define the name.
     pub fn is_free(name: &str) -> Result<(), &'static str> {
-        /// The name `t` means the same everywhere, also where it has no value.
+        /// The reserved words. `t` is the time in all formulas, even in formulas in which it has no value.
         const WORDS: [&str; 4] = ["and", "or", "not", "t"];
         let mut bytes = name.bytes();
         let starts_well = bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_');
@@ -99,7 +101,7 @@ impl Scope {
         }
     }
 
-    /// The number that a name stands for, if it stands for one that is known.
+    /// The number that a name stands for, if it is known when the formula is resolved.
     pub fn value(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
             Binding::Constant(value) => Some(value),
@@ -118,7 +120,7 @@ impl Scope {
         self.is_random
     }
 
-    /// A suggestion for an unknown name: the name that was meant, or all names.
+    /// A suggestion for an unknown name: a similar name, or the list of all names.
     pub(super) fn suggest(&self, name: &str) -> String {
         if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
@@ -127,10 +129,10 @@ impl Scope {
         self.comparisons.set(left);
         let fields = self.fields.iter().copied();
         let mut names: Vec<&str> = self.names.keys().map(String::as_str).chain(fields).collect();
-        // Always in the same order.
+        // Sort the names, so that the message is always the same.
         names.sort_unstable();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
-        // A single letter is near to every other one.
+        // One edit turns a single letter into any other. So compare single letters only by case.
         let near = if name.len() == 1 {
             all().find(|other| other.eq_ignore_ascii_case(name))
         } else {

@@ -1,7 +1,7 @@
-//! Formulas that are evaluated for many inputs at once: one instruction after another, each over whole columns of numbers.
+//! Evaluates formulas for many inputs at once. Each step runs over whole columns of numbers.
 //!
-//! The program dispatches each instruction once per column, and the compiler vectorizes the loop over its lanes. Each lane gets
-//! the same bits as from [`Program`](super::Program).
+//! A step is dispatched once per column, and the compiler vectorizes the loop over the lanes. Each lane gets the same
+//! bits as from [`Program`](super::Program).
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -10,57 +10,58 @@ use super::operation::{Binary, Ternary, Unary, whole_exponent, whole_power};
 use super::parser::Id;
 use super::resolve::{Resolved, Value};
 
-/// As many evaluations side by side as keep the columns of most formulas in the nearest cache.
+/// The number of lanes: evaluations side by side. With 64, the columns of most formulas fit into the first-level cache.
 pub(in crate::scene) const LANES: usize = 64;
 
 pub(in crate::scene) type Column = [f64; LANES];
 
 thread_local! {
-    /// The columns of the evaluation that is under way: nothing is allocated but the first time.
+    /// The columns of the current evaluation. They are reused, so that only the first evaluation allocates memory.
     static COLUMNS: RefCell<Vec<Column>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Several formulas of the same names as one program. What stands in several of them is computed once.
+/// Several formulas of the same scope as one program. A part that several formulas contain is computed once.
 #[derive(Clone)]
 pub(in crate::scene) struct Wide {
-    /// The steps. Each writes a column of its own, behind those of the inputs.
+    /// The steps. Each writes its own column, after the columns of the inputs.
     steps: Box<[Step]>,
-    /// The values of the formulas.
+    /// The operands that hold the values of the formulas.
     outputs: Box<[Operand]>,
     inputs: usize,
-    /// Which inputs the formulas need.
+    /// For each input, whether the formulas use it.
     uses: Box<[bool]>,
 }
 
-/// An operand: a column, or the same number in all lanes.
+/// An operand: a column, or one number for all lanes.
 #[derive(Clone, Copy, Debug)]
 enum Operand {
     Column(usize),
     Constant(f64),
 }
 
-/// One step. Each needs columns before its own only.
+/// One step. It reads only columns before its own.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     One(Unary, Operand),
     Power(Operand, i32),
     Two(Binary, Operand, Operand),
     Three(Ternary, [Operand; 3]),
-    /// The second where the first is not 0, and else the third. Both are computed: no operation does anything but give a value.
+    /// The second operand where the first is not 0, else the third. Both are computed, which is safe: operations have
+    /// no side effects.
     Choice([Operand; 3]),
 }
 
-/// The value of a formula in each lane.
+/// The values of a formula in all lanes.
 #[derive(Clone, Copy)]
 pub(in crate::scene) enum Output<'a> {
-    /// One for each lane.
+    /// One value for each lane.
     Each(&'a [f64]),
-    /// The same in all lanes.
+    /// One value for all lanes.
     Constant(f64),
 }
 
 impl<'a> Output<'a> {
-    /// The values of all lanes. What is the same in all is written into `room`.
+    /// The values in all lanes. A constant is written to every lane of `room`.
     pub(in crate::scene) fn column(self, room: &'a mut Column) -> &'a [f64] {
         match self {
             Output::Each(values) => values,
@@ -71,7 +72,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// The value in a lane.
+    /// The value in one lane.
     #[inline]
     pub(in crate::scene) fn at(&self, lane: usize) -> f64 {
         match self {
@@ -82,7 +83,7 @@ impl<'a> Output<'a> {
 }
 
 impl Wide {
-    /// One program of several formulas of the same scope, without random numbers.
+    /// Compiles several formulas of the same scope into one program. The formulas must have no random draws.
     pub(in crate::scene) fn new(formulas: &[&Resolved]) -> Wide {
         let inputs = formulas.iter().map(|formula| formula.inputs()).max().unwrap_or(0);
         let mut builder =
@@ -91,13 +92,13 @@ impl Wide {
         Wide { steps: builder.steps.into(), outputs, inputs, uses: builder.uses.into() }
     }
 
-    /// Whether the formulas need an input.
+    /// Whether the formulas use an input.
     pub(in crate::scene) fn uses(&self, input: usize) -> bool {
         self.uses.get(input).copied().unwrap_or(false)
     }
 
-    /// Evaluates the formulas in so many lanes, at most [`LANES`]. `fill` writes an input that is needed; `read` gets the values of
-    /// all formulas.
+    /// Evaluates the formulas in `lanes` lanes, at most [`LANES`]. `fill` writes the column of an input that the
+    /// formulas use; `read` gets the values of all formulas.
     pub(in crate::scene) fn run<const N: usize>(
         &self,
         lanes: usize,
@@ -128,7 +129,7 @@ impl Wide {
 
 struct Builder {
     steps: Vec<Step>,
-    /// The columns of steps, by what they compute.
+    /// The column of each step so far, by the key of the step.
     known: HashMap<[u64; 5], usize>,
     inputs: usize,
     uses: Vec<bool>,
@@ -168,7 +169,7 @@ impl Builder {
         operands.get(formula.root).copied().unwrap_or(Operand::Constant(0.0))
     }
 
-    /// The column of a step, which may be there already.
+    /// The column of a step. Steps that compute the same share a column.
     fn column(&mut self, step: Step) -> usize {
         let next = self.inputs + self.steps.len();
         let column = *self.known.entry(step.spelled()).or_insert(next);
@@ -180,7 +181,7 @@ impl Builder {
 }
 
 impl Step {
-    /// The same for steps that compute the same.
+    /// The key of a step: equal for steps that compute the same.
     fn spelled(&self) -> [u64; 5] {
         let (kind, operation, operands): (u64, u64, &[Operand]) = match self {
             Step::One(operation, a) => (0, *operation as u64, &[*a]),
@@ -222,7 +223,7 @@ impl Step {
     }
 }
 
-/// Those that the compiler knows become loops of vector instructions.
+/// Runs an operation on one operand. The compiler vectorizes the operations that have their own arm here.
 fn one(operation: Unary, a: Operand, columns: &[Column], to: &mut [f64]) {
     match operation {
         Unary::Negate => map(a, columns, to, |x| -x),
