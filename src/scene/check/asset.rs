@@ -1,4 +1,4 @@
-//! `povray.assets`: files beside the scene that its SDL reads.
+//! `povray.assets`: files beside the scene that the scene's SDL reads.
 
 use std::path::{Component, Path};
 
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::Asset;
 use crate::scene::source::{Node, file};
 
-/// Reads the list of assets, and reports those that would be copied to one place.
+/// Reads the list of assets. Reports two assets that would be copied to the same path.
 pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
     let mut assets: Vec<(Asset, &Node)> = Vec::new();
     for item in povray.list("assets").unwrap_or_default() {
@@ -18,7 +18,7 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
             other.name == asset.name || below(&other.name, &asset.name) || below(&asset.name, &other.name)
         };
         match assets.iter().find(|(other, _)| clashes(other)) {
-            // The same file twice is one file.
+            // Ignore an asset that is listed twice.
             Some((other, _)) if other == &asset => {}
             Some((_, node)) => {
                 let message = format!("two assets would be copied to `assets/{}`", asset.name);
@@ -32,11 +32,11 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
     assets.into_iter().map(|(asset, _)| asset).collect()
 }
 
-/// A file beside the scene, which is there.
+/// Checks the name of an asset and finds its file. Returns an error if the file is missing or outside the folder.
 pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Asset, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    // SDL names it in a string.
+    // The SDL writes the name in a string, so the name must not end that string.
     let bad = || {
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
         error(Code::BadAsset, format!("`{name}` cannot be the name of an asset")).help(help)
@@ -62,7 +62,7 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
         std::io::ErrorKind::NotFound => error(Code::MissingAsset, format!("there is no file `{name}`")),
         _ => error(Code::MissingAsset, format!("cannot read `{name}`: {e}")),
     };
-    // A link inside the folder may lead out of it.
+    // A symbolic link inside the folder may point outside it.
     let path = folder.join(name).canonicalize().map_err(missing)?;
     if !path.starts_with(folder.canonicalize().map_err(missing)?) && !trust {
         return Err(outside());
@@ -74,8 +74,8 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     Ok(Asset { name: copied_to, path })
 }
 
-/// A path that stays in the folder that it starts from, as plain as it can be written: empty if it is that folder;
-/// `None` for every other.
+/// Removes each `.` from a relative path. Returns an empty text for the folder itself, and `None` for an absolute
+/// path or one with `..`.
 pub(super) fn below(name: &str) -> Option<String> {
     let mut parts = Vec::new();
     for part in Path::new(name).components() {

@@ -1,4 +1,4 @@
-//! `[body.NAME]`.
+//! Reads `[body.NAME]`.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use crate::scene::palette::Palette;
 use crate::scene::source::Table;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Simulation};
 
-/// The keys that say how a body moves.
+/// The keys for the initial motion of a body.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
-/// The keys that say how easily a body is turned, and what pushes it. Of its mass see [`super::effect`].
+/// The keys for the rotational inertia and the loads of a body. [`super::effect`] checks the mass.
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
-/// The previous body that was made.
+/// The body read before the present one. Copies share its shape and look.
 struct Last {
-    /// The table of its shape.
+    /// The table with the shape.
     table: Option<Table>,
     shape: Shape,
     look: Arc<BodyLook>,
@@ -58,7 +58,7 @@ pub(super) fn read(
                 motion.map_or((None, own), |(motion, presence)| (Some(motion), presence));
             presence::never(name, view, &presence, simulation, context);
             if let Some(motion) = &motion {
-                // Rest lengths follow from the places where bodies really are, not from those given in the table.
+                // Rest lengths follow from the pose that the motion gives, not from the pose in the body's table.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }
@@ -97,7 +97,7 @@ pub(super) fn read(
     bodies
 }
 
-/// The body as it is at the start.
+/// Reads the initial state of a body.
 fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> RigidBody {
     let fixed = fixed(name, view, shape, context);
     let mass = mass(name, span, view, shape, context);
@@ -107,7 +107,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let help = "close it, or give the body `mass` and `inertia`, or say `fixed = true`";
     let needs_solid = !fixed && !weighs_as_given;
     context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
-    // Moments that are given are those about the body's own axes.
+    // Moments of inertia in the scene refer to the body's own axes.
     let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
     let vector = |key: &str| view.vector(key).unwrap_or_default();
     RigidBody {
@@ -125,7 +125,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     }
 }
 
-/// Whether a body stays where it is; what contradicts that, or is of no use then, is reported.
+/// Whether a body is fixed. Warns of keys that contradict this or have no effect on a fixed body.
 fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> bool {
     let scenery = if view.table("shape").has("heightfield") {
         Some(("heightfield", "it is a surface without weight", "a heightfield is always fixed"))
@@ -185,12 +185,12 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     1.0
 }
 
-/// Describes a computed number that should be positive and finite, and is not.
+/// Describes a computed number that is not positive and finite.
 fn extreme(number: f64) -> &'static str {
     if number > 0.0 { "larger than any number" } else { "smaller than any number" }
 }
 
-/// The inertia that follows from shape and mass, which must be one that a computer can divide by.
+/// Computes the moments of inertia from shape and mass. Reports an error if one is not positive and finite.
 fn inertia_of_shape(
     name: &str,
     span: Span,
@@ -201,7 +201,7 @@ fn inertia_of_shape(
 ) -> DVec3 {
     let inertia = shape.inertia(mass);
     let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
-    // A mesh without a solid has its own error already.
+    // A mesh that encloses no solid has its own error.
     if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
         let error = Diagnostic::error(Code::ImpossibleInertia, message);
@@ -210,10 +210,10 @@ fn inertia_of_shape(
     inertia
 }
 
-/// The inertia that is given, if it is one that a body can have.
+/// Reads the moments of inertia in the scene. Reports an error if no body can have them.
 fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVec3> {
-    // Each moment is a sum over the other two coordinates, so none can exceed the sum of the others; a flat
-    // body reaches it, and rounding may exceed it a little.
+    // Each moment is a sum over the other two coordinates, so no moment can exceed the sum of the other two. For a
+    // flat body both are equal, so rounding may exceed this limit a little.
     const ROUNDING: f64 = 1e-9;
     let inertia = view.vector("inertia")?;
     let mut moments = inertia.to_array();
@@ -231,7 +231,7 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
     Some(inertia)
 }
 
-/// An orientation under the key of that name; `name` is the body's.
+/// Reads the orientation under `key`. `name` is the name of the body.
 pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
     if let Some(angles) = view.vector("orientation") {
         return euler(angles);
@@ -262,15 +262,15 @@ pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context
     }
 }
 
-/// Turned about the world's x, then y, then z, as POV-Ray's `rotate <x, y, z>` does; angles in degrees.
+/// The rotation about the world's x, then y, then z, as in POV-Ray's `rotate <x, y, z>`. Angles in degrees.
 fn euler(angles: DVec3) -> DQuat {
     let turn = |axis: DVec3, angle: f64| DQuat::from_axis_angle(axis, angle.to_radians());
     turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
 }
 
-/// The number of a material of a body's own. Copies share it as far as they look the same.
+/// The index of the body's own material in `materials`. Copies of a body with the same look share one material.
 fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
-    /// The search looks at this many of the latest materials.
+    /// The number of latest materials that are compared.
     const LATEST: usize = 16;
     if let Some(original) = context.groups.original(name) {
         let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);
@@ -283,7 +283,7 @@ fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: 
     materials.len() - 1
 }
 
-/// The number of a body's material; bodies without one get one of the palette's, and axes have colors of their own.
+/// The index of the body's material. A body without a material gets the next color of the palette.
 fn material(
     name: &str,
     root: &View<'_>,
@@ -299,13 +299,13 @@ fn material(
         context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
         return None;
     }
-    // Also a body with a material of its own takes its turn: giving it one changes no other's color.
+    // Every body takes a color of the palette, so that giving one body a material changes no other body's color.
     let usual = palette.next(shape);
     if let Some(table) = view.variant("material") {
         let look = super::material::look(&table, root, context);
         return Some(own_material(name, look, materials, context));
     }
-    // An object in POV-Ray's own words brings its own textures along, which another one would cover.
+    // Raw SDL brings its own textures. A material would cover them.
     let has_own = view.table("shape").has("sdl");
     let Some(name) = view.text("material") else {
         return (!has_own).then(|| palette.material(usual, materials));

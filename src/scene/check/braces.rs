@@ -1,9 +1,9 @@
-//! Raw SDL whose braces do not match: POV-Ray would complain far from the cause, in the text around it.
+//! Reports unmatched braces in raw SDL. POV-Ray would report them far from the cause, in the code around the SDL.
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::sdl::{Token, Tokens};
 
-/// The error of a text whose braces do not match, if they do not.
+/// The error for a text with unmatched braces. `None` if all braces match.
 pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
     let message = match depth(text) {
         Err(()) => "the SDL closes a brace that it has not opened".to_owned(),
@@ -14,7 +14,8 @@ pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
     Some(Diagnostic::error(Code::UnbalancedSdl, message).at(span, ""))
 }
 
-/// How many braces are open at the end; an error where one is closed too many. Strings and comments do not count.
+/// The number of braces still open at the end. An error if a brace closes that was never opened. Ignores strings and
+/// comments.
 fn depth(text: &str) -> Result<usize, ()> {
     Tokens::of(text).try_fold(0usize, |open, (token, _)| match token {
         Token::Symbol('{') => Ok(open + 1),

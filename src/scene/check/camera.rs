@@ -1,4 +1,4 @@
-//! `[camera]` and `[view.NAME]`.
+//! Reads `[camera]` and `[view.NAME]`.
 
 use super::read::figure;
 use super::view::View as Keys;
@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
-/// The word for all views in `--view`, so no view can have this name.
+/// The word for all views in `--view`. No view can have this name.
 const ALL: &str = "all";
 
 /// Reads the main camera.
@@ -20,7 +20,7 @@ pub(super) fn read(
     camera(&[root.table("camera")], simulation, bodies, context)
 }
 
-/// Reads the other cameras, each over the main one.
+/// Reads the other cameras. Each inherits missing keys from the main camera.
 pub(super) fn views(
     root: &Keys<'_>,
     simulation: &Simulation,
@@ -40,7 +40,7 @@ pub(super) fn views(
     root.named("view").into_iter().map(read).collect()
 }
 
-/// Reads a camera from tables, of which the first that has a key says it.
+/// Reads a camera from tables. The first table that has a key gives its value.
 fn camera(
     tables: &[Keys<'_>],
     simulation: &Simulation,
@@ -56,7 +56,7 @@ fn camera(
     }
     let (location, look_at) = (timed("location"), timed("look_at"));
     let angle = of("angle").timed("angle");
-    // A view that says where it is stands there, however the main camera moves.
+    // A view with its own location does not move with the main camera.
     let movers = if tables[0].has("location") { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
         location: location.clone().filter(TimedVector::changes),
@@ -106,7 +106,7 @@ fn camera(
             .map(|open| Shutter { open, samples: of("samples").count("samples").unwrap_or_default() }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
-        // POV-Ray draws nothing sensible from a camera that is nearer to its aim than rounding reaches.
+        // POV-Ray draws nothing useful if rounding errors exceed the distance from the camera to its target.
         let near = location.distance(look_at) <= 1e-9 * location.abs().max(look_at.abs()).max_element();
         if near {
             let error =
@@ -119,7 +119,7 @@ fn camera(
     camera
 }
 
-/// The body that a camera follows.
+/// Reads which body the camera follows. `None` if it follows no body.
 fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     let follow = keys.variant("follow")?;
     let body = *context.names.bodies.get(follow.text("body")?)?;
@@ -147,9 +147,9 @@ fn nobody(
     }
 }
 
-/// The error of a shutter that is still open when the next image begins.
+/// The error for a shutter that is still open when the next frame begins. `None` if it closes in time.
 fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
-    // A user writes the time between 30 frames a second as 0.0333 s.
+    // The relative tolerance. A user may write the time between 30 frames per second as 0.0333 s.
     const TOLERANCE: f64 = 0.01;
     let interval = 1.0 / simulation.frame_rate;
     let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));
@@ -162,7 +162,7 @@ fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
     (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error(Code::LongShutter, message).help(help))
 }
 
-/// Reports keys of a table that mean nothing for this kind of camera.
+/// Warns of keys that have no effect for this camera.
 fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
     let mut report = |key: &str, needs: &str| {
         let message = format!("`{key}` has no effect without {needs}");

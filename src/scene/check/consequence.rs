@@ -1,10 +1,10 @@
-//! Errors that only follow from others.
+//! Removes errors that only follow from other errors.
 
 use std::collections::HashSet;
 
 use crate::diagnostic::{Code, Diagnostic, Severity, Sources, Span};
 
-/// Errors that may only follow from something unreadable.
+/// Errors that may only follow from an unreadable part of the scene.
 const OF_LACK: [Code; 6] = [
     Code::MissingKey,
     Code::UnknownName,
@@ -14,14 +14,14 @@ const OF_LACK: [Code; 6] = [
     Code::SamePlace,
 ];
 
-/// Drops, of what was found in a tree, what only follows from that the text could not be read in full.
+/// Drops the diagnostics in `found` that only follow from other errors, such as unreadable text.
 pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {
     let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
     if found.iter().chain(unreadable).any(is_error) {
-        // Bodies may be present but wrong, and then do not count.
+        // The scene may have bodies with errors, which are not counted.
         found.retain(|diagnostic| diagnostic.code != Code::NoBodies);
     }
-    // Another value took the place of a location that is wrong, and may be below the ground.
+    // A placeholder replaces a wrong location, and may be below the ground.
     let wrong: Vec<Span> = found
         .iter()
         .filter(|diagnostic| is_error(diagnostic) && diagnostic.code != Code::BelowGround)
@@ -39,7 +39,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         .iter()
         .any(|diagnostic| matches!(diagnostic.code, Code::CannotInclude | Code::CyclicInclude))
     {
-        // Something reported as missing may have been the unreadable part.
+        // What is reported as missing may be in the file that could not be included.
         found.retain(|diagnostic| !OF_LACK.contains(&diagnostic.code));
     }
     let syntax: Vec<&Diagnostic> = unreadable.iter().filter(|d| is_syntax(d.code)).collect();
@@ -52,7 +52,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         let Some(span) = diagnostic.span() else { continue };
         let line = sources.position(span.source, span.start).line;
         lines.insert((span.source, line));
-        // After a header that cannot be read, keys are counted as those of another table.
+        // After an unreadable header, the parser assigns the keys below it to another table.
         let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
         if (header && diagnostic.code == Code::TomlSyntax) || diagnostic.code == Code::TomlUnclosed {
             end = end.into_iter().chain([span]).min();

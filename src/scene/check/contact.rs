@@ -1,4 +1,4 @@
-//! How bodies collide: `simulation.contacts`, and the keys that need it.
+//! Collisions of bodies: `simulation.contacts`, and the keys that need it.
 
 use std::sync::Arc;
 
@@ -11,22 +11,22 @@ use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 use crate::dynamics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, Simulation};
 
-/// The properties of a surface.
+/// The keys for the properties of a surface.
 const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
 /// The keys of a body that need contacts.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
 
-/// A body may begin so far below the ground, as a part of its largest coordinate and its size: that is rounding. The dynamics
-/// allows as much where bodies overlap.
+/// A body may begin this far below the ground, relative to its size and its largest coordinate: this is rounding. The
+/// dynamics tolerates the same overlap between bodies.
 const BELOW: f64 = 1e-9;
 
-/// The contact law of the scene, if it has one.
+/// The contact law of the scene. `None` if the scene has no contacts.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
     let word = simulation.text("contacts")?;
     ContactLaw::ALL.into_iter().find(|law| law.name() == word)
 }
 
-/// How a body collides, if it does.
+/// Reads how a body collides. `None` if it does not collide.
 pub(super) fn collider(
     name: &str,
     view: &View<'_>,
@@ -34,7 +34,7 @@ pub(super) fn collider(
     simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Option<Collider> {
-    // Without contacts, `check` says what these keys need.
+    // Without contacts, `check` reports these keys.
     simulation.contacts?;
     let mut has_no_effect = |keys: &[&str], why: &str| {
         for key in keys {
@@ -76,13 +76,13 @@ pub(super) fn has_torus(shape: &Shape) -> bool {
     }
 }
 
-/// The surface of a body, or of the ground.
+/// Reads the surface of a body or of the ground.
 fn surface(view: &View<'_>) -> Surface {
     let [restitution, friction, rolling_friction] = SURFACE.map(|key| view.number(key));
     Surface { restitution, friction, rolling_friction }
 }
 
-/// The ground as contacts have it: where its height is not given, it is 0, and it stops bodies.
+/// Completes the ground for contacts: a missing height becomes 0, and the ground stops bodies.
 pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut Environment) {
     if let (Some(_), Some(ground)) = (simulation.contacts, &mut environment.ground) {
         let table = root.table("environment").variant("ground");
@@ -91,7 +91,7 @@ pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut
     }
 }
 
-/// Says which keys need contacts and do not have them, and which bodies and methods contacts cannot take.
+/// Reports keys that need contacts in a scene without them, and bodies and integrators that cannot have contacts.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,
@@ -100,7 +100,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    // An error in the word has been reported.
+    // A wrong value of `contacts` has its own error.
     if simulation.contacts.is_none() && !table.has("contacts") {
         needed(root, &table, context);
     }
@@ -119,7 +119,7 @@ pub(super) fn check(
     }
 }
 
-/// Says which keys need `simulation.contacts`; each place of the text once, and what to write with the first.
+/// Reports keys that need `simulation.contacts`. Reports each place once. The first report shows the line to add.
 fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     let mut wrong: Vec<(&str, Span)> = Vec::new();
     for body in root.bodies() {
@@ -157,7 +157,7 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     }
 }
 
-/// The place for `simulation.contacts`, and the text to insert there.
+/// The place for the missing line `simulation.contacts`, and the text to insert there.
 fn insertion(
     root: &View<'_>,
     simulation: &View<'_>,
@@ -171,7 +171,7 @@ fn insertion(
         return before(span, LINE, context);
     }
     match root.key_span("simulation").filter(|span| is_file(span.source, context)) {
-        // An empty table: its header ends the line.
+        // An empty table: insert the line after the line of its header.
         Some(span) => {
             let text = &context.sources.get(span.source).text;
             let end = text[span.end..].find('\n').map_or(text.len(), |newline| span.end + newline);
@@ -181,7 +181,7 @@ fn insertion(
     }
 }
 
-/// Says which bodies begin below the ground.
+/// Warns of bodies that begin below the ground.
 fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Context<'_>) {
     let Some(height) = ground.height else { return };
     for (table, body) in root.bodies().zip(bodies) {
@@ -208,12 +208,12 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
     }
 }
 
-/// A length with as many digits as people read.
+/// A length, rounded to four digits.
 fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
 
-/// The collider of a body, which copies share where it is the same.
+/// The collider of a body. Shares the collider of the body before if both are equal.
 pub(super) fn shared(last: Option<&Body>, collider: Option<Collider>) -> Option<Arc<Collider>> {
     let collider = collider?;
     let same = last.and_then(|body| body.collider.as_ref()).filter(|last| ***last == collider);

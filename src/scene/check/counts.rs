@@ -1,4 +1,4 @@
-//! How many frames and timesteps a scene has.
+//! The numbers of frames and timesteps of a scene, and their limits.
 
 use super::Context;
 use super::habits::{insertion, is_file};
@@ -7,26 +7,26 @@ use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::dynamics::Spring;
 use crate::scene::{Body, Force, ForceKind};
 
-/// More frames than anyone renders: eleven hours at 25 frames per second.
+/// The maximum number of frames: eleven hours at 25 frames per second.
 pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
-/// More timesteps than are taken.
+/// The maximum number of timesteps.
 pub(super) const MAX_STEPS: f64 = 1e11;
-/// More timesteps than anybody wants who has not said how long one is: five days of 1/240 s.
+/// The maximum number of timesteps if the scene gives no `step`: five days at 1/240 s.
 const MANY_STEPS: f64 = 1e8;
-/// The number of time steps in the shortest time scale of the initial state, where the scene gives no step.
+/// The number of timesteps in the shortest time scale of the initial state, if the scene gives no `step`.
 const STEPS_OF_A_TIME: f64 = 100.0;
 /// The number of frames in a film of 20 seconds.
 const USUAL_FRAMES: f64 = 500.0;
-/// The most bodies that are compared in pairs.
+/// The maximum number of bodies for comparing all pairs.
 const MAX_BODIES: usize = 1000;
 
-/// How many frames and timesteps there are.
+/// The duration, the frame rate and the timestep of a scene, which give the numbers of frames and timesteps.
 #[derive(Clone, Copy)]
 pub(super) struct Counts {
     pub(super) duration: f64,
     pub(super) frame_rate: f64,
     pub(super) step: f64,
-    /// Whether any timestep is taken: not where the motion of every body is given.
+    /// Whether timesteps are needed. They are not if the motion of every body is given.
     pub(super) needs_steps: bool,
 }
 
@@ -39,12 +39,13 @@ impl Counts {
         if self.needs_steps { self.duration / self.step.min(1.0 / self.frame_rate) } else { 0.0 }
     }
 
-    /// Whether there are more than can be counted.
+    /// Whether the frames or timesteps exceed the limits.
     pub(super) fn are_too_many(self) -> bool {
         self.frames() > MAX_FRAMES || self.steps() > MAX_STEPS
     }
 
-    /// The longest timestep that suits how the bodies start; a tenth of a frame where that shows no time.
+    /// A timestep, s, that suits the initial state: at most one frame, and a tenth of a frame if the state has no
+    /// time scale.
     fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
         let shortest = shortest_time(bodies, forces);
         let step = if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 / self.frame_rate };
@@ -52,7 +53,7 @@ impl Counts {
     }
 }
 
-/// Says where there are too many of them, with the values that would suit.
+/// Reports too many frames or timesteps, and suggests suitable values.
 pub(super) fn check(
     root: &View<'_>,
     counts: Counts,
@@ -113,7 +114,7 @@ pub(super) fn check(
     context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
 }
 
-/// The shortest time in which the motion at the start changes. For two bodies, it is their distance divided by their relative
+/// The shortest time scale, s, of the initial state. For two bodies, it is their distance divided by their relative
 /// speed; for a spring, √(m / k).
 fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
     let free = |body: &Body| body.motion.is_none() && !body.start.fixed;
@@ -139,16 +140,16 @@ fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
             bodies.filter(|body| free(body)).map(|body| body.start.mass).fold(f64::INFINITY, f64::min);
         (lightest / stiffness).sqrt()
     });
-    // Those at one place, or at rest against each other, show none.
+    // Pairs at the same place or at relative rest have no time scale.
     meetings.chain(swings).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// Points at the values of those keys that are given.
+/// Adds labels at the values of the given keys.
 fn point(error: Diagnostic, view: &View<'_>, keys: &[&str]) -> Diagnostic {
     keys.iter().filter_map(|key| view.span(key)).fold(error, |error, span| error.at(span, ""))
 }
 
-/// Adds the lines that give keys of `[simulation]` these values.
+/// Adds a fix that sets keys of `[simulation]` to these values.
 fn with_values(
     said: Diagnostic,
     root: &View<'_>,
@@ -163,7 +164,7 @@ fn with_values(
         }
     };
     let Some(mut edits) = values.iter().map(edit).collect::<Option<Vec<_>>>() else { return said };
-    // Two lines at one place are one piece.
+    // Join two insertions at the same place into one.
     if let [(one, first), (two, second)] = edits.as_mut_slice()
         && one == two
     {
@@ -177,24 +178,24 @@ fn with_values(
     edits.into_iter().fold(said, |said, (span, text)| said.fix(span, text))
 }
 
-/// A number rounded to one digit.
+/// Rounds a number to one digit.
 fn one_digit(number: f64) -> f64 {
     format!("{number:.0e}").parse().unwrap_or(number)
 }
 
-/// The largest number of one digit that is not above this one.
+/// The largest number of one digit that does not exceed `number`.
 fn digit_below(number: f64) -> f64 {
     let text = format!("{number:e}");
     let cut = text.split_once('e').map(|(digits, power)| format!("{}e{power}", &digits[..1]));
     cut.and_then(|cut| cut.parse().ok()).unwrap_or(number)
 }
 
-/// A number as TOML has it: `0.02`, `2e-7`, `30000`.
+/// A number in TOML's notation: `0.02`, `2e-7`, `30000`.
 fn written(number: f64) -> String {
     if (0.001..1e7).contains(&number) { number.to_string() } else { format!("{number:e}") }
 }
 
-/// A number that may be large, so that it can be read: `1,000,001`.
+/// A large number with separators: `1,000,001`.
 fn count(number: f64) -> String {
     if number >= 1e15 {
         let most = f64::MAX.min(number);
@@ -230,7 +231,7 @@ mod tests {
         assert_eq!(written(digit_below(999_999.0)), "900000");
     }
 
-    /// The third comes to the second in 1000 s, and the spring's mass is 4 kg: √(4/1e-6) = 2000 s.
+    /// The third body reaches the second in 1000 s. The spring's mass is 4 kg, so √(4/1e-6) = 2000 s.
     #[test]
     fn the_step_is_a_hundredth_of_the_shortest_time_of_the_start() {
         let bodies = "

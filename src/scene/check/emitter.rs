@@ -1,4 +1,4 @@
-//! `[emitter.NAME]`.
+//! Reads `[emitter.NAME]`.
 
 use std::sync::Arc;
 
@@ -14,18 +14,18 @@ use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
 use crate::scene::{Body, Color, ContactLaw, Emitter, Simulation};
 
-/// More particles at once than anybody wants to draw.
+/// The maximum number of particles at one time.
 const MAX_ALIVE: f64 = 1_000_000.0;
-/// The most colliding particles for contacts that are computed one event at a time.
+/// The maximum number of colliding particles for event-driven contacts.
 const MAX_COLLIDING: f64 = 1_000.0;
-/// More timesteps before the run than anybody wants to wait for.
+/// The maximum number of timesteps before the run.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
-/// Births before the run are numbered, and from about this number on an `f64` cannot tell their times apart.
+/// The maximum number of births before the run. Beyond it, an `f64` cannot distinguish their times.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
-/// The number of samples taken of a formula with random numbers.
+/// The number of samples drawn from a formula with random numbers.
 const DRAWS: u64 = 4096;
 
-/// The keys of a surface.
+/// The keys for the properties of a surface.
 const SURFACE: [&str; 2] = ["restitution", "friction"];
 
 /// The inputs for reading an emitter.
@@ -98,7 +98,7 @@ impl Reader<'_, '_> {
         emitter
     }
 
-    /// Particles make the steps of the bodies, which must be of equal length.
+    /// Reports an integrator that cannot move particles: their timesteps must be of equal length.
     fn can_be_advanced(&mut self) {
         let method = self.simulation.method;
         if method.ahead.is_some() {
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The surface of its particles, if bodies stop them.
+    /// The surface of the particles. `None` if they do not collide.
     fn surface(&mut self) -> Option<Surface> {
         let view = self.view;
         let [restitution, friction] = SURFACE.map(|key| view.number(key));
@@ -126,7 +126,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Says what keeps particles from being stopped.
+    /// Reports why the particles cannot collide.
     fn can_collide(&mut self, emitter: &Emitter) {
         let span = self.view.key_span("collides").unwrap_or(self.span);
         let most = emitter.most_alive(self.simulation.end());
@@ -155,7 +155,7 @@ impl Reader<'_, '_> {
                     );
                     let label = "no distance is computed for a torus";
                     self.context.diagnostics.push(error.at(span, label).help(help));
-                    // Copies of a body are all the same.
+                    // Copies of a body are all alike: one report is enough.
                     break;
                 }
             }
@@ -164,7 +164,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// When they are born.
+    /// Reads the times at which particles are born.
     fn births(&mut self) -> Births {
         let (view, simulation) = (self.view, self.simulation);
         let start = simulation.nearest_frame(view.number("start").unwrap_or_default());
@@ -194,9 +194,9 @@ impl Reader<'_, '_> {
         Births { start, end, at_once: u64::from(burst), every: view.number("every").unwrap_or(f64::INFINITY) }
     }
 
-    /// How long they live, and at most, s.
+    /// Reads the lifetime of the particles, and the longest lifetime, s.
     ///
-    /// The longest life of a formula is the longest among many draws; one that is drawn later is cut to that.
+    /// For a formula, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to it.
     fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
         let lifetime = self.view.drawn("lifetime").unwrap_or(Drawn::Constant(f64::INFINITY));
         let longest = match &lifetime {
@@ -209,7 +209,8 @@ impl Reader<'_, '_> {
         (lifetime, longest)
     }
 
-    /// Draws many values of a formula. Reports the first that is non-finite or has another mistake. Returns the largest.
+    /// Samples a formula and returns the largest value. Reports the first sample that is non-finite or otherwise
+    /// wrong.
     fn each_draw(
         &mut self,
         key: &str,
@@ -246,7 +247,7 @@ impl Reader<'_, '_> {
         largest
     }
 
-    /// The place where particles begin, and the body that sends them out.
+    /// Reads where particles begin, and the body that emits them.
     fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
         let from = self.view.table("from");
         let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
@@ -291,7 +292,7 @@ impl Reader<'_, '_> {
         (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
     }
 
-    /// Limits the time before the run, which is computed step by step, as the run is.
+    /// Limits the time before the run. It is computed step by step, like the run.
     fn not_too_early(&mut self, emitter: &Emitter) {
         let births = emitter.source.births;
         let before = births.start.max(-emitter.source.longest_life);
@@ -308,7 +309,7 @@ impl Reader<'_, '_> {
 
     fn not_too_many(&mut self, emitter: &Emitter) {
         let most = emitter.most_alive(self.simulation.end());
-        // Those that die before a frame shows them take time as well.
+        // Particles that die before the next frame take computing time, too.
         let between_frames = emitter.births_within(1.0 / self.simulation.frame_rate);
         let key = if self.view.has("burst") { "burst" } else { "rate" };
         if most <= MAX_ALIVE && between_frames > MAX_ALIVE {

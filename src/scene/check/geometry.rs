@@ -1,4 +1,4 @@
-//! The geometry of bodies for the placing of copies, by the same reading that checks bodies.
+//! Reads the geometry of bodies for placing copies, in the same way as the check of the bodies.
 
 use std::path::Path;
 
@@ -8,15 +8,15 @@ use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// Reads the geometry of bodies before they are checked. A mesh that several bodies have is read once.
+/// Reads the geometry of bodies before the check. Reads each mesh once.
 pub(super) struct BodyReader<'a> {
     context: Context<'a>,
-    /// The table of the shape of the body before, and its radius.
+    /// The shape table of the body read before, and that body's radius.
     last: Option<(Option<Table>, Option<f64>)>,
 }
 
 impl<'a> BodyReader<'a> {
-    /// For the bodies of a scene whose files are in a folder.
+    /// A reader for a scene whose files are in `folder`.
     pub(super) fn new(folder: Option<&'a Path>, trust: bool) -> BodyReader<'a> {
         BodyReader { context: Context { folder, trust, ..Context::silent() }, last: None }
     }

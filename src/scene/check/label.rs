@@ -1,4 +1,4 @@
-//! `[label.NAME]`, `[scale_bar]` and `[grid]`.
+//! Reads `[label.NAME]`, `[scale_bar]` and `[grid]`.
 
 mod dotted;
 mod words;
@@ -16,7 +16,7 @@ use crate::scene::{
     ScaleBar, Side,
 };
 
-/// The longest text of a label, bytes: what POV-Ray's strings hold, less what values may need.
+/// The maximum length of a label's text, bytes: the limit of POV-Ray's strings, minus room for values.
 const MAX_LENGTH: usize = 160;
 
 pub(super) fn read(
@@ -75,7 +75,7 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
     LabelPlace::Body { body, side: view.choice("side", Side::ALL, Side::name), ghosts }
 }
 
-/// The pieces of a text. Reports mistakes at their places.
+/// Splits a text into pieces. Reports mistakes at their places.
 fn pieces(
     text: &str,
     span: Span,
@@ -122,7 +122,7 @@ impl Reader<'_, '_, '_> {
         self.context.diagnostics.push(error.at(at, label));
     }
 
-    /// The place of a part of the text in the scene.
+    /// The place in the scene of a part of the text.
     fn at(&self, range: &Range<usize>) -> Span {
         let source = &self.context.sources.get(self.span.source).text;
         let raw = source.get(self.span.start..self.span.end).unwrap_or_default();
@@ -144,7 +144,7 @@ impl Reader<'_, '_, '_> {
             let meant = format!("${}", &self.text[here.clone()]);
             let at = self.at(&here);
             let warning = warning.at(at, format!("did you mean `{meant}`?"));
-            // A place in a text that is escaped is all of it.
+            // In an escaped string, the place is the whole string, and a fix must not replace it.
             let is_piece = at.end - at.start == length + 1;
             self.context.diagnostics.push(if is_piece {
                 warning.fix(at, meant).fix_is_said()
@@ -190,7 +190,7 @@ impl Reader<'_, '_, '_> {
         self.root.variables()
     }
 
-    /// The names that a formula of the label knows, and what each of its inputs is.
+    /// The names that formulas of the label can use, and the measure behind each input.
     fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<Measure>) {
         let mut scope = Scope::default();
         for (name, value) in self.variables() {
@@ -212,9 +212,9 @@ impl Reader<'_, '_, '_> {
             known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
-            // Beside a body, `impacts` are those of the body.
+            // Beside a body, `impacts` means the impacts of that body.
             let is_known = measure != RunMeasure::Impacts || has_contacts && !of_body;
-            // Ghosts keep only their look, so of the run only the time is known.
+            // Ghosts keep only their look, so the time is the only measure of the run.
             if is_known && (with_run || measure == RunMeasure::Time) {
                 add(name, Measure::Run(measure));
             }
@@ -228,7 +228,7 @@ impl Reader<'_, '_, '_> {
         (scope, inputs)
     }
 
-    /// Reports the errors of a formula that begins at a place of the text.
+    /// Reports the errors of a formula that begins at the byte `start` of the text.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -240,7 +240,7 @@ impl Reader<'_, '_, '_> {
                 continue;
             }
             let at = self.at(&(start + error.range.start..start + error.range.end));
-            // An error about variables alone does not list every name that labels have.
+            // For an error about variables, omit the long list of all names of labels.
             let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
             let diagnostic = Diagnostic::error(error.code, error.message);
             let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
@@ -261,7 +261,7 @@ impl Reader<'_, '_, '_> {
     }
 }
 
-/// A letter as POV-Ray's font has it; none: it has none. Dashes stand in for the minus sign, a raised point for its like.
+/// The same letter in POV-Ray's font, or a similar one: a dash for the minus sign. `None` if the font has none.
 fn letter_of(letter: char) -> Option<char> {
     match letter {
         '−' => Some('–'),
@@ -287,7 +287,7 @@ fn letter_of(letter: char) -> Option<char> {
     }
 }
 
-/// `.2` or `.2e`.
+/// Reads a number format: `.2` or `.2e`.
 fn format_of(text: &str) -> Option<Format> {
     let text = text.trim();
     let (digits, scientific) = match text.strip_suffix(['e', 'E']) {

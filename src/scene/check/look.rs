@@ -1,4 +1,4 @@
-//! `look` of a body, `[light.NAME]`, `[environment]`, `[output]`.
+//! Reads `look` of a body, `[light.NAME]`, `[environment]` and `[output]`.
 
 use glam::DVec3;
 
@@ -10,13 +10,13 @@ use crate::scene::{
     Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Simulation, Sky,
 };
 
-/// `look` of a body.
+/// Reads `look` of a body.
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
     let look = view.table("look");
     if shape.is_unbounded() {
         let warning = Diagnostic::warning(Code::NoEffect, format!("`scale` of `{name}` has no effect"));
         context.diagnostics.extend(look.key_span("scale").map(|span| warning.at(span, "a plane is endless")));
-        // The usual look of a plane is a plane of its own making, in which no words can stand.
+        // Without a material, a template draws the whole plane and has no place for raw SDL.
         for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has("material")) {
             let message = format!("`material` is missing in [body.{name}]");
             let error = Diagnostic::error(Code::MissingKey, message);

@@ -1,11 +1,11 @@
-//! `[material.NAME]`, and what a body says of its material.
+//! Reads `[material.NAME]`, and the material of a body.
 
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Color, Finish, LibraryMaterial, Look, Material};
 
-/// The materials of the file.
+/// Reads the materials of the scene.
 pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
     let tables = root.named("material").into_iter();
     tables
@@ -13,7 +13,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> 
         .collect()
 }
 
-/// The look that a table describes.
+/// Reads the look in a table.
 pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) -> Look {
     if let Some(texture) = view.shared_text("texture") {
         is_declared(&texture, view, root, context);
@@ -36,7 +36,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
     }
 }
 
-/// Says so if nothing in the scene can declare a texture.
+/// Reports a texture that nothing in the scene can declare.
 fn is_declared(texture: &str, view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) {
     let povray = root.table("povray");
     if povray.has("include") || povray.has("sdl") {

@@ -1,4 +1,4 @@
-//! `shape.mesh` and `shape.heightfield`: files of triangles and heights.
+//! Reads `shape.mesh` and `shape.heightfield`: files of triangles and heights.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -11,41 +11,41 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Flaw, Mesh, Shape};
 use crate::scene::{Camera, Layout, Output, Simulation, mesh};
 
-/// The files of a scene that have been read: one that several bodies name is read, and written, once.
+/// The meshes read so far. A mesh that several bodies name is read and written once.
 #[derive(Default)]
 pub(super) struct Meshes {
     known: HashMap<Key, Result<Arc<Mesh>, String>>,
-    /// The digests of the files and where they are named first, in the order of the scene.
+    /// The path and the digest of each file, in the order in which the scene names them.
     files: Vec<(PathBuf, [u8; 32])>,
-    /// For each mesh, the place of its first name, and its number of triangles.
+    /// For each mesh, the place that names it first, and its number of triangles.
     sizes: Vec<(Span, usize)>,
-    /// How often each file has been read after the first time, with other numbers.
+    /// How often each file has been read again with other settings.
     readings: HashMap<PathBuf, usize>,
-    /// The triangles of all meshes.
+    /// The number of triangles of all meshes.
     triangles: usize,
 }
 
-/// The most times that one file is read with other settings.
+/// The maximum number of times that one file is read again with other settings.
 const MOST_READINGS: usize = 1000;
-/// A file is not read again where there are more triangles already.
+/// If all meshes have more triangles than this, no file is read again.
 const MOST_TRIANGLES: usize = 4_000_000;
 
-/// A file, and the bits of the numbers it is read with.
+/// The path of a file, and the bits of the settings for reading it.
 type Key = (PathBuf, Vec<u64>);
 
-/// Scripts that are together larger than this many bytes are worth a word.
+/// The total size of all scripts, bytes, above which a warning suggests another layout.
 const LARGE: f64 = 5e8;
-/// The size of a triangle in a script with its share of the vertices, bytes: about half a vertex of three numbers, and the
-/// numbers of three vertices.
+/// The size of a triangle in a script, bytes: the indices of its three vertices, and about half a vertex of three
+/// coordinates.
 const BYTES_OF_A_TRIANGLE: f64 = 45.0;
 
 impl Meshes {
-    /// The digests of the files, in the order of the scene.
+    /// The digests of the files, in the order in which the scene names them.
     pub(super) fn digests(&self) -> impl Iterator<Item = &[u8; 32]> {
         self.files.iter().map(|(_, digest)| digest)
     }
 
-    /// The mesh of a file, read with some numbers; why there is none, where it cannot be read.
+    /// Returns the mesh of a file for these settings. Reads it if necessary. The error says why the file has no mesh.
     fn get(
         &mut self,
         path: PathBuf,
@@ -82,7 +82,8 @@ impl Meshes {
         mesh
     }
 
-    /// The warning that the scripts repeat a mesh so often that their size is a burden.
+    /// The warning that every script repeats the meshes and that the scripts become too large. `None` if they are
+    /// small.
     #[allow(clippy::cast_precision_loss, reason = "an estimate")]
     pub(super) fn too_large_to_repeat(
         &self,
@@ -103,7 +104,7 @@ impl Meshes {
     }
 }
 
-/// A mesh; none where it is missing or wrong.
+/// Reads a mesh. `None` if a value is missing or wrong.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let scale = view.number("scale")?;
     let smooth = smooth(view);
@@ -113,7 +114,7 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> 
     Some(Shape::Mesh { mesh: mesh?, scale })
 }
 
-/// A heightfield; none where it is missing or wrong.
+/// Reads a heightfield. `None` if a value is missing or wrong.
 pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let size = view.vector("size")?;
     let smooth = smooth(view);
@@ -124,7 +125,7 @@ pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<
     Some(Shape::Mesh { mesh: mesh?, scale: 1.0 })
 }
 
-/// The contents of a table's file, which is read once.
+/// Reads the mesh in the file of a table, once for the same settings.
 fn file(
     view: &View<'_>,
     context: &mut Context<'_>,
@@ -143,7 +144,7 @@ fn file(
     }
 }
 
-/// The largest angle between faces that looks round, rad.
+/// The largest angle between two faces whose common edge is smoothed, rad.
 fn smooth(view: &View<'_>) -> Option<f64> {
     match view.boolean("smooth") {
         Some(true) => Some(std::f64::consts::PI),
@@ -152,7 +153,7 @@ fn smooth(view: &View<'_>) -> Option<f64> {
     }
 }
 
-/// The error for a mesh of this shape that encloses no solid. `None` if it encloses one.
+/// The error for a mesh that does not enclose a solid. `None` if it does.
 pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
     let Shape::Mesh { mesh, .. } = shape else { return None };
     let span = view.span("file")?;

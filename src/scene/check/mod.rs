@@ -1,4 +1,4 @@
-//! Tree → [`Scene`], or all that is wrong with it.
+//! Checks the tree of a scene and builds the [`Scene`], or reports all errors.
 
 mod asset;
 mod body;
@@ -52,13 +52,13 @@ use crate::dynamics::{Presence, Track};
 pub(super) struct Input<'a> {
     /// The name of the scene.
     pub(super) name: &'a str,
-    /// How messages call its file.
+    /// The name of the scene's file in messages.
     pub(super) shown: &'a str,
-    /// Its file, if it has one.
+    /// The path of the scene's file. `None` if the scene has no file.
     pub(super) path: Option<&'a Path>,
-    /// The folder that its paths start from, if it has one.
+    /// The folder for relative paths. `None` if the scene has no folder.
     pub(super) folder: Option<&'a Path>,
-    /// Its text.
+    /// The text of the scene.
     pub(super) text: &'a str,
 }
 
@@ -71,19 +71,19 @@ struct Context<'a> {
     tables: HashMap<Arc<str>, Span>,
     /// The bodies that are copies of others.
     groups: Groups,
-    /// Whether a force is wrong, so that none can be said to be missing.
+    /// Whether a force has an error. If so, no force is reported as missing.
     forces_are_wrong: bool,
-    /// Whether a body is wrong, which may only seem to be where it is.
+    /// Whether a body has an error. If so, its location may be a placeholder.
     bodies_are_wrong: bool,
-    /// The names of the forces that are wrong.
+    /// The names of the forces with errors.
     wrong_forces: HashSet<Arc<str>>,
-    /// Whether the check looks at a part of a table, which needs none of its keys.
+    /// Whether the present table gives defaults, such as `[defaults.body]`. If so, required keys may be missing.
     is_partial: bool,
-    /// The code and place of errors reported for things that may share one text.
+    /// The code and place of each reported error. Several things may share one text.
     told: HashSet<(Code, Span)>,
-    /// How many copies of each body have been found wrong.
+    /// The number of wrong copies of each body.
     wrong_copies: HashMap<String, usize>,
-    /// How many more names may be compared with unknown ones.
+    /// The number of comparisons of unknown names with known names that are still allowed.
     comparisons: usize,
     meshes: mesh::Meshes,
     /// The files that SDL may name.
@@ -91,25 +91,25 @@ struct Context<'a> {
     /// The files that trusted SDL names.
     reads: Vec<(FileKind, String)>,
     diagnostics: Vec<Diagnostic>,
-    /// The texts that the scene is read from.
+    /// The texts of the scene.
     sources: Sources,
-    /// Files with motions, each read once.
+    /// The trajectory files, each read once.
     recordings: trajectory::Recordings,
-    /// The tracks of files, which bodies share, and when these are there.
+    /// The tracks from trajectory files, which bodies share, and the times at which these bodies are present.
     tracks: HashMap<motion::Rows, (Arc<Track>, Presence)>,
-    /// The addresses of the files with motions of which it has been looked whether they are as long as the run.
+    /// The addresses of the recordings whose duration has been compared with the run.
     measured: HashSet<usize>,
-    /// The table that the last file with motions was named in, and what was read.
+    /// The table that named the last trajectory file, and the recording in that file.
     last_recording: Option<(Option<Table>, Option<Arc<trajectory::Recording>>)>,
-    /// The addresses of the rows of files that bodies have taken.
+    /// The addresses of the rows that bodies already use.
     rows: HashSet<usize>,
-    /// How many places the tracks of bodies have together.
+    /// The number of places in all tracks together.
     places: usize,
-    /// How many more operations may be spent on looking for values that are not finite.
+    /// The number of operations that may still be spent on finding non-finite values.
     operations: u64,
-    /// The tables of copies that have been validated, by their addresses, and whether as parts.
+    /// The addresses of the tables of copies that have been validated, each with `is_partial`.
     validated: HashSet<(usize, bool)>,
-    /// The digests of other files that are read.
+    /// The digests of other files that the scene reads.
     files: Vec<[u8; 32]>,
     /// The pairs of bodies whose impacts are counted.
     pairs: Vec<[usize; 2]>,
@@ -149,27 +149,26 @@ impl Context<'_> {
         }
     }
 
-    /// Adds the contents of a file.
+    /// Adds the digest of a file's contents.
     fn add_file(&mut self, bytes: &[u8]) {
         self.files.push(Sha256::digest(bytes));
     }
 
-    /// Whether there are errors among the diagnostics since there were `before`.
+    /// Whether an error is among the diagnostics after the first `before`.
     fn has_errors(&self, before: usize) -> bool {
         self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Whether the scene has too many wrong copies of one body to examine more. It is refused anyway.
+    /// Whether so many copies of the body are wrong that the check can skip the others.
     fn is_hopeless(&self, name: &str) -> bool {
-        /// The number of wrong copies of one body that are examined. Each may be wrong in its own way.
+        /// The number of wrong copies of one body that are checked. Each may be wrong in its own way.
         const ENOUGH: usize = 1000;
         let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);
         !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
     }
 
-    /// Deduplicates the diagnostics added since there were `before` of them: all copies of a body have the same mistakes. A
-    /// diagnostic is dropped if another thing from the same text has it already. `name` and `span` are those of the present
-    /// thing.
+    /// Deduplicates the diagnostics after the first `before`: all copies of a body have the same mistakes. Drops a
+    /// diagnostic if its code and place have been reported before. `name` and `span` are those of the present copy.
     fn once(&mut self, before: usize, name: &str, span: Span) {
         if self.diagnostics.len() == before {
             return;
@@ -196,7 +195,7 @@ impl Context<'_> {
     }
 }
 
-/// The names that others may refer to, each with its number in the order of the file.
+/// The names that others may refer to, each with its index in the order of the file.
 #[derive(Default)]
 struct Names {
     bodies: HashMap<Arc<str>, usize>,
@@ -233,7 +232,7 @@ impl Names {
 pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Report> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    // An editor does not show a byte order mark, and does not count it as a column.
+    // Editors hide a byte order mark and do not count it as a column.
     let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
     let id = sources.add(input.shown, text);
     input.path.iter().for_each(|path| sources.note_file(*path));
@@ -268,7 +267,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &included, &mut context);
     let (mut found, sources) = (context.diagnostics, context.sources);
-    // A default is for those on which it has an effect.
+    // A default without effect on some things may have an effect on others, so do not warn.
     let of_default =
         |diagnostic: &Diagnostic| diagnostic.span().is_some_and(|span| of_defaults.contains(&span));
     found.retain(|diagnostic| diagnostic.code != Code::NoEffect || !of_default(diagnostic));
@@ -283,7 +282,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     Ok(Scene { warnings: report, ..scene })
 }
 
-/// Makes the scene. A missing or wrong value has been reported; another value takes its place.
+/// Builds the scene. A missing or wrong value has been reported; a placeholder takes its place.
 fn build(
     input: &Input<'_>,
     options: &Options,
@@ -302,7 +301,7 @@ fn build(
     let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
-    // A force that is wrong may be the one that needs them.
+    // A force with an error may be the force that needs these keys.
     if !context.forces_are_wrong {
         planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);
@@ -360,7 +359,7 @@ fn build(
     }
 }
 
-/// Whether a body is moved by forces, or particles are, which have to be advanced step by step.
+/// Whether timesteps are needed: a body moves freely, or there are emitters.
 fn needs_steps(root: &View<'_>) -> bool {
     let is_free = |body: &View<'_>| {
         let shape = body.table("shape");
@@ -380,7 +379,7 @@ fn digest(
 ) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
-        // The length keeps two texts from reading as one.
+        // The length separates the texts: without it, two different lists of texts could have the same digest.
         hash.update((text.len() as u64).to_le_bytes());
         hash.update(text);
     };
@@ -397,7 +396,7 @@ fn digest(
             Include::Text { text, .. } => add(text),
         }
     }
-    // The contents of assets are in no script.
+    // Scripts contain the names of assets, but not their contents.
     povray.assets.iter().for_each(|asset| add(&asset.name));
     context.files.iter().for_each(|digest| hash.update(digest));
     context.meshes.digests().for_each(|digest| hash.update(digest));

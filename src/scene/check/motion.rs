@@ -1,4 +1,4 @@
-//! `motion` of a body.
+//! Reads `motion` of a body.
 
 use std::sync::Arc;
 
@@ -15,15 +15,15 @@ use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{TimeFormula, TimedVector};
 
-/// The most places that all keyframes may have together. It includes rows of files that several bodies share and turn
-/// differently.
+/// The maximum number of places in all tracks together. Rows of files that several bodies share with different
+/// orientations count once for each orientation.
 const MAX_PLACES: usize = 2_000_000;
-/// The most operations spent on looking for frames at which formulas have no value. Beyond it, only some frames are examined, and
-/// the run reports what it finds at the others.
+/// The maximum number of operations for finding frames at which a formula has no value. Beyond it, the check samples
+/// some frames, and the run reports errors at the others.
 pub(super) const MAX_OPERATIONS: u64 = 50_000_000;
 
-/// The motion of a body whose own place is given, if it has one, and when the body is there. By its own keys it is there when
-/// `presence` says so.
+/// Reads a given motion, and when the body is present. `None` if the body has no given motion. `presence` follows
+/// from the body's own keys.
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
@@ -49,7 +49,7 @@ pub(super) fn read(
     Some((motion, of_file.and(presence)))
 }
 
-/// Says that a location has no effect: also the one to which a `repeat` puts a copy.
+/// Warns that `location` has no effect, even if a `repeat` sets it.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
     let warning = Diagnostic::warning(Code::NoEffect, format!("`location` of `{name}` has no effect"));
     let why = "its motion says where it is";
@@ -92,12 +92,12 @@ fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrien
     }
 }
 
-/// Reports the first frame at which a formula, or one of a list, has no value.
+/// Reports the first frame at which a formula, or a formula in a list, has no value.
 pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut Context<'_>) {
     finite_while(&Presence::ALWAYS, node, simulation, context);
 }
 
-/// Like [`finite`], of a body that needs its formulas while it is there.
+/// Like [`finite`], but only for frames at which the body is present.
 fn finite_while(
     presence: &Presence,
     node: Option<&Node>,
@@ -129,7 +129,7 @@ fn finite_while(
     }
 }
 
-/// The frames at which a formula is looked at: all of them, or as many as are affordable, evenly from the first to the last.
+/// The frames at which a formula is evaluated: all of them, or as many evenly spaced frames as are affordable.
 fn some_frames(
     formula: &TimeFormula,
     frames: usize,
@@ -173,7 +173,7 @@ fn by_keyframes(
     Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
 }
 
-/// Whether one more track with this many places is affordable. Reports an error if not.
+/// Whether another track with this many places is affordable. Reports an error if not.
 fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> bool {
     context.places = context.places.saturating_add(places);
     if context.places <= MAX_PLACES
@@ -188,7 +188,7 @@ fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> boo
     false
 }
 
-/// The tracks of a camera's location and of its target, if the scene gives them.
+/// Reads the tracks of a camera's location and of its target. `None` if the scene does not give them.
 pub(super) fn camera_keyframes(
     view: &View<'_>,
     look_at: Option<DVec3>,
@@ -223,7 +223,7 @@ pub(super) fn camera_keyframes(
     })
 }
 
-/// Reports a keyframe that is not later than the one before.
+/// Reports a keyframe that is not later than the keyframe before.
 fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: &mut Context<'_>) -> bool {
     if let Some((before, other)) = last.filter(|(before, _)| *before >= time) {
         let message = format!("a keyframe at {time} s stands after one at {before} s");
@@ -278,7 +278,7 @@ fn by_trajectory(
     if let Some((track, presence)) = context.tracks.get(&same) {
         return Some((BodyMotion::Track(track.clone()), presence.clone()));
     }
-    // The size of the file limits its own rows.
+    // The size of the file limits the first track from its rows, so count only further tracks.
     let is_copied = !context.rows.insert(same.address);
     if is_copied && !has_room(keys.len(), Some(span), context) {
         return None;
@@ -293,17 +293,17 @@ fn by_trajectory(
     Some((BodyMotion::Track(track), presence))
 }
 
-/// The rows that a track is made from.
+/// The rows of a file, and the settings for making a track from them.
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct Rows {
     /// The address of the body's rows in memory. Files stay in memory, so the address identifies the rows.
     address: usize,
-    /// The orientation that the rows are given, where they have none of their own.
+    /// The bits of the body's orientation, if the rows give none.
     orientation: Option<[u64; 4]>,
     is_linear: bool,
 }
 
-/// The recording in a table's file. `None` after an error has been reported.
+/// Returns the recording in a table's file. `None` if the file has errors, which have been reported.
 fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
     let node = view.raw("file")?;
     // An error in the path has been reported.

@@ -1,4 +1,4 @@
-//! Checks for planetary integrators: they advance free bodies about a heavy one, by gravitation alone.
+//! Checks for planetary integrators, which advance free bodies around a heavy body by gravitation alone.
 
 use glam::DVec3;
 
@@ -8,10 +8,10 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::{Body, Force, ForceKind, Simulation};
 
-/// The heavy body weighs at least this many times as much as all others together.
+/// The minimum ratio of the heavy body's mass to the mass of all other bodies together.
 const HEAVY: f64 = 20.0;
 
-/// Reports everything that such an integrator cannot advance.
+/// Reports everything that a planetary integrator cannot advance.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,

@@ -1,4 +1,4 @@
-//! When a body is there: its `start` and `end`, and the rows of its file.
+//! The times at which a body is present: `start` and `end`, and the rows of its trajectory file.
 
 use super::Context;
 use super::read::figure;
@@ -7,10 +7,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Key, Presence};
 use crate::scene::Simulation;
 
-/// A body is away between two rows whose distance exceeds the usual one by this factor.
+/// A body is absent between two rows if their interval exceeds the usual interval by this factor.
 const GAP: f64 = 1.5;
 
-/// When a body is there by its own keys.
+/// Reads when a body is present from its own keys.
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
@@ -51,11 +51,11 @@ pub(super) fn never(
     context.diagnostics.push(warning.at(span, label));
 }
 
-/// When a body is there that has rows of a file: from the first to the last. Also given are the rows that stand behind gaps, by
-/// their numbers.
+/// When a body with rows in a trajectory file is present: from its first row to its last, except in gaps. Also
+/// returns the index of each row after a gap.
 ///
-/// In a gap, the file has rows of other bodies, and this one lacks them: for more than [`GAP`] times as long as there usually
-/// (in the median) is between two of its rows.
+/// A gap is an interval between two rows of the body that is longer than [`GAP`] times the median interval, and in
+/// which the file has rows of other bodies.
 pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (Presence, Vec<usize>) {
     let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
         return (Presence::ALWAYS, Vec::new());
@@ -81,7 +81,7 @@ pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (
     (Presence::during(&intervals), gaps)
 }
 
-/// The times from the first to the last. If the end of the run is less than a frame away, they reach it.
+/// Rounds the times to frames. A time less than one frame from the start or the end of the run becomes infinite.
 fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
     let frame = (1.0 - 1e-6) / simulation.frame_rate;
     let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };
@@ -89,7 +89,7 @@ fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
     [begin, end]
 }
 
-/// Warns of a file whose rows begin later than the run, or end earlier.
+/// Warns of a file whose rows begin later than the run or end earlier.
 pub(super) fn short(
     file: &str,
     times: &[f64],

@@ -1,7 +1,7 @@
-//! Raw SDL, and what it may do without `--trust`.
+//! Checks raw SDL: without `--trust`, it must not reach for files.
 //!
-//! POV-Ray obeys a script: it opens, overwrites and includes any file that its user can. So raw SDL in a scene is code, and a
-//! scene from somewhere else must not run code that reaches for files.
+//! POV-Ray obeys a script: it opens, overwrites and includes any file that its user can. So raw SDL in a scene is
+//! code, and a downloaded scene must not run code that reaches for files.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::scene::grammar::Kind;
 use crate::scene::sdl::{FileKind, Refusal, Where, Why, files, refusals};
 use crate::scene::source::{Node, Table, Value, file};
 
-/// The largest asset that is read as SDL.
+/// The maximum size of an asset that is read as SDL, bytes.
 const MAX_BYTES: u64 = 64 << 20;
 
 /// The endings of assets that are SDL, wherever they are included from.
@@ -23,14 +23,14 @@ const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 /// The files that the SDL of an untrusted scene may name.
 #[derive(Default)]
 pub(super) struct Assets {
-    /// The names by which SDL calls them, and where they are.
+    /// The path of each file, by its name in SDL.
     files: HashMap<String, PathBuf>,
-    /// Those that have been read as SDL.
+    /// The names of the files that have been read as SDL.
     read: HashSet<String>,
 }
 
 impl Assets {
-    /// The assets that the scene lists. What is wrong with the list is reported elsewhere.
+    /// Lists the scene's assets. Mistakes in the list are reported elsewhere.
     pub(super) fn of(root: &Table, folder: Option<&Path>, trust: bool) -> Assets {
         let povray = root.get("povray").and_then(|entry| entry.node.as_table());
         let list = povray.and_then(|povray| povray.get("assets")).map(|entry| &entry.node.value);
@@ -71,7 +71,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     }
 }
 
-/// Reports mistakes in the text of an include file, which `span` of the scene names.
+/// Reports mistakes in the text of an include file. `span` is the place in the scene that names the file.
 pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     if context.trust {
         trusted(text, span, context);
@@ -91,7 +91,7 @@ pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Co
     }
 }
 
-/// Reports mistakes in an asset that the scene lists, if its ending makes it SDL.
+/// Reports mistakes in an asset of the scene if its ending is an ending of SDL.
 pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
     if ending.is_some_and(|ending| ENDINGS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
@@ -106,7 +106,7 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
         return;
     }
     match file::read(&path, MAX_BYTES) {
-        // Old include files are in other encodings; what differs are letters in comments and strings.
+        // Old include files have other encodings. Only letters in comments and strings differ.
         Ok(bytes) => check_include(name, &String::from_utf8_lossy(&bytes), span, context),
         Err(error) => {
             let code = match error.kind() {
@@ -119,7 +119,7 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// Notes the files that a trusted text names, and warns of a name that only POV-Ray will know.
+/// Adds the files that trusted SDL names to `reads`. Warns of file names that POV-Ray computes.
 fn trusted(text: &str, span: Span, context: &mut Context<'_>) {
     let mut is_computed = false;
     for file in files(text) {

@@ -1,4 +1,4 @@
-//! The physics shown beside a body or a spring.
+//! Reads the physics shown beside a body or a spring.
 
 use super::Context;
 use super::view::View;
@@ -6,10 +6,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::Shape;
 use crate::scene::{Arrow, BodyAxes, Ghosts, Quantity, Showing, Simulation, SpringLine, SpringLook, Trail};
 
-/// More ghosts of a body than a picture can show.
+/// The maximum number of ghosts of a body.
 const MAX_GHOSTS: f64 = 10_000.0;
 
-/// The physics shown beside a body. `fixed` says whether the body stays where it is.
+/// Reads the physics shown beside a body. `fixed` says whether the body is fixed.
 pub(super) fn of_body(
     name: &str,
     view: &View<'_>,
@@ -49,7 +49,7 @@ pub(super) fn of_body(
     showing
 }
 
-/// Says it where arrows for loads can show nothing.
+/// Warns of arrows for loads on a body without loads.
 fn loads_without_cause(
     name: &str,
     arrows: &View<'_>,
@@ -76,7 +76,7 @@ fn loads_without_cause(
     }
 }
 
-/// The ghosts of a body. If they are too many to be drawn, reports it and returns `None`.
+/// Reads the ghosts of a body. Reports an error and returns `None` if there are too many.
 fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
     if simulation.duration / every <= MAX_GHOSTS {
@@ -89,13 +89,13 @@ fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>
     None
 }
 
-/// An arrow, if there is one.
+/// Reads an arrow. `None` if the scene asks for no arrow.
 pub(super) fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
     let arrow = wanted(arrows, key)?;
     Some(Arrow { scale: arrow.number("scale"), color: arrow.color("color") })
 }
 
-/// How a spring is drawn, if it is.
+/// Reads how a spring is drawn. `None` if the spring is not drawn.
 pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<SpringLook> {
     let coil = spring.table("coil");
     let mut useless = |span: Option<Span>, key: &str, why: &str| {
@@ -128,7 +128,7 @@ pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<Spr
     })
 }
 
-/// The table of what `true` or a table asks for; empty where it is `true`.
+/// The table under a key that takes `true` or a table; an empty table for `true`. `None` if the scene gives neither.
 pub(super) fn wanted<'a>(view: &View<'a>, key: &str) -> Option<View<'a>> {
     (view.boolean(key) == Some(true) || view.variant(key).is_some()).then(|| view.table(key))
 }

@@ -1,4 +1,4 @@
-//! `[simulation]`.
+//! Reads `[simulation]`.
 
 use super::Context;
 use super::contact;
@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
-/// Reads the simulation, with its numbers of frames and time steps. If no body `needs_steps`, there are no time steps.
+/// Reads the simulation, with its numbers of frames and timesteps. If no body `needs_steps`, there are no timesteps.
 pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
     let mut simulation = Simulation {
@@ -24,14 +24,14 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let Simulation { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };
     if counts.are_too_many() {
-        // Without frames, nothing later counts them.
+        // A duration of 0 keeps later code from counting so many frames.
         simulation.duration = 0.0;
     }
     (simulation, counts)
 }
 
-/// Says where a key is not one of this method: `step` of an adaptive one, `tolerance` of any other. A method that takes the place of the scene's,
-/// as `--set` does, may leave a key without use.
+/// Reports a key that the integrator does not use: `step` of an adaptive integrator, or `tolerance` of any other. An
+/// integrator from `--set` may leave such a key in the scene unused.
 pub(super) fn check(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) {
     let method = simulation.method;
     let (wrong, right, value) =

@@ -1,4 +1,4 @@
-//! Limits of `simulation.contacts = "time-stepping"`: what it cannot do, or does badly.
+//! Limits of `simulation.contacts = "time-stepping"`: what it cannot compute, and what it computes badly.
 
 use super::Context;
 use super::counts::Counts;
@@ -8,13 +8,13 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{METHODS, Motor, suitable_step};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, Simulation};
 
-/// From this restitution on, a rebound is meant to keep its height.
+/// The restitution from which a rebound should keep its height.
 const ELASTIC: f64 = 0.9;
 
-/// The help that names the other scheme.
+/// The help that suggests event-driven contacts.
 const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
 
-/// If the scene gives no step, chooses one that suits the thinnest body that others touch.
+/// Chooses a timestep that suits the thinnest colliding body, if the scene gives none.
 pub(super) fn choose_step(
     root: &View<'_>,
     simulation: Simulation,
@@ -33,7 +33,7 @@ pub(super) fn choose_step(
     (Simulation { step, ..simulation }, Counts { step, ..counts })
 }
 
-/// Says which integrators and surfaces time stepping does not have.
+/// Reports integrators and surfaces that time stepping cannot have.
 pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], context: &mut Context<'_>) {
     let table = root.table("simulation");
     if !cfg!(feature = "time-stepping") {
@@ -81,7 +81,7 @@ pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], c
         let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
         context.diagnostics.push(error.at(span, "").help(OTHER));
     }
-    // Once is enough: it is the same with all.
+    // The warning is the same for all bodies, so report it once.
     if let Some((span, value)) = elastic.first() {
         let message = format!("a rebound with restitution {} loses height in time stepping", figure(*value));
         let label = "a rebound begins at the end of a step, and not at its own time";
@@ -94,10 +94,10 @@ pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], c
     }
 }
 
-/// The height of the 10th rebound, and how many there are: a test of the engine measures them.
+/// The height of the 10th rebound, and the number of rebounds. A test of the engine measures both.
 const REBOUNDS: [&str; 2] = ["0.82", "95"];
 
-/// Says which joints time stepping does not have.
+/// Reports joints that time stepping cannot have.
 pub(super) fn check_joints(
     root: &View<'_>,
     simulation: &Simulation,

@@ -3,11 +3,11 @@
 pub(super) use crate::diagnostic::nearest;
 use crate::scene::grammar::{TableSpec, quoted};
 
-/// The most comparisons of unknown names with known ones in one scene: a tenth of a second's work. A scene with more unknown
-/// names has another problem than spelling.
+/// The maximum number of comparisons of unknown names with known names in one scene. They take a tenth of a second. A
+/// scene with more unknown names has other problems than spelling.
 pub(super) const MAX_COMPARISONS: usize = 200_000;
 
-/// The key of a table that an unknown one was meant to be.
+/// The key of a table that an unknown key was meant to be. `None` if no key is similar.
 pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     let folded = word.to_lowercase().replace('-', "_");
     let names = || table.keys.iter().map(|key| key.name);
@@ -15,7 +15,7 @@ pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     same.map(|key| key.name).or_else(|| nearest(&folded, names()))
 }
 
-/// The way to a key that stands in a table inside this one: `shape.sphere.radius` for `radius` in a body.
+/// The path to a key of an inner table: `shape.sphere.radius` for `radius` in a body.
 pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
     table.keys.iter().find_map(|key| {
         let inner = key.kind.table()?;
@@ -28,8 +28,7 @@ pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'stat
     })
 }
 
-/// The way to a key that another program calls so and that stands in a table inside this one: `material.color` for `colour`
-/// in a body.
+/// The path to a key of an inner table for a name from another program: `material.color` for `colour` in a body.
 pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
     let folded = word.to_lowercase();
     table.keys.iter().find_map(|key| {
@@ -40,8 +39,8 @@ pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&
     })
 }
 
-/// The label for an unknown word, given the words that the scene declares and those that every scene knows. `plural` is the noun
-/// for all of them.
+/// The label for an unknown word. `known` are the words that the scene declares, `everywhere` those that every scene
+/// has. `plural` is the noun for them.
 pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {
     match (nearest(word, known.iter().chain(everywhere).copied()), known) {
         (Some(near), _) => format!("did you mean `{near}`?"),

@@ -1,4 +1,4 @@
-//! Templates of the user's own.
+//! Reads the user's own templates.
 
 use std::fs;
 use std::path::Path;
@@ -9,10 +9,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::OwnTemplate;
 use crate::scene::source::file;
 
-/// The largest template that is read.
+/// The maximum size of a template, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Reads the templates of the folder that the command line names, or else the scene.
+/// Reads the templates in the folder from the command line or, without one, from the scene.
 pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Context<'_>) -> Vec<OwnTemplate> {
     if let Some(folder) = given {
         return load(folder, None, context);
@@ -21,7 +21,7 @@ pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Contex
         return Vec::new();
     };
     if !context.trust {
-        // A template is code as much as raw SDL is.
+        // A template is code, just like raw SDL.
         let error = Diagnostic::error(Code::UntrustedTemplates, "templates can make scripts do anything");
         let help =
             "if you know this scene and trust it, say `--trust`; or name the folder with `--templates`";
@@ -51,12 +51,12 @@ fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<Own
     }
 }
 
-/// The templates in a folder and the folders in it: files with the name of a built-in one, and include files that
-/// those may use.
+/// Reads the templates in a folder and its subfolders: files with the name of a built-in template, and include files
+/// for them.
 fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
     let mut templates = Vec::new();
     collect(folder, "", &mut templates)?;
-    // The order of a folder is the file system's, not ours.
+    // The file system returns files in any order. Sort them so that the order is always the same.
     templates.sort_by(|a, b| a.name.cmp(&b.name));
     if templates.is_empty() {
         return Err(format!("there are no templates in `{}`", folder.display()));
@@ -64,7 +64,7 @@ fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
     Ok(templates)
 }
 
-/// Adds the templates of a folder, whose names begin with that of the folder they are in: `library/metals.inc`.
+/// Adds the templates of a folder. `prefix` is the path of a subfolder and begins each name: `library/metals.inc`.
 fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Result<(), String> {
     let cannot_read = |error| format!("cannot read the templates in `{}`: {error}", folder.display());
     for entry in fs::read_dir(folder).map_err(cannot_read)? {

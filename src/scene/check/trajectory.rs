@@ -1,4 +1,4 @@
-//! Trajectories from CSV files: a row for each time and body.
+//! Reads trajectories from CSV files: one row for each time and body.
 
 mod columns;
 mod fields;
@@ -17,23 +17,23 @@ use crate::dynamics::Key;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
 
-/// The largest file that is read: some millions of rows.
+/// The maximum size of a file, bytes: some millions of rows.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// The rows of a file, by body; where it does not tell bodies apart, under no name.
+/// The rows of a file, by the name of the body. The name is `None` if the file has no column of bodies.
 #[derive(Default)]
 pub(super) struct Recording {
     pub(super) rows: HashMap<Option<String>, Vec<Key>>,
     /// The times of all rows, in rising order, s.
     pub(super) times: Vec<f64>,
-    /// Whether the file says how bodies are turned.
+    /// Whether the file gives orientations.
     pub(super) is_turned: bool,
 }
 
-/// The files that have been read. `None` for a file whose errors have been reported.
+/// The files read so far. `None` for a file whose errors have been reported.
 pub(super) type Recordings = HashMap<(PathBuf, Columns), Option<Arc<Recording>>>;
 
-/// Reads a file, once for all bodies that have their motion from it.
+/// Reads a file, once for all bodies that move by it.
 pub(super) fn read(
     path: &Path,
     name: &str,
@@ -77,7 +77,7 @@ pub(super) fn read(
     recording
 }
 
-/// The error for a recording without a row for the body.
+/// The error for a recording without rows of the body.
 pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic {
     let mut names: Vec<&str> = recording.rows.keys().flatten().map(String::as_str).collect();
     names.sort_unstable();

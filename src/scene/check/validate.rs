@@ -1,5 +1,5 @@
-//! A tree held against the description of the language: everything that can be said without knowing what a
-//! scene is about.
+//! Compares a tree with the grammar of the language. Reports all errors that can be found without the meaning of the
+//! scene.
 
 use super::habits::Owner;
 use super::{Context, habits, read, sdl, suggest};
@@ -8,14 +8,14 @@ use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
 
-/// Reports every key and value of a scene that the language does not know.
+/// Reports every unknown key and every wrong value in a scene.
 pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
     table(root, &SCENE, None, "the scene", context);
 }
 
-/// Validates a table; `at` is where it is named, `path` how messages call it.
+/// Validates a table. `at` is the place that names the table, and `path` is the table's name in messages.
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
-    // A key that an unknown one was meant to be is not reported as missing as well.
+    // The keys that unknown keys were meant to be. They are not reported as missing.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
     let kind = habits::meant_kind(table, spec, path);
@@ -125,7 +125,7 @@ fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
     let message = format!("{} exclude each other in {path}", habits::quoted_and(&names));
     let error = Diagnostic::error(Code::ExclusiveKeys, message);
-    // The first is right as far as anyone can tell; the later ones are too many.
+    // The first key counts as right, and the later keys as superfluous.
     let (first, rest) = (entries[0], &entries[1..]);
     let error =
         rest.iter().fold(error, |error, entry| error.at(entry.name.span, "only one of them can hold"));
@@ -227,23 +227,23 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
     }
 }
 
-/// Whether a table has been validated as that of another copy of the same body.
+/// Whether the table of another copy of the same body has been validated. Marks the table as validated.
 fn is_known(table: &Table, context: &mut Context<'_>) -> bool {
     table.entries.address().is_some_and(|address| !context.validated.insert((address, context.is_partial)))
 }
 
-/// The place that names a table: its key, if it has one.
+/// The place that names a table: its key, or the table itself if it has no key.
 fn at(node: &Node, entry: Option<&Entry>) -> Option<Span> {
     Some(entry.map_or(node.span, |entry| entry.name.span))
 }
 
-/// `[body.ball]` → `shape` of [body.ball] → `sphere` of [body.ball].
+/// The name of an inner table in messages: `[body.ball]` → `shape` of [body.ball] → `sphere` of [body.ball].
 fn inner_path(entry: Option<&Entry>, path: &str) -> String {
     let Some(entry) = entry else { return path.to_owned() };
     if path == "the scene" {
         return format!("[{}]", entry.name.text);
     }
-    // Only the keys of the language stand in front of « of »; the name behind it may be anything.
+    // Only keys of the language stand before « of ». The name after it may be anything.
     let table = match path.split_once("` of ") {
         Some((_, table)) if path.starts_with('`') => table,
         _ => path,
@@ -296,7 +296,7 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
     }
 }
 
-/// Whether a table is a value of a thing without a name, rather than a thing with a name: `[body] shape.sphere…`.
+/// Whether a table lacks the name of its thing and holds its values directly: `[body] shape.sphere…`.
 fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
     let Some(key) = spec.key(&entry.name.text) else { return false };
     let tables = match &key.kind {
@@ -308,7 +308,7 @@ fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
     !inner.entries.is_empty() && tables.iter().any(fits) && !holds(spec)
 }
 
-/// A name as TOML writes it in a header.
+/// A name in the notation of a TOML header.
 pub(super) fn as_key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { format!("\"{name}\"") }
@@ -389,7 +389,7 @@ fn reference(
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
     let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
-    // A single letter is near to every other one.
+    // A single letter is similar to every other letter.
     let is_word = word.chars().nth(1).is_some() && !label.contains(['"', '\\']);
     let near = near.map(|near| format!("\"{near}\"")).filter(|_| is_word);
     let is_near = label.starts_with("did you mean");

@@ -1,4 +1,4 @@
-//! Forces by formulas, which are held against their potential.
+//! Reads forces by formulas, and compares each force with its potential.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use crate::scene::expand::in_string;
 use crate::scene::expression::ExpressionError;
 use crate::scene::law::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 
-/// As many bodies are looked at.
+/// The maximum number of bodies whose initial force is checked.
 const SEEN: usize = 1000;
-/// A force and a gradient that differ by more than this part of them do not belong together. Derivatives are exact but for
-/// rounding, which terms that cancel each other make larger.
+/// The tolerance for the difference between a force and minus the gradient of its potential, relative to the force.
+/// Derivatives are exact except for rounding errors, which grow where terms cancel.
 const TOLERANCE: f64 = 1e-6;
 
-/// The quantities of a body.
+/// The values of [`QUANTITIES`] for one body.
 type Quantities = [f64; QUANTITIES.len()];
 
 impl Reader<'_, '_> {
@@ -46,7 +46,7 @@ impl Reader<'_, '_> {
         Some(ForceKind::Formula { bodies, law: Arc::new(law) })
     }
 
-    /// A body that a force moves at the beginning must have a force there.
+    /// Reports a formula without a value in the initial state of a body that the force can move.
     fn has_value_at_start(&mut self, law: &FormulaLaw, on: &[BodyId]) {
         let bodies = self.bodies;
         let is_there = |body: &&BodyId| {
@@ -76,7 +76,8 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// Holds the force on a body at rest against minus the gradient of the potential, around the places where bodies begin.
+    /// Reports a force on a body at rest that differs from minus the gradient of the potential at one of
+    /// [`places`](Self::places).
     fn belongs_to_force(&mut self, law: &FormulaLaw, on: &[BodyId], view: &View<'_>, potential: Span) {
         let (mut is_compared, mut first) = (false, None);
         for place in self.places(law, on) {
@@ -119,10 +120,10 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Places around those where bodies begin, at several times if the force depends on it, for bodies at rest. None is an even one, where a
-    /// wrong formula might be right.
+    /// Points around the initial locations of bodies at rest; at several times if the force depends on time. The
+    /// coordinates are not round numbers, for which a wrong formula might be right.
     fn places(&self, law: &FormulaLaw, on: &[BodyId]) -> Vec<Quantities> {
-        /// Directions and distances, relative to how far a body is from the origin.
+        /// Directions and distances. Distances are relative to the body's distance from the origin.
         const STEPS: [([f64; 3], f64); 6] = [
             ([0.618, -0.414, 0.732], 0.001),
             ([-0.577, 0.693, 0.302], 0.03),
@@ -153,7 +154,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// A number to read, with six digits.
+/// A number rounded to six digits.
 fn short(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -1,4 +1,4 @@
-//! `[force.NAME]`.
+//! Reads `[force.NAME]`.
 
 mod fields;
 mod formula;
@@ -17,19 +17,20 @@ use crate::scene::{Body, Emitter, Force, ForceKind, Simulation};
 
 /// The inputs for reading a force of any kind.
 struct Reader<'a, 'c> {
-    /// The name of the force, and where it stands.
+    /// The name of the force, and the place of the name.
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
     emitters: &'a [Emitter],
     simulation: &'a Simulation,
-    /// Whether it acts on particles.
+    /// Whether the force acts on particles.
     has_particles: bool,
-    /// The property that a body needs for this force between pairs, in words: why the force does not act on it.
+    /// Why this force between pairs does not act on a body that lacks a property.
     lack: &'static str,
     /// Whether the force can have a softening.
     softens: bool,
-    /// The names and codes reported so far. The name of a body with a `repeat` means all of its copies, and one report is enough.
+    /// The codes and places reported so far. The name of a body with a `repeat` means all of its copies, and one
+    /// report is enough.
     told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
@@ -63,7 +64,7 @@ pub(super) fn read(
         reader.has_particles = !emitters.is_empty();
         let kind = reader.kind(&view);
         if context.wrong_forces.contains(name) {
-            // The wrong key may be the one whose absence `NoEffect` reports.
+            // The wrong key may be the key that `NoEffect` reports as missing.
             let mut said = context.diagnostics.split_off(before);
             said.retain(|it| it.code != Code::NoEffect || it.span() != Some(span));
             context.diagnostics.append(&mut said);
@@ -132,7 +133,7 @@ impl Reader<'_, '_> {
         let softening = view.number("softening").unwrap_or_default();
         let (bodies, against) = self.pairs(view, softening, |_| true);
         let constant = view.number("constant").unwrap_or_default();
-        // At an angle of 0, no bodies act together: that is the sum over all pairs.
+        // At an opening angle of 0, the force is the sum over all pairs of bodies.
         let opening_angle = view.number("opening_angle").filter(|&angle| angle > 0.0);
         ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
     }
@@ -163,7 +164,7 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Warns where none of the keys is there without which the force is zero.
+    /// Warns of a force that has none of the keys. Without them the force is zero.
     fn needs_one_of(&mut self, view: &View<'_>, keys: &[&str]) {
         if !keys.iter().any(|key| view.has(key)) {
             let name = self.name;
@@ -173,7 +174,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reports a diagnostic for the name at a place, unless that name or the whole force has the like already.
+    /// Reports a diagnostic, unless the same code has been reported at this place. The place of the force itself may
+    /// have several diagnostics.
     fn say(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
         if span == self.span || self.told.insert((code, span)) {
             self.context.diagnostics.push(diagnostic());
@@ -184,7 +186,7 @@ impl Reader<'_, '_> {
         self.say(Code::NoEffect, span, || Diagnostic::warning(Code::NoEffect, message()).at(span, why));
     }
 
-    /// The number of the body that is named; none if there is no such body, which the validation has said.
+    /// The index of the named body. `None` if there is no such body, which has been reported.
     fn body(&self, node: &Node) -> Option<usize> {
         node.as_str().and_then(|name| self.context.names.bodies.get(name)).copied()
     }

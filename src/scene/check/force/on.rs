@@ -1,4 +1,4 @@
-//! The bodies that a force acts on.
+//! Reads the bodies that a force acts on.
 
 use std::collections::HashSet;
 
@@ -9,8 +9,8 @@ use crate::dynamics::BodyId;
 use crate::scene::Emitter;
 
 impl Reader<'_, '_> {
-    /// The emitters on whose particles the force acts: those of `on`, or all. Springs act on none, and electric forces on none
-    /// without a charge.
+    /// The emitters whose particles the force acts on: those in `on`, or all. Springs act on no particles, and
+    /// electric forces on no uncharged particles.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
         const KINDS: [&str; 10] = [
             "constant",
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
         on
     }
 
-    /// The bodies of `on`, or all that can move. A body that stays where it is in spite of the force is a warning.
+    /// The movable bodies in `on`, or all movable bodies. Warns of fixed bodies in `on`.
     pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let moves = |i: usize| !bodies[i].start.fixed;
@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
     }
 
-    /// The charged bodies among [`movable`](Self::movable). Naming a body without charge gives a warning.
+    /// The charged bodies among [`movable`](Self::movable). Warns of bodies without charge in `on`.
     pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let mut on = self.movable(view);
@@ -88,13 +88,14 @@ impl Reader<'_, '_> {
         on
     }
 
-    /// The bodies that `on` names, and where.
+    /// The bodies in `on`, each with the place that names it.
     fn spans(&self, view: &View<'_>) -> Vec<(usize, Span)> {
         let items = view.list("on").unwrap_or_default();
         items.iter().filter_map(|item| Some((self.body(item)?, item.span))).collect()
     }
 
-    /// Each of the bodies of `on`, and where it is named; none where there is no `on`. To name one twice is an error.
+    /// The bodies in `on`, each with the place that names it. `None` without `on`. Reports a body that is named
+    /// twice.
     pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
         let items = view.list("on")?;
         let mut seen = HashSet::with_capacity(items.len());
@@ -117,7 +118,7 @@ impl Reader<'_, '_> {
         self.say(Code::NamedTwice, span, || error().at(span, "the second time"));
     }
 
-    /// Warns that the force acts on no body. A scene without any bodies is reported elsewhere.
+    /// Warns that the force acts on no body. A scene without bodies is reported elsewhere.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() && !self.has_particles {
             let name = self.name;

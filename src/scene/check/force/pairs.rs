@@ -1,4 +1,4 @@
-//! Forces between all pairs of bodies.
+//! Reads forces between all pairs of bodies.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,14 +8,14 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::BodyId;
 use crate::scene::source::Value;
 
-/// The number of a body, and where it is named, if it is.
+/// The index of a body, and the place that names it, if there is one.
 pub(super) type Member = (usize, Option<Span>);
 
 impl Reader<'_, '_> {
-    /// The bodies that act on each other: those of `on`, or all but planes; or those of two groups. Only those that are
-    /// `able` to do.
+    /// The bodies that attract or repel each other: the bodies in `on`, or all except planes, or the two groups in
+    /// `between`. Excludes bodies that are not `able` to.
     ///
-    /// A plane cannot be one of them: it has no centre. Without softening, no two may be at the same place.
+    /// Reports planes, because a plane has no centre. Without softening, reports two bodies at the same place.
     pub(super) fn pairs(
         &mut self,
         view: &View<'_>,
@@ -25,7 +25,7 @@ impl Reader<'_, '_> {
         self.pairs_or_one(view, softening, able, false)
     }
 
-    /// The same; `alone`: also one body without another feels the force.
+    /// Like [`pairs`](Self::pairs). If `alone`, the force also acts on a single body.
     pub(super) fn pairs_or_one(
         &mut self,
         view: &View<'_>,
@@ -50,7 +50,7 @@ impl Reader<'_, '_> {
             return (numbers(&first), Some(numbers(&second)));
         }
         if view.has("between") {
-            // The error in it has been reported.
+            // An error in `between` has been reported.
             return (Vec::new(), None);
         }
         let on: Vec<Member> = match self.named(view) {
@@ -79,7 +79,7 @@ impl Reader<'_, '_> {
         named.into_iter().filter(|&(body, _)| able(body)).map(|(body, span)| (body, Some(span))).collect()
     }
 
-    /// The two groups of `between`. The copies of a body that is repeated all stand at the place of its name.
+    /// The two groups in `between`. All copies of a repeated body have the place of the body's name.
     fn groups(&mut self, view: &View<'_>) -> Option<[Vec<(usize, Span)>; 2]> {
         let items = view.list("between")?;
         let mut groups: Vec<(Span, Vec<(usize, Span)>)> = Vec::new();
@@ -127,7 +127,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Two bodies at the same place are an error, unless both stay there. Of several groups, those of different ones.
+    /// Reports two bodies at the same place, unless both are fixed. With several groups, only compares bodies of
+    /// different groups.
     pub(super) fn apart(&mut self, groups: &[&[Member]]) {
         if self.context.bodies_are_wrong {
             return;
@@ -138,7 +139,7 @@ impl Reader<'_, '_> {
         let members =
             groups.iter().enumerate().flat_map(|(group, members)| members.iter().map(move |it| (group, *it)));
         for (group, (body, span)) in members {
-            // Adding 0 makes 0 of −0, which is the same place.
+            // Adding 0 turns −0 into 0: both mean the same place, but have different bits.
             let place = (bodies[body].start.location + 0.0).to_array().map(f64::to_bits);
             let (of, other) = *places.entry(place).or_insert((group, body));
             let within_one = groups.len() > 1 && of == group;
@@ -146,7 +147,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);
-            // Two copies of a body are enough.
+            // One report for two bodies is enough for all of their copies.
             let groups = &self.context.groups;
             if !said.insert([one, two].map(|name| groups.original(name).unwrap_or(name))) {
                 continue;

@@ -1,4 +1,4 @@
-//! `[force.NAME.spring]`.
+//! Reads `[force.NAME.spring]`.
 
 use super::super::end;
 use super::super::view::View;
@@ -9,7 +9,7 @@ use crate::scene::ForceKind;
 use crate::scene::source::Node;
 
 impl Reader<'_, '_> {
-    /// A spring from each end to the next.
+    /// Reads a spring from each end in `between` to the next.
     pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let nodes = view.list("between")?;
         self.chain_of_groups(nodes, view.span("between"));
@@ -35,9 +35,9 @@ impl Reader<'_, '_> {
         Some(ForceKind::Spring { links, look: super::super::showing::spring(view, self.context) })
     }
 
-    /// Warns of several bodies that are repeated: their copies make one chain, where pairs may have been meant.
+    /// Warns of several repeated bodies in `between`. Their copies make one chain, but the user may have meant pairs.
     fn chain_of_groups(&mut self, nodes: &[Node], between: Option<Span>) {
-        // The copies of a body all stand at the place of its name.
+        // All copies of a body have the place of the body's name.
         let mut groups: Vec<&[Node]> = nodes.chunk_by(|a, b| a.span == b.span).collect();
         let count = groups.len();
         groups.retain(|group| group.len() > 1);
@@ -65,8 +65,8 @@ impl Reader<'_, '_> {
         );
     }
 
-    /// Warns of a spring between copies that start at the same place, where its rest length would be 0: they have hardly been
-    /// meant to.
+    /// Warns of a spring between copies at the same initial place. Its rest length would be 0, which the user has
+    /// hardly meant.
     fn copies_apart(&mut self, nodes: [&Node; 2], between: [Anchor; 2]) {
         let bodies = self.bodies;
         let is_copy = |end: &Anchor| {
@@ -87,7 +87,7 @@ impl Reader<'_, '_> {
         self.say(Code::SpringEnds, span, warning);
     }
 
-    /// Two neighbouring ends must be different, and one of them able to move.
+    /// Reports two neighbouring ends that are equal, or that are both immovable.
     fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
         let moves = |end: Anchor| end.body().is_some_and(|id| !self.bodies[id.index()].start.fixed);
         if between[0] == between[1] {

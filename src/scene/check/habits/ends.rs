@@ -1,4 +1,4 @@
-//! The two ends of a spring, which other programs name by two keys.
+//! Corrects springs and joints whose two ends have two keys, as in other programs.
 
 use super::super::Context;
 use super::key_of;
@@ -8,7 +8,7 @@ use super::together::{Together, joined};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Names of the ends in other programs.
+/// Keys for an end in other programs.
 const ENDS: [&str; 34] = [
     "from",
     "to",
@@ -46,12 +46,12 @@ const ENDS: [&str; 34] = [
     "target",
 ];
 
-/// Whether a key is what other programs call an end.
+/// Whether a key names an end in other programs.
 pub(super) fn is_end(entry: &Entry) -> bool {
     ENDS.contains(&entry.name.text.to_lowercase().as_str())
 }
 
-/// Reports keys that name the ends where `between` should, and their places.
+/// Reports keys that name the ends, and replaces them by `between`.
 pub(super) fn mend_ends(
     table: &Table,
     spec: &'static TableSpec,
@@ -74,7 +74,7 @@ pub(super) fn mend_ends(
     let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
     entries.sort_by_key(|entry| entry.name.span);
     if entries.len() > 2 {
-        // A key that the table has for something else keeps its meaning, as the `anchor` of a hinge.
+        // A key with another meaning in this table keeps it, such as the `anchor` of a hinge.
         entries.retain(|entry| key_of(&entry.name.text, inner).is_none_or(|key| key.name == between.name));
     }
     let (first, second) = match entries.as_slice() {
@@ -95,7 +95,7 @@ pub(super) fn mend_ends(
     joined(&entries, meant, "`between` lists both ends", line, path, context)
 }
 
-/// An end as it stands in `between`: of a list of one name, the name.
+/// The text of an end for `between`. A list with one name becomes the name.
 fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -106,7 +106,7 @@ fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     }
 }
 
-/// Both ends, if the user has given one: the other is another body, or else a point of the world.
+/// The text of both ends if the user has given one. The other end becomes another body, or else a point of the world.
 pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<String> {
     let (one, name) = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -125,7 +125,7 @@ pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<Strin
     Some(format!("[{one}, {other}]"))
 }
 
-/// Both ends, if the user has given none.
+/// The text of both ends if the user has given none.
 pub(super) fn example(context: &Context<'_>) -> Option<String> {
     match bodies(context).as_slice() {
         [] => None,
@@ -134,7 +134,7 @@ pub(super) fn example(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// The names of the first bodies, in the order of the file; the copies of one have a name together.
+/// The names of the bodies for an example, in the order of the file. Copies of a body share one name.
 fn bodies<'a>(context: &'a Context<'_>) -> Vec<&'a str> {
     let mut names: Vec<(&str, usize)> = context
         .names

@@ -1,4 +1,4 @@
-//! Joints as newcomers write them.
+//! Corrects common mistakes in joints.
 
 use super::super::Context;
 use super::launch::find;
@@ -12,7 +12,7 @@ use crate::scene::source::{Entry, Node, Table, Value};
 const WORLD: [&str; 10] =
     ["world", "ground", "origin", "ceiling", "wall", "space", "fixed", "static", "anchor", "none"];
 
-/// `limits = 45` and `limits = { min = -45, max = 45 }` → `[-45, 45]`.
+/// Corrects limits: `limits = 45` and `limits = { min = -45, max = 45 }` → `[-45, 45]`.
 pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     const LOWEST: [&str; 6] = ["min", "low", "lower", "minimum", "from", "lo"];
     const HIGHEST: [&str; 6] = ["max", "high", "upper", "maximum", "to", "hi"];
@@ -25,7 +25,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
             [only] => both(only),
             _ => None,
         },
-        // A table with a header of its own is not replaced where it stands.
+        // A fix at this place cannot replace a table that has its own header.
         Value::Table(table) if raw(node.span, context).starts_with('{') => {
             let [low, high] = [find(table, &LOWEST)?, find(table, &HIGHEST)?];
             Some(format!("[{}, {}]", raw(low.node.span, context), raw(high.node.span, context)))
@@ -34,7 +34,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// One point over which both parts of a pulley's rope run, as the list of two that it has to be.
+/// Corrects a single point `over` which a pulley's rope runs: a list of two points.
 pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     let point = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -49,7 +49,7 @@ pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     Some(format!("[{point}, {point}]"))
 }
 
-/// A stiffness beside the keys of a hinge or a slider: its motor has one.
+/// Moves a stiffness beside the keys of a hinge or a slider into the joint's motor.
 pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let motor = spec.key("motor").filter(|motor| table.get(motor.name).is_none())?;
     let [value, _] = values(motor.kind.table()?)?;
@@ -66,13 +66,14 @@ pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Cont
     joined(&entries, motor.name, &label, line + " }", path, context)
 }
 
-/// What a motor keeps with a stiffness, and what it keeps with a strength.
+/// The key of the value that a motor with a stiffness keeps, and that of the speed that a motor with a strength
+/// keeps.
 fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     let key = |name: &str| spec.key(name).map(|key| key.name);
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])
 }
 
-/// The missing line of a motor, chosen by its other keys.
+/// The missing line of a motor. The motor's other keys decide between value and speed.
 pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     let [value, speed] = values(spec)?;
     let has = |names: [&str; 2]| names.iter().any(|name| table.get(name).is_some());
@@ -83,7 +84,7 @@ pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     }
 }
 
-/// The world as an end, which stands there as a point.
+/// Corrects an end that names the world: a point takes its place.
 pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diagnostic> {
     let Kind::Either(kinds) = kind else { return None };
     let is_point = |kind: &Kind| matches!(kind, Kind::Numbers(3, _));
@@ -96,7 +97,8 @@ pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diag
     })
 }
 
-/// A joint among the forces, or a force among the joints: where it belongs, and the text that moves it there.
+/// Finds a joint among the forces, or a force among the joints. Returns a label with the right table, and the fix of
+/// the header.
 pub(super) fn other_section(
     entry: &Entry,
     table: &Table,
@@ -120,15 +122,15 @@ pub(super) fn other_section(
     Some((label, is_header.then(|| (place, other.to_owned()))))
 }
 
-/// `type = "hinge"` below `[joint.knee]`, with keys of the hinge only.
+/// The fix for `type = "hinge"` below `[joint.knee]` in a table with no other keys than those of the hinge.
 pub(super) struct KindInHeader {
-    /// The pieces of text that put the kind into the header instead.
+    /// The edits that move the kind into the header.
     pub(super) edits: [(Span, String); 2],
-    /// The keys that are right then.
+    /// The places of the keys that the fix makes right.
     pub(super) keys: Vec<Span>,
 }
 
-/// Whether the kind that a word names can go into the header of the table.
+/// The fix that moves a kind from its word into the header of the table. `None` if it is impossible.
 pub(super) fn kind_in_header(
     word: &Entry,
     kind: &str,

@@ -1,4 +1,4 @@
-//! Keys that are missing, with an example of each.
+//! Corrects missing keys by an example.
 
 use super::super::Context;
 use super::text::{header_end, is_file};
@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
 use crate::scene::source::Table;
 
-/// A key that is missing, with an example of it at its place.
+/// Adds a fix that inserts a missing key with an example value.
 pub(in crate::scene::check) fn mend_missing(
     error: Diagnostic,
     key: &Key,
@@ -29,7 +29,7 @@ pub(in crate::scene::check) fn mend_missing(
     inserted(error, text, at, context)
 }
 
-/// A table that must be one of several kinds and is none, with an example of the kind that it is named after.
+/// Adds a fix to the error for a table without a kind: an example of the kind that has the table's name.
 pub(in crate::scene::check) fn mend_kind(
     error: Diagnostic,
     table: &Table,
@@ -54,11 +54,11 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
     }
 }
 
-/// A whole table of a kind as a line: `shape.sphere.radius = 0.5`.
+/// The text of an example of a kind: `shape.sphere.radius = 0.5`.
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
     let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {
-        // Keys that have no effect without the missing one.
+        // Some keys have no effect without one of these.
         keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
     }
     let values: Vec<(&str, String)> =
@@ -74,7 +74,7 @@ pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<
     })
 }
 
-/// A value of a key to begin with.
+/// The text of an example value for a key.
 pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
     let text = match (&key.kind, key.name) {
         (Kind::List { .. }, "between") => return ends::example(context),

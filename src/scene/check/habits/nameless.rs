@@ -1,4 +1,4 @@
-//! Tables that need a name of their own, or the kind of thing that they are.
+//! Corrects tables that lack a name or the word for their sort, such as `body`.
 
 use super::super::validate::as_key;
 use super::super::{Context, suggest};
@@ -10,8 +10,8 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// The error for a table that stands in the scene without its kind (`[ball]` for `[body.ball]`), or for a key of bodies that
-/// does; and the key of the scene that was meant.
+/// The error for a table without the word for its sort (`[ball]` for `[body.ball]`), or for a key of a body outside
+/// of any body. Also returns the key of the scene that was meant.
 pub(in crate::scene::check) fn nameless(
     entry: &Entry,
     context: &Context<'_>,
@@ -40,7 +40,7 @@ pub(in crate::scene::check) fn nameless(
 
 pub(super) type Edits = Vec<(Span, String)>;
 
-/// The tables with names of a scene: their key and what each holds.
+/// The keys of the scene with named tables, and the description of these tables.
 fn collections() -> impl DoubleEndedIterator<Item = (&'static str, &'static TableSpec)> {
     SCENE.keys.iter().filter_map(|key| match key.kind {
         Kind::Named(inner) => Some((key.name, inner)),
@@ -52,7 +52,7 @@ fn collection(name: &str) -> Option<&'static TableSpec> {
     collections().find(|(key, _)| *key == name).map(|(_, spec)| spec)
 }
 
-/// A table that is called after a kind of thing or of shape: `[drag]`, `[spring.left]`, `[sphere.ball]`.
+/// Corrects a table that has the name of a kind: `[drag]`, `[spring.left]`, `[sphere.ball]`.
 fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let (word, table) = (&*entry.name.text, entry.node.as_table()?);
     let is_kind = |spec: &TableSpec| matches!(&spec.rule, Rule::ExactlyOne(kinds) if kinds.contains(&word));
@@ -80,7 +80,7 @@ fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edit
     Some(("body", edits))
 }
 
-/// The header of a camera with a name, `[camera.top]`, as that of a view; the main camera needs none.
+/// Corrects the header of a named camera, `[camera.top]`, to that of a view. The main camera has no name.
 pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Option<Edits> {
     let camera = SCENE.key("camera")?.kind.table()?;
     let table = entry.node.as_table().filter(|_| spec.noun == camera.noun)?;
@@ -96,7 +96,7 @@ pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Op
     Some(vec![(place, text)])
 }
 
-/// Puts another word in front of the names in headers, and a kind behind them.
+/// Replaces the first word in headers by `first`, and adds `kind` after the names.
 fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, context: &Context<'_>) -> Edits {
     let mut edits = Vec::new();
     for inner in &table.entries {
@@ -112,7 +112,8 @@ fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, contex
     edits
 }
 
-/// A key of bodies: of all of them, or of a first one where there is none.
+/// Corrects a key of a body outside of any body: moves it to the defaults of all bodies, or to an example body if the
+/// scene has none.
 fn of_bodies(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let key = collection("body")?.key(&entry.name.text)?;
     let (kind, place) =
@@ -120,7 +121,7 @@ fn of_bodies(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edit
     Some((kind, vec![(entry.name.span, format!("{place}.{}", key.name))]))
 }
 
-/// The sort of thing that has most of the keys of a table; of several, the first.
+/// The sort of thing that has most of the keys in a table. Of several, the first.
 fn best(table: &Table) -> Option<&'static str> {
     let worth = |inner: &'static TableSpec, entry: &Entry| match inner.key(&entry.name.text) {
         Some(_) => 2,
@@ -132,7 +133,7 @@ fn best(table: &Table) -> Option<&'static str> {
     (count > 0).then_some(name)
 }
 
-/// A value that stands where only tables with names do, with the name that it needs.
+/// Adds a name to a value that stands in the place of a named table.
 pub(in crate::scene::check) fn mend_unnamed(
     error: Diagnostic,
     entry: &Entry,
@@ -151,7 +152,7 @@ pub(in crate::scene::check) fn mend_unnamed(
     if all && header_end(entry.name.span, context).is_some() {
         return error.fix(entry.name.span, format!("{word}.{}", name_of(word)));
     }
-    // `clock = "t = ${t}"` in [label]: the name is there, and the key is not.
+    // In `clock = "t = ${t}"` of [label], the name is there and the key is missing.
     let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     match required.as_slice() {
         [only] if spec.key(key).is_none() && only.kind.takes(&inner.node.value) => {
@@ -161,7 +162,8 @@ pub(in crate::scene::check) fn mend_unnamed(
     }
 }
 
-/// Tables of a list, `[[body]]`, with the headers that they need: with the names that stand in them, or else with numbers.
+/// Corrects a list of tables, `[[body]]`, to tables with headers. Their names come from a key of each table, or are
+/// numbers.
 pub(in crate::scene::check) fn mend_array(
     error: Diagnostic,
     node: &Node,
@@ -189,7 +191,7 @@ pub(in crate::scene::check) fn mend_array(
     edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text))
 }
 
-/// A name for a first thing of a sort.
+/// An example name for a thing of this sort.
 fn name_of(word: &str) -> &'static str {
     match word {
         "body" => "ball",

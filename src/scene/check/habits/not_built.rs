@@ -1,22 +1,22 @@
-//! Features that people look for in vain: jabuka lacks them so far, or has them in another form.
+//! Features that users look for and that jabuka lacks or has in another form.
 
 use crate::scene::grammar::{SCENE, TableSpec};
 
-/// Something that a table has no key for.
+/// A feature without a key.
 pub(in crate::scene::check) struct NotBuilt {
-    /// The table that it is looked for in, by the noun of its description.
+    /// The noun of the table in which users look for the feature.
     of: &'static str,
-    /// The words for it.
+    /// The names of the feature in other programs.
     words: &'static [&'static str],
-    /// The state today, and what to write instead.
+    /// Says what jabuka has today, and what to write instead.
     pub(super) help: &'static str,
-    /// The key by which the language will have it, of the table or of the scene; empty where it will not.
+    /// The future key of the feature, in the table or the scene. Empty if no key is planned.
     pub(super) comes_with: &'static str,
-    /// Whether the scene is right without the line.
+    /// Whether the fix removes the line. The scene is then right without it.
     pub(super) can_go: bool,
 }
 
-/// The feature that such a key asks for. `None` if the language has the key.
+/// The missing feature that a key asks for. `None` if the language has the key.
 pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option<&'static NotBuilt> {
     let folded = word.to_lowercase();
     let is_it = |thing: &&NotBuilt| thing.of == spec.noun && thing.words.contains(&folded.as_str());
@@ -24,7 +24,7 @@ pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option
     NOT_BUILT.iter().find(is_it).filter(|thing| !is_built(thing.comes_with))
 }
 
-/// A word for a key that the language will have, and has not yet.
+/// Whether a word is a future value of a key.
 pub(in crate::scene::check) fn is_word_to_come(key: &str, word: &str) -> bool {
     key == "contacts" && word == "time-stepping"
 }

@@ -1,4 +1,4 @@
-//! Keys that stand one table too deep: `repeat` among the keys of a joint's rod.
+//! Corrects keys that stand one table too deep: `repeat` among the keys of a joint's rod.
 
 use super::super::Context;
 use super::key_of;
@@ -12,14 +12,15 @@ use crate::scene::source::{Entry, Table};
 pub(in crate::scene::check) struct Owner<'a> {
     pub(in crate::scene::check) table: &'a Table,
     pub(in crate::scene::check) spec: &'static TableSpec,
-    /// The place of its name.
+    /// The place of the thing's name.
     pub(in crate::scene::check) at: Span,
-    /// Its header: `[joint.string]`.
+    /// The header of the thing's table: `[joint.string]`.
     pub(in crate::scene::check) path: &'a str,
 }
 
 impl Owner<'_> {
-    /// Says of unknown keys in its inner tables that they are its own, and moves them there.
+    /// Corrects unknown keys of inner tables that are keys of this thing. Changes the diagnostics after the first
+    /// `before`.
     pub(in crate::scene::check) fn mend_deep(&self, before: usize, context: &mut Context<'_>) {
         for number in before..context.diagnostics.len() {
             let error = &context.diagnostics[number];
@@ -43,7 +44,7 @@ impl Owner<'_> {
         }
     }
 
-    /// The pieces of text that move an entry to where it belongs, if that can be told.
+    /// The edits that move an entry to this thing's table. `None` if the right place is unclear.
     fn edits(&self, entry: &Entry, key: &Key, context: &Context<'_>) -> Option<[(Span, String); 2]> {
         if self.table.get(key.name).is_some() || entry.name.span.source != self.at.source {
             return None;
@@ -53,7 +54,8 @@ impl Owner<'_> {
         Some([(removal(whole(entry), context)?, String::new()), place])
     }
 
-    /// A header of its own with a line, above that of its inner table, unless it has one.
+    /// A new header for this thing with a line below it, above the header of the inner table. `None` if the thing has
+    /// a header.
     fn header_above(&self, line: &str, context: &Context<'_>) -> Option<(Span, String)> {
         let text = &context.sources.get(self.at.source).text;
         header_end(self.at, context)?;
@@ -64,7 +66,7 @@ impl Owner<'_> {
     }
 }
 
-/// The entry whose name stands at a place, in the tables below an entry.
+/// Finds the entry whose name stands at a place, in the tables below `entry`.
 fn find(entry: &Entry, at: Span) -> Option<&Entry> {
     let inner = entry.node.as_table()?;
     inner.entries.iter().find_map(|entry| if entry.name.span == at { Some(entry) } else { find(entry, at) })

@@ -1,26 +1,26 @@
-//! Pieces of the text of a scene: lines, headers, entries.
+//! Finds parts of a scene's text: lines, headers, entries.
 
 use super::super::Context;
 use crate::diagnostic::{SourceId, Span};
 use crate::scene::source::Entry;
 use crate::scene::units;
 
-/// The text of a piece.
+/// The text at a place.
 pub(super) fn raw<'a>(span: Span, context: &'a Context<'_>) -> &'a str {
     context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
 }
 
-/// Whether a text is that of a file, and not of an argument.
+/// Whether a source is a file, and not the argument `--set`.
 pub(in crate::scene::check) fn is_file(source: SourceId, context: &Context<'_>) -> bool {
     context.sources.get(source).name != "--set"
 }
 
-/// A key with its value.
+/// The place of a key together with its value.
 pub(super) fn whole(entry: &Entry) -> Span {
     Span { end: entry.node.span.end, ..entry.name.span }
 }
 
-/// The end of the line, if the name at a place stands in the header of a table.
+/// The end of the line if the name at a place stands in the header of a table.
 pub(super) fn header_end(at: Span, context: &Context<'_>) -> Option<usize> {
     let text = &context.sources.get(at.source).text;
     let start = text[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -28,7 +28,7 @@ pub(super) fn header_end(at: Span, context: &Context<'_>) -> Option<usize> {
     text[start..end].trim_start().starts_with('[').then_some(end)
 }
 
-/// The line of an entry with its end, if nothing else stands there.
+/// The line of an entry with its line break. `None` if the line has other content.
 pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     let text = &context.sources.get(entry.source).text;
     let start = text[..entry.start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -39,7 +39,7 @@ pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     alone.then_some(Span { start, end, ..entry })
 }
 
-/// The text to remove along with an entry: its line, or the comma beside it in an inline table.
+/// The text to remove with an entry: its line, or a comma beside it in an inline table.
 pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     whole_line(entry, context).or_else(|| {
         let text = &context.sources.get(entry.source).text;
@@ -52,7 +52,7 @@ pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     })
 }
 
-/// A number, or a formula, as it stands in a larger formula, in the given unit.
+/// The text of a number or a formula in the given unit, for use inside a larger formula.
 pub(super) fn operand(entry: &Entry, unit: &str, context: &Context<'_>) -> Option<String> {
     let text = match entry.node.as_str() {
         Some(text) => text.trim(),
@@ -66,7 +66,7 @@ pub(super) fn operand(entry: &Entry, unit: &str, context: &Context<'_>) -> Optio
     Some(if is_plain { text.to_owned() } else { format!("({text})") })
 }
 
-/// The place before an entry of a table, and the text that puts another entry of the same table there.
+/// The place before an entry, and the text that inserts another entry of the same table there.
 pub(in crate::scene::check) fn before(name: Span, entry: &str, context: &Context<'_>) -> (Span, String) {
     let text = &context.sources.get(name.source).text;
     let start = text[..name.start].rfind('\n').map_or(0, |newline| newline + 1);

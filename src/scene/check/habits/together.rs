@@ -1,4 +1,4 @@
-//! Keys that together say what one key of the language does.
+//! Corrects several keys that together mean one key of the language.
 
 use super::super::Context;
 use super::kind::MeantKind;
@@ -10,17 +10,17 @@ use crate::scene::grammar::{Key, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 use crate::scene::units;
 
-/// Keys that belong together.
+/// Several keys that together mean one key.
 pub(in crate::scene::check) struct Together {
-    /// The error for them.
+    /// The error for the keys.
     pub(in crate::scene::check) error: Diagnostic,
-    /// Their places.
+    /// The places of the keys.
     pub(in crate::scene::check) spans: Vec<Span>,
     /// The key that was meant.
     pub(in crate::scene::check) key: &'static str,
 }
 
-/// The keys of a table that together say what one key of the language does.
+/// Finds the keys of a table that together mean one key of the language.
 pub(in crate::scene::check) fn together(
     table: &Table,
     spec: &'static TableSpec,
@@ -49,7 +49,7 @@ pub(in crate::scene::check) fn together(
         .collect()
 }
 
-/// An error whose mending puts a line in the place of the first of some entries, and leaves the others out.
+/// The error for several entries. Its fix replaces the first entry by a line and removes the others.
 pub(super) fn joined(
     entries: &[&Entry],
     key: &'static str,
@@ -65,7 +65,8 @@ pub(super) fn joined(
     let error = Diagnostic::error(Code::UnknownKey, message).at(first.name.span, label);
     let mut error = error.fix(whole(first), line);
     for entry in rest {
-        // The end of the line before goes with it, so that the line behind is none of the piece.
+        // Remove the line break before the entry rather than after it, so that two fixes of neighbouring lines do not
+        // overlap.
         let gone = match whole_line(whole(entry), context).filter(|line| line.start > 0) {
             Some(line) => {
                 let is_last = raw(line, context).ends_with('\n');
@@ -78,7 +79,7 @@ pub(super) fn joined(
     Some(Together { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
 }
 
-/// A speed and an angle for the velocity of a body.
+/// Corrects a speed and an angle to the velocity of a body.
 fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let key = spec.key("velocity").filter(|_| spec.key("angular_velocity").is_some())?.name;
     if table.get(key).is_some() {
@@ -89,7 +90,7 @@ fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) ->
     joined(&[speed, angle], key, "`velocity` is a vector", line, path, context)
 }
 
-/// Coordinates one by one.
+/// Corrects coordinates with a key each to one vector.
 fn components(
     table: &Table,
     spec: &TableSpec,
@@ -113,7 +114,7 @@ fn components(
     joined(&entries, key, &format!("`{key}` is a list"), line, path, context)
 }
 
-/// The width and the height of images.
+/// Corrects the width and the height of images to one size.
 fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let key = spec.key("size").filter(|_| spec.key("layout").is_some())?.name;
     let (width, height) = (table.get("width")?, table.get("height")?);
@@ -121,7 +122,7 @@ fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     joined(&[width, height], key, "`size` is width and height", line, path, context)
 }
 
-/// A number of steps or of frames, which follows from the duration.
+/// Corrects a number of timesteps or of frames to the timestep or frame rate that follows from the duration.
 fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     const STEPS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
     const FRAMES: [&str; 5] = ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
@@ -148,7 +149,7 @@ fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<
     joined(&[entry], key, label, format!("{key} = {}", units::written(rate)), path, context)
 }
 
-/// `ring = 12, radius = 2`: a kind with its count as its value, beside other keys of the kind.
+/// Corrects `ring = 12, radius = 2`: the count of a kind as the kind's value, beside other keys of the kind.
 fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Together> {
     let Rule::ExactlyOne(names) = &spec.rule else { return None };
     let kind = table
@@ -175,13 +176,13 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
     Some(Together { error: others.iter().fold(error, fix), spans, key: key.name })
 }
 
-/// A number or a formula as it stands.
+/// The text of a number or a formula.
 fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
     let is_value = entry.node.as_number().is_some() || entry.node.as_str().is_some();
     is_value.then(|| raw(entry.node.span, context).to_owned())
 }
 
-/// The drag coefficient, the area and the density of the air, by which tables give a quadratic drag.
+/// Corrects a drag coefficient, an area and a density of the air to a quadratic drag.
 fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
     const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];
@@ -192,7 +193,7 @@ fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     let mut entries = vec![coefficient, area];
     entries.extend(density);
     entries.sort_by_key(|entry| entry.name.span);
-    // Without a density: that of air at 20 °C and sea level.
+    // Without a density: the density of air at 20 °C and sea level, kg/m³.
     let of_air = match density {
         Some(entry) => operand(entry, "kg/m³", context)?,
         None => "1.2".to_owned(),

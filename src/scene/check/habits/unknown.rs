@@ -1,4 +1,4 @@
-//! Keys that a table does not know.
+//! Reports keys that a table does not have.
 
 use super::super::Context;
 use super::kind::MeantKind;
@@ -11,7 +11,8 @@ use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::units;
 
-/// The error for an unknown key, with the right text if that can be told; and the key of the table that was meant.
+/// The error for an unknown key, with a fix if the right text is clear. Also returns the key of the table that was
+/// meant.
 pub(in crate::scene::check) fn unknown(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -56,14 +57,14 @@ pub(in crate::scene::check) fn unknown(
     (beside(error, meant, &way, table, spec), Some(way[0]))
 }
 
-/// The keys of a table, in words.
+/// A list of the keys of a table, in words.
 pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
     let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
     let s = if names.len() == 1 { "" } else { "s" };
     format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }
 
-/// The text that belongs in the place of a key, or of its line.
+/// Adds a fix that replaces a key or its line.
 fn mended(
     error: Diagnostic,
     entry: &Entry,
@@ -78,17 +79,17 @@ fn mended(
         Some(first) => {
             let line = whole_line(whole(entry), context);
             match (&first.node.value, header_end(first.name.span, context), line) {
-                // The table has a header of its own, below which the key belongs.
+                // The table `first` has its own header, so insert the key below that header.
                 (Value::Table(_), Some(end), Some(line)) => {
                     let text = format!("\n{} = {}", way[1..].join("."), raw(entry.node.span, context));
                     error.fix(line, "").fix(Span { start: end, end, ..line }, text)
                 }
-                // The word that names the kind goes: see `mend_word`.
+                // `mend_word` removes the word that names the kind.
                 (Value::String(_), ..) if way[0] == "shape" => {
                     error.fix(entry.name.span, way.join(".")).fix_is_said()
                 }
                 (Value::Table(_), None, _) => error.fix(entry.name.span, way.join(".")).fix_is_said(),
-                // A color beside a material of the library tints it.
+                // A color beside a library material tints this material.
                 (Value::String(like), _, Some(line)) if way == ["material", "color"] => {
                     let text = format!("{{ like = \"{like}\", color = {} }}", raw(entry.node.span, context));
                     error.fix(line, "").fix(first.node.span, text)
@@ -99,7 +100,7 @@ fn mended(
     }
 }
 
-/// Converts the value if the word means another measure of the same thing: a diameter is two radii.
+/// Converts the value if the word means another measure of the same quantity: a diameter is two radii.
 fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     let factor = match &*entry.name.text {
         "diameter" => "0.5",
@@ -130,7 +131,7 @@ fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     }
 }
 
-/// Beside a key of a kind, a key of the table that is a kind by itself belongs to that kind as well: the `count` of a ring.
+/// Moves other keys of the same kind that the table also has by itself, such as the `count` of a ring.
 fn beside(
     error: Diagnostic,
     meant: Option<&MeantKind>,

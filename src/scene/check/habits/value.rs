@@ -1,4 +1,4 @@
-//! Values of a wrong type, or lists of a wrong length.
+//! Corrects values of a wrong type and lists of a wrong length.
 
 use super::super::Context;
 use super::text::{raw, whole};
@@ -8,7 +8,7 @@ use crate::scene::Color;
 use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
-/// Adds corrections of values of a wrong type or length to the diagnostics since there were `before`.
+/// Corrects values of a wrong type or length. Changes the diagnostics after the first `before`.
 pub(in crate::scene::check) fn mend_value(
     before: usize,
     node: &Node,
@@ -40,7 +40,7 @@ pub(in crate::scene::check) fn mend_value(
     }
 }
 
-/// The line that gives a material the color whose numbers stand in its place.
+/// The line that gives a material the color whose numbers stand in the material's place.
 fn numbers_of_a_color(
     node: &Node,
     kind: &Kind,
@@ -52,14 +52,14 @@ fn numbers_of_a_color(
     is_material.then(|| (whole(entry), format!("{}.color = {}", entry.name.text, raw(node.span, context))))
 }
 
-/// The line that lets a camera go with the body that stands in the place of a point.
+/// The line that makes a camera follow the body whose name stands in the place of a point.
 fn body_to_look_at(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
     let name = node.as_str().filter(|name| context.names.bodies.contains_key(*name))?;
     let is_it = &*entry.name.text == "look_at" && !name.contains(['"', '\\']);
     is_it.then(|| (whole(entry), format!("follow.body = \"{name}\"")))
 }
 
-/// The line by which a body moves as a file says that stands in the place of its motion.
+/// The line that moves a body by the file whose name stands in the place of the body's motion.
 fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
     let is_file = |name: &str| {
         let name = name.to_lowercase();
@@ -69,7 +69,7 @@ fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option
     is_it.then(|| (whole(entry), format!("motion.trajectory.file = {}", raw(node.span, context))))
 }
 
-/// The numbers of `1920x1080`.
+/// The numbers in a text such as `1920x1080`.
 fn numbers_of(text: &str, count: usize) -> Option<String> {
     let numbers = text.split(['x', 'X', '×', '*', ',', ';', ' ', ':']).map(str::trim);
     let numbers: Vec<&str> = numbers.filter(|number| !number.is_empty()).collect();
@@ -77,7 +77,7 @@ fn numbers_of(text: &str, count: usize) -> Option<String> {
     (are_whole && numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
-/// The error for a color that stands in the place of a material.
+/// The error for a color in the place of a material.
 pub(in crate::scene::check) fn color_for_material(
     error: Diagnostic,
     word: &str,
@@ -91,12 +91,12 @@ pub(in crate::scene::check) fn color_for_material(
         .fix(whole(entry), text)
 }
 
-/// A value of the right kind that says what a wrong one was meant to say.
+/// A value of the right type that a wrong value was probably meant to be.
 fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) -> Option<String> {
     let raw = raw(node.span, context);
     match (kind, &node.value) {
         (Kind::Either(kinds), Value::Integer(_) | Value::Float(_)) => {
-            // A number is a size more often than a switch.
+            // A number rarely means a switch, so try the other kinds first.
             let switches = kinds.iter().filter(|kind| matches!(kind, Kind::Boolean));
             let others = kinds.iter().filter(|kind| !matches!(kind, Kind::Boolean));
             others.chain(switches).find_map(|kind| better(node, kind, key, context))

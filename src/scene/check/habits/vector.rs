@@ -1,4 +1,4 @@
-//! Three numbers given in another form.
+//! Corrects three numbers given in another form.
 
 use super::super::Context;
 use super::launch;
@@ -6,7 +6,7 @@ use super::text::raw;
 use crate::scene::source::{Node, Table, Value, habits};
 use crate::scene::units;
 
-/// A list of this many numbers for a value of another type.
+/// The list of `count` numbers that a value of another type means.
 pub(super) fn list(
     node: &Node,
     key: &str,
@@ -36,7 +36,7 @@ pub(super) fn list(
             Some(format!("{}{zeros}]", raw.strip_suffix(']')?.trim_end().trim_end_matches(',')))
         }
         Value::Array(_) => listed(raw.strip_prefix('[')?.strip_suffix(']')?, key, count),
-        // A table with a header of its own is not replaced where it stands.
+        // A fix at this place cannot replace a table that has its own header.
         Value::Table(table) if count == 3 && raw.starts_with('{') => by_component(table, context)
             .or_else(|| launch::by_angle(table, context))
             .or_else(|| by_axis(table, unit)),
@@ -61,7 +61,7 @@ pub(super) fn axis(text: &str) -> Option<String> {
     }
 }
 
-/// A vector for a single number: along the axis that is most likely meant.
+/// The vector that a single number means: along the most likely axis.
 pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     match key {
         "gravity" if number > 0.0 => format!("[0, -{raw}, 0]"),
@@ -71,7 +71,7 @@ pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     }
 }
 
-/// `{ x = 1, y = 2 }`
+/// The vector in a table of components: `{ x = 1, y = 2 }`.
 fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
     let place = |name: &str| match name.to_lowercase().as_str() {
         "x" => Some(0),
@@ -86,7 +86,7 @@ fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
     (!table.entries.is_empty()).then(|| format!("[{}]", parts.join(", ")))
 }
 
-/// `{ axis = [0, 1, 0], rate = 100 }`
+/// The vector in a table of a direction and a magnitude: `{ axis = [0, 1, 0], rate = 100 }`.
 fn by_axis(table: &Table, unit: &str) -> Option<String> {
     const SIZES: [&str; 8] = ["rate", "speed", "omega", "magnitude", "value", "size", "w", "strength"];
     let [one, two] = table.entries.as_slice() else { return None };
@@ -111,7 +111,7 @@ fn by_axis(table: &Table, unit: &str) -> Option<String> {
     is_direction.then(|| format!("[{}]", parts.collect::<Vec<_>>().join(", ")))
 }
 
-/// The list of exactly `count` numbers in a text, with any separators between them.
+/// The list of exactly `count` numbers in a text with any separators.
 fn listed(inner: &str, key: &str, count: usize) -> Option<String> {
     let (text, _) = habits::list(inner, key)?;
     let numbers =

@@ -1,4 +1,4 @@
-//! The path from a table to the key that an unknown one was meant to be.
+//! The path from a table to the key that an unknown key was meant to be.
 
 use super::super::{Context, suggest};
 use super::key_of;
@@ -9,7 +9,7 @@ use crate::diagnostic::Span;
 use crate::scene::grammar::{Key, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// The way from a table to the key that was meant.
+/// The path from a table to the key that was meant.
 pub(super) fn way(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -17,7 +17,7 @@ pub(super) fn way(
     spec: &'static TableSpec,
 ) -> Option<Vec<&'static str>> {
     let word = &*entry.name.text;
-    // A table never belongs where none can stand.
+    // A table cannot move to a key that takes no table.
     let takes = |way: &Vec<&'static str>| {
         let is_table = entry.node.as_table().is_some();
         let can = |key: &Key| key.kind.table().is_some() || key.kind.takes(&entry.node.value);
@@ -27,12 +27,12 @@ pub(super) fn way(
     if of_kind.is_some() {
         return of_kind;
     }
-    // The keys of the simulation belong there, though a body's trail has a duration, too.
+    // A key of the simulation belongs there, although the trail of a body has a `duration`, too.
     if spec.key("shape").is_some() && key_of(word, spec).is_none() && of_simulation(word).is_some() {
         return None;
     }
     let fits = |way: &Vec<&'static str>| takes(way) && !is_excluded(way, meant, table, spec);
-    // A table that does not take the value may hold a key of this very name that does.
+    // A key of the table that does not take the value may have an inner key of the same name that does.
     let own = || {
         let own = key_of(word, spec)?;
         let inner = own.kind.table().filter(|_| !own.kind.takes(&entry.node.value));
@@ -55,7 +55,7 @@ pub(super) fn way(
         .or_else(|| suggest::deeper_also(word, spec).filter(fits))
 }
 
-/// Whether a path leads to another kind than the present or intended one: the two exclude each other.
+/// Whether a path leads to another kind than the present or intended kind. Two kinds exclude each other.
 fn is_excluded(
     way: &[&'static str],
     meant: Option<&MeantKind>,
@@ -81,14 +81,14 @@ fn is_excluded(
     is_full || meant.is_some_and(is_other)
 }
 
-/// The key that a way leads to.
+/// The key at the end of a path.
 pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static Key> {
     let (first, rest) = way.split_first()?;
     let key = spec.key(first)?;
     if rest.is_empty() { Some(key) } else { key_at(rest, key.kind.table()?) }
 }
 
-/// A key that stands in a table which has no such key, and where it belongs: its path, and the pieces of text that move it.
+/// The right place of a key that its table does not have: the path, and the edits that move the key.
 pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String, Vec<(Span, String)>)> {
     let word = &*entry.name.text;
     let way = of_simulation(word).map(|key| vec!["simulation", key.name]);
@@ -112,7 +112,8 @@ pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String,
     Some((path, fix))
 }
 
-/// A key of the simulation that is unlikely to be one of anything else, as « length » and « rate » may be.
+/// The key of the simulation with this name. `None` for words with other meanings as well, such as « length » and «
+/// rate ».
 fn of_simulation(word: &str) -> Option<&'static Key> {
     const PLAIN: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
     let key = key_of(word, SCENE.key("simulation")?.kind.table()?)?;

@@ -1,6 +1,6 @@
-//! Words of other programs for what a key lets choose.
+//! Values from other programs for keys with a choice of words.
 
-/// A word that is meant by another one, if it is one of those that there are.
+/// The word in `words` that another program's word means. `None` if there is none.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
     const OTHERS: [(&str, &[&str]); 21] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4"]),

@@ -1,4 +1,4 @@
-//! The limits and the motor of a hinge or a slider.
+//! Reads the limits and the motor of a hinge or a slider.
 
 use std::sync::Arc;
 
@@ -12,11 +12,11 @@ use crate::scene::joint::Course;
 
 /// The words that differ between an angle and a distance.
 struct Words {
-    /// One unit of the scene, in that of the dynamics.
+    /// The unit of the scene, in units of the dynamics.
     unit: f64,
-    /// The unit, as it is written.
+    /// The symbol of the unit.
     symbol: &'static str,
-    /// The key of what the motor can do at most.
+    /// The key of the motor's maximum force or torque.
     strength: &'static str,
     /// The key of the value that a motor keeps.
     value: &'static str,
@@ -26,7 +26,7 @@ const TURNING: Words =
     Words { unit: std::f64::consts::PI / 180.0, symbol: "°", strength: "torque", value: "angle" };
 const MOVING: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
 
-/// A turn, degrees.
+/// A full turn, degrees.
 const TURN: f64 = 360.0;
 
 impl Reader<'_, '_> {
@@ -117,7 +117,7 @@ impl Reader<'_, '_> {
         Some([low * unit, high * unit])
     }
 
-    /// Says it where a motor that keeps a value exactly would have to jump there.
+    /// Reports a motor that would have to jump at the start because it keeps a value exactly.
     fn begins_at_zero(&mut self, motor: &View<'_>, target: &Course, words: &Words) {
         let value = target.value.at(0.0);
         if value.abs() * words.unit > 1e-9 {

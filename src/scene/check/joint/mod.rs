@@ -1,4 +1,4 @@
-//! `[joint.NAME]`.
+//! Reads `[joint.NAME]`.
 
 mod freedom;
 mod rope;
@@ -18,10 +18,11 @@ use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, Simulation};
 
-/// Ends that are so far apart at the start, as a part of the joint's size, have been written with few digits.
+/// The largest distance between the ends that gives no warning, relative to the size of the joint. Coordinates with
+/// few digits give a larger distance.
 const NEARLY: f64 = 1e-9;
 
-/// Farther apart they do not fit.
+/// The distance between the ends, relative to the size of the joint, above which the joint is an error.
 const TOO_FAR: f64 = 1e-3;
 
 pub(super) fn read(
@@ -32,7 +33,7 @@ pub(super) fn read(
 ) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let named = root.named("joint");
-    // Gears couple other joints, and come last.
+    // Gears couple other joints, so read them last.
     let (gears, others): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
     let gear_names: Vec<&str> = gears.iter().map(|(name, ..)| *name).collect();
@@ -65,7 +66,7 @@ pub(super) fn read(
     joints
 }
 
-/// A length with as many digits as people read.
+/// A length, rounded to four digits.
 fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
@@ -73,19 +74,19 @@ fn about(length: f64) -> String {
 /// The kinds of joints.
 const KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
 
-/// The table of the kind of a joint.
+/// The table of a joint's kind.
 pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
     KINDS.into_iter().find_map(|kind| joint.variant(kind))
 }
 
-/// The arrows for what the joint does.
+/// Reads the arrows for the force and the torque of a joint.
 fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
     let kind = kind(view);
     let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table("arrows"), quantity.name());
     Quantity::OF_JOINTS.map(arrow)
 }
 
-/// How the joint is drawn, if it is.
+/// Reads how a joint is drawn. `None` if the joint is not drawn.
 fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
     if matches!(kind, JointKind::Gear(_)) {
         return None;
@@ -165,8 +166,8 @@ impl Reader<'_, '_> {
         Some(Rod { between, length })
     }
 
-    /// The ends of a joint that joins them at one place. Where neither says it, `at` does; what needs no place takes the centre
-    /// of the second.
+    /// The ends of a joint that connects two bodies at one point, and the point. If neither end gives the point, `at`
+    /// does. Without `at`, a joint that does not need a point takes the centre of the second end.
     fn joined(&mut self, view: &View<'_>, needs_place: bool) -> Option<([Anchor; 2], DVec3)> {
         let (mut between, nodes) = self.ends(view)?;
         let bodies = self.bodies;
@@ -178,7 +179,7 @@ impl Reader<'_, '_> {
             (Some(at), _) => at,
             (None, [true, _]) => places[0],
             (None, [false, true]) => places[1],
-            // It may be the place, and has got its error.
+            // The unknown key may be a misspelled `at`, and has been reported.
             (None, [false, false]) if needs_place && view.has_unknown() => return None,
             (None, [false, false]) if needs_place => {
                 let [a, b] = places;
@@ -208,7 +209,7 @@ impl Reader<'_, '_> {
         Some((between, point))
     }
 
-    /// Says it where the ends of a joint are not where they must be.
+    /// Reports a joint whose ends are not where they must be at the start.
     fn fits(&mut self, missing: f64, size: f64, span: Span, what: &str) {
         let name = self.name;
         if missing > TOO_FAR * size {
@@ -249,13 +250,13 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Says why a joint cannot be.
+    /// Reports why a joint is impossible.
     fn refuse(&mut self, message: String, span: Span, why: &str, help: &str) {
         let error = Diagnostic::error(Code::BadJoint, message).at(span, why).help(help);
         self.context.diagnostics.push(error);
     }
 
-    /// The point of a body that is at a point of the world at the start.
+    /// The point of a body that coincides with a point of the world at the start.
     fn on(&self, end: Anchor, point: DVec3) -> Anchor {
         match end {
             Anchor::Body { id, .. } => {
@@ -266,12 +267,12 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// A direction in the world at the start, in the axes of an end.
+    /// Converts an initial direction in the world to the axes of an end.
     fn in_axes_of(&self, end: Anchor, direction: DVec3) -> DVec3 {
         end.body().map_or(direction, |id| end::pose(id, self.bodies).1.conjugate() * direction)
     }
 
-    /// The rotation that takes the axes of the first end to those of the second, as they are at the start.
+    /// The initial rotation from the axes of the first end to those of the second.
     fn turned(&self, between: [Anchor; 2]) -> glam::DQuat {
         let turn = |end: Anchor| end.body().map_or(glam::DQuat::IDENTITY, |id| end::pose(id, self.bodies).1);
         turn(between[1]).conjugate() * turn(between[0])

@@ -1,4 +1,4 @@
-//! Bodies that turn about a point that stands still.
+//! Sets the initial velocity of bodies that turn about a fixed point.
 
 use glam::DVec3;
 
@@ -6,8 +6,8 @@ use crate::dynamics::Anchor;
 use crate::scene::check::end;
 use crate::scene::{Body, Joint, JointKind};
 
-/// Gives bodies that are said to turn, and not to move, the velocity with which they turn about their joint: ω × r, where a
-/// hinge or a ball joint fastens them to what stands still.
+/// Gives a body with an angular velocity and no velocity the velocity ω × r about its joint, if a hinge or a ball
+/// joint fastens it to something fixed.
 pub(in crate::scene::check) fn swing(joints: &[Joint], bodies: &mut [Body]) {
     for joint in joints {
         let between = match &joint.kind {

@@ -1,4 +1,4 @@
-//! Names with dots in the formulas of labels: what they stand for, and what is wrong with those that stand for nothing.
+//! Resolves names with dots in the formulas of labels, and reports unknown names.
 
 use std::ops::Range;
 
@@ -8,8 +8,8 @@ use crate::scene::grammar::Collection;
 use crate::scene::{BodyMeasure, ContactLaw, JointMeasure, Measure};
 
 impl Reader<'_, '_, '_> {
-    /// A formula in which `ball.speed` is one name, and what those names stand for. The formulas know no dots; another
-    /// letter takes their place, so that no other letter moves.
+    /// Replaces the dots in names such as `ball.speed`, because formulas have no names with dots. One letter replaces
+    /// each dot, so that all other letters keep their places. Returns the formula and the measure behind each name.
     pub(super) fn without_dots(
         &mut self,
         formula: &str,
@@ -106,7 +106,8 @@ impl Reader<'_, '_, '_> {
         Some((plain, dotted))
     }
 
-    /// Notes what a name stands for, as it is joined, unless another name of the formula looks the same then.
+    /// Adds the measure behind a name whose dots have been replaced. Reports a different name that has become equal
+    /// by the replacement.
     fn note(
         &mut self,
         dotted: &mut Vec<(String, Measure)>,
@@ -125,7 +126,7 @@ impl Reader<'_, '_, '_> {
         Some(())
     }
 
-    /// Says it where impacts are asked for, and nothing finds them.
+    /// Reports `impacts` in a scene without contacts, which finds no impacts.
     pub(super) fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
         if self.root.table("simulation").has("contacts") {
             return Some(());
@@ -136,7 +137,8 @@ impl Reader<'_, '_, '_> {
         None
     }
 
-    /// The impacts of a body with another, whose name begins at a place of the text; `ground` is the ground, unless a body is called so.
+    /// The impacts of a body with another body, whose name begins at the byte `begin`. `ground` means the ground,
+    /// unless a body has this name.
     fn of_pair(&mut self, body: usize, other: &str, begin: usize) -> Option<Measure> {
         let named = self.context.names.bodies.get(other).copied();
         let Some(other) = named.or_else(|| (other == "ground").then_some(self.bodies.len())) else {
@@ -156,7 +158,7 @@ impl Reader<'_, '_, '_> {
         })))
     }
 
-    /// A measure of a joint whose name begins at a place of the text.
+    /// A measure of a joint, whose name begins at the byte `begin`.
     fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
         let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
         let Some((number, joint)) = found else {
@@ -200,13 +202,13 @@ impl Reader<'_, '_, '_> {
         None
     }
 
-    /// An error with the word that belongs at its place, unless that is all of an escaped text.
+    /// Adds a fix that replaces a word. Omits it in an escaped string, where the place is the whole string.
     pub(super) fn mended(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
         if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
     }
 }
 
-/// The name of the joint in `knee.force` or `string[3].force`: what stands before the point behind it.
+/// The name of the joint in `knee.force` or `string[3].force`: the text before the dot.
 fn joint_name(text: &str) -> Option<&str> {
     let letters = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?;
     let indices = match text[letters..].strip_prefix('[') {

@@ -1,11 +1,11 @@
-//! Labels of any letters.
+//! Tests labels with random text.
 
 use proptest::prelude::*;
 
 use crate::Scene;
 use crate::diagnostic::Report;
 
-/// The diagnostics of a scene whose only label is this text.
+/// The diagnostics of a scene whose only label has this text.
 fn said_of(label: &str) -> Report {
     let scene = format!(
         "[variables]\n'K' = 1\n[body.b]\nshape.sphere.radius = 1\n[label.note]\ntext = {}\n",
@@ -30,7 +30,7 @@ fn a_letter_of_several_bytes_before_a_measure_is_an_error_at_its_place() {
     }
 }
 
-/// A piece of a label, which most of the time is one that means something.
+/// A piece of a label. Most pieces have a meaning.
 fn piece() -> impl Strategy<Value = String> {
     const KNOWN: [&str; 29] = [
         "${", "}", "{", "$", "b", "b.", ".", "b.speed", "b.é", "t", ":.2", ":", ":.2e", "K.x", "2", "·", "−",
@@ -44,7 +44,7 @@ proptest! {
 
     #[test]
     fn no_label_panics(before in piece(), inner in prop::collection::vec(piece(), 0..6), after in piece()) {
-        // The report is rendered, too: it cuts the text at the places of the errors.
+        // Render the report, too, because this cuts the text at the places of the errors.
         for text in [format!("{before}${{{}}}{after}", inner.concat()), inner.concat()] {
             said_of(&text).to_text(true);
         }

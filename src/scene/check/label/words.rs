@@ -1,6 +1,7 @@
 //! Names of a label's measures in other programs.
 
-/// The measure of a body that a word means, with the coordinate behind it, if there is one: `velocity` and `x` mean `vx`.
+/// The measure of a body that a word means, with the coordinate after it, if there is one: `velocity` and `x` mean
+/// `vx`.
 pub(super) fn of_body(word: &str, axis: Option<&str>) -> Option<String> {
     let folded = word.to_lowercase();
     let letter = match folded.as_str() {

@@ -1,4 +1,4 @@
-//! The columns of a CSV file: their names, places and units.
+//! Finds the columns of a CSV file: their names, indices and units.
 
 use csv::StringRecord;
 
@@ -17,7 +17,7 @@ pub(in super::super) struct Columns {
     pub(super) orientation: Vec<String>,
     pub(super) velocity: Vec<String>,
     pub(super) angular_velocity: Vec<String>,
-    /// Those that a scene names must be there.
+    /// Whether the scene names each optional column. If so, the file must have the column.
     pub(super) given: [bool; 4],
 }
 
@@ -41,10 +41,10 @@ impl Columns {
     }
 }
 
-/// A column of numbers: its place, and its unit in SI units.
+/// A column of numbers: its index, and its unit in SI units.
 pub(super) type Column = (usize, f64);
 
-/// The quantities of columns: by the scene language's unit for them, empty for one without a unit.
+/// The quantity in a column, given by its SI unit. Empty for a quantity without a unit.
 pub(super) const TIME: &str = "s";
 pub(super) const LENGTH: &str = "m";
 pub(super) const VELOCITY: &str = "m/s";
@@ -52,7 +52,7 @@ pub(super) const TURNING: &str = "rad/s";
 pub(super) const RATIO: &str = "";
 
 impl Reader<'_> {
-    /// The place of a column in the header, and its unit.
+    /// The index and the unit of a column, from the header of the file.
     pub(super) fn find(&self, header: &StringRecord, name: &str) -> Option<(usize, String)> {
         let called = |name: &str| {
             header.iter().enumerate().find_map(|(i, field)| {
@@ -61,7 +61,7 @@ impl Reader<'_> {
                 is_it.then(|| (i, unit.to_owned()))
             })
         };
-        // Both words for the time are usual.
+        // The time may be called `t` or `time`.
         called(name).or_else(|| if name == "t" { called("time") } else { None })
     }
 
@@ -92,7 +92,7 @@ impl Reader<'_> {
         Some((i, factor?))
     }
 
-    /// Columns that must be given all together, or not at all.
+    /// Finds columns of which the file must have all or none.
     pub(super) fn columns(
         &mut self,
         header: &StringRecord,
@@ -111,7 +111,7 @@ impl Reader<'_> {
     pub(super) fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
         let line = self.fields.line(start);
         if let Some((message, help)) = without_names(header) {
-            // Once for all columns.
+            // This error covers all columns, so report it once.
             if self.wrong.is_empty() {
                 self.error(Code::CsvColumn, message.to_owned(), line);
                 self.wrong.iter_mut().for_each(|wrong| wrong.help = Some(help.to_owned()));
@@ -120,7 +120,7 @@ impl Reader<'_> {
         }
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
-        // A single letter is near to every other one.
+        // A single letter is similar to every other letter.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
             wrong.label = match near {
@@ -132,7 +132,7 @@ impl Reader<'_> {
     }
 }
 
-/// The error for a first line that names no columns, and a correction.
+/// The error for a first line without names of columns, and its help.
 fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> {
     let words: Vec<&str> = header.iter().flat_map(str::split_whitespace).collect();
     let are_numbers = !words.is_empty() && words.iter().all(|word| word.parse::<f64>().is_ok());
@@ -151,7 +151,7 @@ fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> 
     }
 }
 
-/// `x [m]` or `x (m)` → the name and the unit.
+/// Splits `x [m]` or `x (m)` into the name and the unit.
 fn unit_of(field: &str) -> (&str, &str) {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((stem, unit)) = field.strip_suffix(close).and_then(|field| field.rsplit_once(open)) {

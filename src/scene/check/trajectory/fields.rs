@@ -1,4 +1,4 @@
-//! The places of lines and fields in the text of a CSV file, for locating mistakes.
+//! Finds the places of lines and fields in the text of a CSV file, for error messages.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ impl<'a> Fields<'a> {
         Fields { text, delimiter: delimiter(text) }
     }
 
-    /// The line that begins at a byte, or behind line breaks and comments there.
+    /// The range of the first line at or after a byte that is neither empty nor a comment.
     pub(super) fn line(&self, start: usize) -> Range<usize> {
         let rest = self.text.get(start..).unwrap_or_default();
         let skipped: usize = rest
@@ -27,7 +27,7 @@ impl<'a> Fields<'a> {
         start..start + line.trim_end().len()
     }
 
-    /// The place of a field in the record that begins at a byte.
+    /// The range of a field in the record that begins at a byte.
     pub(super) fn field(&self, start: usize, column: usize) -> Range<usize> {
         let line = self.line(start);
         let (mut from, mut field, mut quoted) = (line.start, 0, false);
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// The character between the fields of the first line.
+/// Guesses the character between the fields from the first line.
 fn delimiter(text: &str) -> u8 {
     let header =
         text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();

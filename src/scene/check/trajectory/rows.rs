@@ -1,4 +1,4 @@
-//! The rows of a CSV file become the motions of bodies.
+//! Reads the rows of a CSV file as the motions of bodies.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use super::fields::Fields;
 use crate::diagnostic::Code;
 use crate::dynamics::Key;
 
-/// Something wrong in the file.
+/// A mistake in the file.
 pub(super) struct Wrong {
     pub(super) code: Code,
     pub(super) message: String,
@@ -20,13 +20,13 @@ pub(super) struct Wrong {
     pub(super) help: Option<String>,
 }
 
-/// Reads a file, and collects its errors.
+/// Reads a file and collects its errors.
 pub(super) struct Reader<'a> {
     pub(super) fields: Fields<'a>,
     pub(super) wrong: Vec<Wrong>,
 }
 
-/// The most mistakes shown for one file.
+/// The maximum number of mistakes shown for one file.
 const SHOWN: usize = 20;
 
 impl<'a> Reader<'a> {
@@ -34,7 +34,7 @@ impl<'a> Reader<'a> {
         Reader { fields: Fields::new(text), wrong: Vec::new() }
     }
 
-    /// The rows of the file; none if something is wrong.
+    /// Reads the rows of the file. `None` if the file has errors.
     pub(super) fn read(&mut self, columns: &Columns) -> Option<Recording> {
         let text = self.fields.text;
         let mut csv = ReaderBuilder::new()
