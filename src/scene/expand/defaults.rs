@@ -1,4 +1,4 @@
-//! `[defaults.body]` and its kin: what a thing says that does not say it itself.
+//! Applies `[defaults.body]`, `[defaults.material]` and the like: fills in missing keys.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use crate::scene::grammar::{Kind, SCENE};
 use crate::scene::source::{Node, Table, Value};
 
 impl Expander<'_> {
-    /// Completes all bodies, materials and so on by what the defaults say of them.
+    /// Fills in the missing keys of all bodies, materials and other named things from the defaults.
     pub(super) fn defaults(&mut self, root: &mut Table) {
         let Some(Value::Table(defaults)) = root.get("defaults").map(|entry| &entry.node.value) else {
             return;
@@ -31,7 +31,7 @@ impl Expander<'_> {
     }
 }
 
-/// Collects where keys and values stand.
+/// Collects the places of all keys and values below a node.
 fn places(node: &Node, into: &mut HashSet<Span>) {
     into.insert(node.span);
     match &node.value {
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(starts(&|start| start.mass), [3.0, 5.0, 3.0]);
         assert_eq!(starts(&|start| start.velocity.x), [1.0, 1.0, 0.0]);
         assert!(scene.bodies.iter().all(|body| body.shape == Shape::Sphere { radius: 2.0 }));
-        // Tables are completed key by key.
+        // Inner tables are completed key by key.
         assert_eq!((scene.bodies[1].look.scale, scene.bodies[1].look.sdl_before.is_some()), (2.0, true));
     }
 
@@ -119,7 +119,7 @@ mod tests {
         );
         let masses: Vec<f64> = scene.bodies.iter().map(|body| body.start.mass).collect();
         assert!(masses[0] != masses[1] && masses[2] != masses[3], "{masses:?}");
-        // They are the same as if it stood there.
+        // The random numbers are the same as without defaults.
         let alone = Scene::parse("[body.b]\nshape.sphere.radius = 0.5\nmass = 'uniform(1, 2)'").unwrap();
         assert_eq!(alone.bodies[0].start.mass, masses[1]);
     }

@@ -1,20 +1,20 @@
-//! The geometry that placing copies needs before there is a body: its size and orientation.
+//! The geometry that placing copies needs before the bodies are read: size and orientation.
 
 use glam::DQuat;
 
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// How large a body is, and how it is turned.
+/// The size and orientation of a body.
 pub(in crate::scene) struct Geometry {
-    /// The radius of a ball around its centre that holds it, m; none where it is endless.
+    /// The radius, m, of a ball around the body's centre that contains the body. `None` for an endless body.
     pub(in crate::scene) radius: Option<f64>,
-    /// How it is turned by its own keys.
+    /// The orientation that the body's own keys give.
     pub(in crate::scene) orientation: DQuat,
 }
 
 /// Reads the geometry of bodies before they are checked.
 pub(in crate::scene) trait Geometer {
-    /// The geometry of a body from its table. The later check reports mistakes.
+    /// Reads the geometry of a body from the body's table. The later check reports mistakes.
     fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry;
 }

@@ -1,4 +1,4 @@
-//! The bodies that are copies of one: which there are, and how they are called together.
+//! The copies of each repeated body, and the names for several of them.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -9,14 +9,15 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
-/// The most names in all lists of bodies together. A name for several bodies counts once for each of them.
+/// The maximum number of names in all lists of bodies together. A name for several bodies counts once for each of
+/// them.
 const MAX_NAMES: usize = 2_000_000;
 
-/// The things with a `repeat`, by name.
+/// The repeated bodies, forces and joints, by name.
 #[derive(Default)]
 pub(in crate::scene) struct Groups {
     bodies: HashMap<String, Group>,
-    /// The forces and joints: a body may have the same name.
+    /// The names of repeated forces and joints. A body may have the same name.
     links: HashSet<String>,
     /// The number of copies of each joint.
     joints: HashMap<String, [usize; 1]>,
@@ -24,11 +25,11 @@ pub(in crate::scene) struct Groups {
 
 /// The copies of one body.
 pub(super) struct Group {
-    /// How many there are in each direction.
+    /// The number of copies in each direction.
     pub(super) counts: Vec<usize>,
     /// The names of the copies, in the order of their indices.
     pub(super) names: Vec<Arc<str>>,
-    /// Whether that is known; where a count is wrong, any copy may have been meant.
+    /// Whether the counts are known. If a count is wrong, any index may be valid.
     pub(super) is_known: bool,
 }
 
@@ -41,7 +42,7 @@ impl Groups {
         self.links.insert(name.to_owned());
     }
 
-    /// The name of the force or joint that a copy is one of.
+    /// The name of the repeated force or joint that a copy belongs to. `None` if `name` is not that of a copy.
     pub(in crate::scene) fn original_link<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
         self.links.contains(original).then_some(original)
@@ -51,7 +52,7 @@ impl Groups {
         self.joints.insert(name.to_owned(), [count]);
     }
 
-    /// How many copies a body or a joint has in each direction; `None` if it is not repeated.
+    /// The number of copies of a body or a joint in each direction. `None` if it is not repeated.
     pub(super) fn counts(&self, of: Collection, original: &str) -> Option<&[usize]> {
         match of {
             Collection::Body | Collection::Target => {
@@ -62,19 +63,19 @@ impl Groups {
         }
     }
 
-    /// The name of the body that a copy is one of: `brick` for `brick[3,0]`.
+    /// The name of the repeated body that a copy belongs to: `brick` for `brick[3,0]`.
     pub(in crate::scene) fn original<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
         self.bodies.contains_key(original).then_some(original)
     }
 
-    /// Whether the name may be that of a copy of which nothing is known.
+    /// Whether the name may be that of a copy of a body whose counts are wrong.
     pub(in crate::scene) fn may_hold(&self, name: &str) -> bool {
         let original = split(name).map_or(name, |(original, _)| original);
         self.bodies.get(original).is_some_and(|group| !group.is_known)
     }
 
-    /// The names of the first and the last copy of the body or joint that a name is of.
+    /// The names of the first and the last copy of the repeated body or joint that a name belongs to.
     pub(in crate::scene) fn ends(&self, of: Collection, name: &str) -> Option<[String; 2]> {
         let original = split(name).map_or(name, |(original, _)| original);
         let counts = self.counts(of, original)?;
@@ -87,7 +88,7 @@ impl Groups {
         body_of(item).is_some_and(|name| self.several(name).is_some())
     }
 
-    /// The copies that a name means, if it means more than one body.
+    /// The names of the copies that a name means. `None` if the name means a single body.
     fn several<'a>(&'a self, name: &str) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
         if let Some(Group { names, is_known: true, .. }) = self.bodies.get(name) {
             return Some(Box::new(names.iter()));
@@ -113,7 +114,7 @@ impl Groups {
 }
 
 impl Expander<'_> {
-    /// Puts the names of all copies in the place of every name of a list that means several: `brick`, `brick[*,0]`.
+    /// Replaces each name in a list that means several bodies by the names of the copies: `brick`, `brick[*,0]`.
     pub(super) fn spread(&mut self, list: &mut Node) {
         let Value::Array(items) = &list.value else { return };
         if self.groups.bodies.is_empty() || !items.iter().any(|item| self.groups.means_several(item)) {
@@ -143,7 +144,7 @@ impl Expander<'_> {
     }
 }
 
-/// The body that an item of a list names: by itself, or as the `body` of a table.
+/// The name of the body in an item of a list: the item itself, or the `body` of a table.
 pub(super) fn body_of(item: &Node) -> Option<&str> {
     match item.as_table() {
         Some(table) => table.get("body")?.node.as_str(),
@@ -151,7 +152,7 @@ pub(super) fn body_of(item: &Node) -> Option<&str> {
     }
 }
 
-/// The same item of another body.
+/// The same item with the name of another body.
 fn of_body(item: &Node, name: &Arc<str>) -> Node {
     let text = Value::String(name.clone());
     let mut item = item.clone();
@@ -166,7 +167,7 @@ fn of_body(item: &Node, name: &Arc<str>) -> Node {
     item
 }
 
-/// `brick[3,0]` → `brick`, `3,0`.
+/// Splits the name of a copy: `brick[3,0]` → `brick`, `3,0`.
 pub(super) fn split(name: &str) -> Option<(&str, &str)> {
     name.strip_suffix(']')?.rsplit_once('[')
 }

@@ -1,4 +1,4 @@
-//! Common mistakes in formulas: numbers with units, and places of bodies.
+//! Corrects common mistakes in formulas: numbers with units, and locations of bodies.
 
 use std::ops::Range;
 
@@ -8,16 +8,16 @@ use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Table, Value};
 use crate::scene::units;
 
-/// A formula that asks where bodies are.
+/// A formula that uses the location of a body.
 pub(super) struct OfBody {
     text: String,
     span: Span,
-    /// Whether it may be a formula of the time.
+    /// Whether a formula of the time is allowed here.
     is_timed: bool,
 }
 
 impl Expander<'_> {
-    /// Reports a number with a unit; whether it is one.
+    /// Whether a text is a number with a unit, which is an error. Reports the error.
     pub(super) fn has_unit(&mut self, text: &str, span: Span) -> bool {
         let Some((number, unit)) = units::quantity(text) else { return false };
         if !self.told.insert(span) {
@@ -66,7 +66,8 @@ impl Expander<'_> {
         self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
-    /// Recognizes a formula in the time for the place of a body at the start. Gives that key, and the key of a motion.
+    /// Recognizes a formula of the time for the initial pose of a body. Returns the place of the key and the key of a
+    /// motion that was probably meant.
     pub(super) fn motion_meant(&self, name: &str, span: Span) -> Option<(Span, &'static str)> {
         let path = self.path.strip_prefix("body.").filter(|_| name == "t")?;
         let (key, motion) =
@@ -84,8 +85,8 @@ impl Expander<'_> {
         (is_key && text[at.end..span.start].trim_start().starts_with('=')).then_some((at, motion))
     }
 
-    /// Keeps a formula that asks where bodies are, to be reported when the places of all bodies are known; whether it is
-    /// one.
+    /// Whether a formula uses the location of a body, which is an error. The error is reported when the locations of
+    /// all bodies are known.
     pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
         let asks = text.contains('.') && members(text).next().is_some();
         if asks && self.told.insert(span) {
@@ -94,7 +95,7 @@ impl Expander<'_> {
         asks
     }
 
-    /// Reports the formulas that ask where bodies are, with what stands there at the start.
+    /// Reports the formulas that use locations of bodies, and replaces them by the bodies' initial coordinates.
     pub(super) fn report_of_bodies(&mut self, root: &Table) {
         let bodies = root.get("body").and_then(|entry| entry.node.as_table());
         for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {
@@ -134,7 +135,7 @@ impl Expander<'_> {
     }
 }
 
-/// `0,5` → `0.5`.
+/// Corrects a decimal comma: `0,5` → `0.5`.
 pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
     let (whole, part) = text.trim().split_once(',')?;
     let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -142,7 +143,7 @@ pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
         .then(|| format!("{whole}.{part}"))
 }
 
-/// A coordinate of a body as a formula can say it, and whether that is a formula of the time.
+/// The text of a body's coordinate for a formula, and whether the text is a formula of the time.
 fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
     let axis = ["x", "y", "z"].iter().position(|axis| *axis == member)?;
     let inner = |table: &Table, key: &str| table.get(key).and_then(|entry| entry.node.as_table()).cloned();
@@ -163,7 +164,7 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
     }
 }
 
-/// The places of a text that ask for a property of a body, as `ball.x` does: the whole, the body and the property.
+/// The references to a property of a body in a formula, such as `ball.x`: their range, the body and the property.
 fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
     text.match_indices('.').filter_map(move |(at, _)| {

@@ -1,7 +1,7 @@
-//! `include`: other files of the scene language, as if they stood in this one.
+//! `include`: fills in values from other scene files.
 //!
-//! A file's own values override those that it includes. If two included files give the same key, that is an error, unless the
-//! including file gives it too. A file that is included in several ways is read once.
+//! A file's own values override those of the files that it includes. Two included files must not give the same key,
+//! unless the including file gives it, too. A file that is included several times is read once.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -11,11 +11,11 @@ use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 use crate::scene::source::{self, Entry, Node, Table, Value};
 
-/// The greatest depth of files that include others.
+/// The maximum depth of nested includes.
 const MAX_DEPTH: usize = 50;
 
-/// Fills in values from everything that a scene includes. `path` is that of the scene's file, if it has one. Returns the texts of
-/// the included files.
+/// Fills in values from all included files. `path` is the path of the scene's file, if it has one. Returns the texts
+/// of the included files.
 pub(in crate::scene) fn include(
     root: &mut Table,
     path: Option<&Path>,
@@ -39,23 +39,23 @@ pub(in crate::scene) fn include(
     includer.texts
 }
 
-/// The folder that the names in a file start from.
+/// The folder for relative names in a file.
 fn folder_of(path: &Path) -> PathBuf {
     let folder = path.parent().unwrap_or(path);
     if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() }
 }
 
-/// The names of a list, if it is one of names.
+/// The names in a list. `None` if the value is not a list of names.
 fn names(node: &Node) -> Option<Vec<(String, Span)>> {
     let Value::Array(items) = &node.value else { return None };
     items.iter().map(|item| Some((item.as_str()?.to_owned(), item.span))).collect()
 }
 
 struct Includer<'a> {
-    /// The folder of the scene, which its files do not leave without `--trust`.
+    /// The folder of the scene. Without `--trust`, included files must be inside.
     scene: Option<PathBuf>,
     trust: bool,
-    /// The files that include each other, from that of the scene to the one that is looked at.
+    /// The files that include each other, from the scene's file to the present file.
     way: Vec<PathBuf>,
     done: HashSet<PathBuf>,
     texts: Vec<String>,
@@ -64,7 +64,7 @@ struct Includer<'a> {
 }
 
 impl Includer<'_> {
-    /// Lays the named files under a table.
+    /// Fills in the values of a table from the named files.
     fn files(&mut self, own: &mut Table, items: &[(String, Span)], folder: Option<&Path>) {
         let mut all = Table::default();
         for (name, span) in items {
@@ -81,7 +81,7 @@ impl Includer<'_> {
         merge(own, &all, &SCENE);
     }
 
-    /// The contents of a file, with all that it includes. `None` if it has been included before.
+    /// Reads a file and all files that it includes. `None` if the file has been included before.
     fn file(&mut self, name: &str, span: Span, folder: Option<&Path>) -> Result<Option<Table>, Diagnostic> {
         let cannot = |message: String| Diagnostic::error(Code::CannotInclude, message).at(span, "");
         let Some(folder) = folder else {
@@ -150,7 +150,7 @@ impl Includer<'_> {
         table
     }
 
-    /// The error for a file that includes itself by way of others.
+    /// The error for a file that includes itself through other files.
     fn cycle(&self, first: usize, span: Span) -> Diagnostic {
         let name = |path: &PathBuf| {
             let name = path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default();
@@ -167,7 +167,7 @@ impl Includer<'_> {
         Diagnostic::error(Code::CyclicInclude, message).at(span, "this leads back")
     }
 
-    /// Says which keys two included files give different values, while the file that includes them does not decide.
+    /// Reports keys to which two included files give different values, unless the including file gives the key, too.
     fn conflicts(&mut self, first: &Table, second: &Table, own: &Table, spec: &'static TableSpec) {
         for entry in &first.entries {
             let name = &*entry.name.text;
@@ -207,7 +207,7 @@ impl Includer<'_> {
     fn conflicts_inside(&mut self, first: &Table, second: &Table, own: &Table, kind: Option<&'static Kind>) {
         match kind {
             Some(Kind::Named(spec)) => {
-                // There may be ten thousand of them, too many to look for one by one.
+                // A scene may have ten thousand names. A map is faster than a search for each name.
                 let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
                     let name = &*entry.name.text;
@@ -246,7 +246,7 @@ impl Includer<'_> {
     }
 }
 
-/// The entries of a table, to be found by their names.
+/// The entries of a table, by name.
 fn by_name(table: &Table) -> HashMap<&str, &Entry> {
     table.entries.iter().map(|entry| (&*entry.name.text, entry)).collect()
 }

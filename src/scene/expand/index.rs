@@ -1,4 +1,4 @@
-//! The names of copies whose indices are formulas: `bob[i]`, `link[i+1]`, `brick[i,n-1]`.
+//! Evaluates the indices in the names of copies: `bob[i]`, `link[i+1]`, `brick[i,n-1]`.
 
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ use crate::scene::expression::Formula;
 use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
-/// Whether a name is that of a copy, with a formula as an index.
+/// Whether a name is that of a copy with a formula as an index.
 pub(super) fn is_formula(name: &str) -> bool {
     let is_plain = |part: &str| part == "*" || part.parse::<usize>().is_ok();
     split(name).is_some_and(|(_, inside)| parts(inside).any(|range| !is_plain(inside[range].trim())))
 }
 
-/// The name of the repeated thing and the formulas of its indices, if one of them depends on `i`.
+/// The name of the repeated thing and the formulas of its indices. `None` if no index depends on `i`.
 pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
     let (original, inside) = split(name)?;
     let formulas: Vec<Formula> =
@@ -82,7 +82,7 @@ impl Expander<'_> {
                 node.value = Value::Invalid;
                 return;
             }
-            // Adding 0 makes 0 of -0.
+            // Adding 0 turns -0 into 0, which is written without a sign.
             numbers.push((value + 0.0).to_string());
         }
         node.value = Value::String(format!("{original}[{}]", numbers.join(",")).into());

@@ -1,4 +1,4 @@
-//! Copies of forces and joints: by a `repeat`, or by ends whose names contain `i`.
+//! Copies forces and joints that have a `repeat` or ends whose names contain `i`.
 //!
 //! `between = ["hook[i]", "bob[i]"]` makes a copy for each `i` for which both bodies exist.
 
@@ -26,7 +26,7 @@ impl Expander<'_> {
             }
             let entries: Vec<Entry> = std::mem::take(&mut tables.entries).into_iter().collect();
             let mut copies: Vec<Vec<Entry>> = entries.iter().map(|_| Vec::new()).collect();
-            // Gears couple copies of other joints, so they come after these.
+            // Gears couple copies of other joints, so copy them last.
             let (gears, others): (Vec<_>, Vec<_>) =
                 entries.into_iter().zip(&mut copies).partition(|(entry, _)| is_gear(entry));
             for (entry, copies) in others.into_iter().chain(gears) {
@@ -59,7 +59,7 @@ impl Expander<'_> {
                 (self.count_of_ends(&ends), span, span)
             }
         };
-        // If the count is wrong, one copy is made, to find its other errors.
+        // If the count is wrong, make one copy to find its other errors.
         let count = count.filter(|count| self.is_affordable(&[*count], what, &name, because)).unwrap_or(1);
         self.collisions(&[count], &name, letter);
         let (scope, before, first) = (self.scope.clone(), self.work, all.len());
@@ -84,7 +84,7 @@ impl Expander<'_> {
         if what == "joints" {
             self.groups.add_joint(&name, count);
         }
-        // The first copy keeps it for the validation.
+        // The first copy keeps its `repeat` for the validation.
         if let (Some(Entry { node: Node { value: Value::Table(table), .. }, .. }), Some(repeat)) =
             (all.get_mut(first), repeat)
         {
@@ -92,8 +92,8 @@ impl Expander<'_> {
         }
     }
 
-    /// The number of values of `i`, from 0 on, for which all named bodies exist. `None` after an error: the bodies of a pair have
-    /// different numbers of copies.
+    /// The number of values of `i`, from 0 on, for which all named bodies exist. Returns `None` after reporting that
+    /// the bodies of a pair have different numbers of copies.
     fn count_of_ends(&mut self, ends: &[(&Node, Collection)]) -> Option<usize> {
         let ends: Vec<(&Node, Collection, &str, Vec<Formula>)> = ends
             .iter()
@@ -120,11 +120,11 @@ impl Expander<'_> {
             !ends.iter().all(|(_, of, original, formulas)| self.has_copy(*of, original, formulas))
         });
         self.scope = scope;
-        // If there is none, the first copy gets the error.
+        // If no copy exists, the first copy gets the error.
         count.map(|count| count.max(1))
     }
 
-    /// Whether there is a copy with these indices.
+    /// Whether a copy with these indices exists.
     fn has_copy(&self, of: Collection, original: &str, formulas: &[Formula]) -> bool {
         let Some(counts) = self.groups.counts(of, original) else { return false };
         let is_in_range = |(formula, count): (&Formula, &usize)| {
@@ -135,7 +135,7 @@ impl Expander<'_> {
         formulas.len() == counts.len() && formulas.iter().zip(counts).all(is_in_range)
     }
 
-    /// Reports two bodies with different numbers of copies, each with the place of its name.
+    /// Reports two bodies with different numbers of copies. Each comes with the place of its name.
     fn uneven(&mut self, (here, one, many): (Span, &str, usize), (there, other, more): (Span, &str, usize)) {
         let message =
             format!("pairs take as many of each: `{one}` has {many} copies, and `{other}` has {more}");
@@ -168,7 +168,7 @@ impl Expander<'_> {
     }
 }
 
-/// Rewrites a name of several bodies as a name of one for each `i`: `bob` and `bob[*]` → `bob[i]`.
+/// Rewrites a name of several bodies as the name of one body for each `i`: `bob` and `bob[*]` → `bob[i]`.
 fn by_index(name: &str) -> String {
     match split(name) {
         Some((original, inside)) => format!("{original}[{}]", inside.replacen('*', "i", 1)),
@@ -184,12 +184,12 @@ fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     table.get("repeat").is_some() || !ends.is_empty()
 }
 
-/// Whether a force or joint couples joints.
+/// Whether a force or a joint is a gear, which couples other joints.
 fn is_gear(entry: &Entry) -> bool {
     entry.node.as_table().is_some_and(|table| table.get("gear").is_some())
 }
 
-/// The names of bodies and joints in a table that depend on `i`.
+/// Finds the names of bodies and joints in a table that depend on `i`.
 fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<(&'t Node, Collection)>) {
     fn look<'t>(node: &'t Node, kind: &'static Kind, found: &mut Vec<(&'t Node, Collection)>) {
         match (kind, &node.value) {
@@ -215,7 +215,7 @@ fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<(&'
     }
 }
 
-/// The number of copies; `None` where it is wrong, which the validation reports.
+/// The number of copies. `None` if the number is wrong, which the validation reports.
 fn count_of(repeat: &Node) -> Option<usize> {
     match repeat.value {
         Value::Integer(count @ 1..=MAX_COPIES) => usize::try_from(count).ok(),

@@ -1,14 +1,14 @@
-//! One table laid over another, which fills in missing keys.
+//! Fills in the missing keys of a table from another table.
 
 use std::sync::Arc;
 
 use crate::scene::grammar::{Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Completes a table by what another says of the same thing. Its own values count, and those that go with them: where it says
-/// `shape.box`, the `shape.sphere` of the other is not asked for.
+/// Merges two tables for the same thing. Values of `own` override those of `base`. They also exclude values that
+/// cannot stand beside them: `shape.box` in `own` drops `shape.sphere` of `base`.
 ///
-/// Fills in missing keys from `base`. Its entries come first, in its order.
+/// Entries of `base` come first, in their order.
 pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
     let base_entries = base.entries.iter().filter(|entry| !is_replaced(&entry.name.text, own, spec));
     let base_entries: Vec<Entry> = base_entries.cloned().collect();
@@ -20,7 +20,7 @@ pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
     });
 }
 
-/// Whether a key of the other table cannot stand beside one of the table's own.
+/// Whether a key of the base table is excluded by another key of the table's own.
 pub(super) fn is_replaced(name: &str, own: &Table, spec: &'static TableSpec) -> bool {
     let groups = match &spec.rule {
         Rule::Any => &[][..],
@@ -52,7 +52,7 @@ fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
     }
 }
 
-/// Puts the entries of a table behind those of another; `both` says what becomes of one that is in both.
+/// Appends the entries of a table to those of `base`. `both` merges the values of a key that is in both.
 fn merge_entries(own: &mut Table, base: Vec<Entry>, both: impl Fn(&str, &mut Node, &Node)) {
     let mut numbers: std::collections::HashMap<Arc<str>, usize> =
         own.entries.iter().enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect();

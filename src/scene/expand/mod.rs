@@ -1,8 +1,8 @@
-//! A tree with formulas → the same tree with their values.
+//! Replaces the formulas in a tree by their values.
 //!
-//! The description of the language says where numbers stand; a string there is a formula. Each is replaced by its value, which
-//! keeps the place of the string, so that all that comes after sees numbers only. What has no value becomes
-//! [`Value::Invalid`], after it has been said why.
+//! A string in the place of a number is a formula, according to the grammar. Its value keeps the place of the string
+//! in the text, so later code handles numbers only. A formula with an error is reported and becomes
+//! [`Value::Invalid`].
 
 mod defaults;
 mod geometry;
@@ -36,8 +36,7 @@ use super::timed::{Formulas, TimeFormula};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::random::Stream;
 
-/// Replaces every formula of a scene by its value, and everything that is repeated by its copies, after the defaults have
-/// been laid under everything.
+/// Fills in defaults, replaces repeated things by their copies, and replaces every formula by its value.
 pub(super) fn expand(
     root: &mut Table,
     geometer: &mut dyn Geometer,
@@ -68,7 +67,7 @@ pub(super) fn expand(
         diagnostics,
     };
     if let Some(entry) = root.get_mut("seed") {
-        // It comes before the variables, which may be random.
+        // Read the seed before the variables, because variables may be random.
         expander.integer(&mut entry.node);
         if let Value::Integer(seed) = entry.node.value {
             expander.seed = seed.unsigned_abs();
@@ -93,49 +92,49 @@ pub(super) fn expand(
 /// Facts about an expanded scene besides its values.
 #[derive(Default)]
 pub(super) struct Expansion {
-    /// The copies.
+    /// The copies of repeated things.
     pub(super) groups: Groups,
     /// The places of the keys and values of `[defaults]`.
     pub(super) of_defaults: HashSet<Span>,
 }
 
-/// The state of the evaluation of formulas.
+/// The state of the expansion.
 struct Expander<'a> {
-    /// Finds the size of bodies.
+    /// Reads the size and orientation of bodies.
     geometer: &'a mut dyn Geometer,
     sources: &'a Sources,
     scope: Scope,
-    /// The formulas of the body whose copies are being made, by their places: each is read once.
+    /// The formulas of the body that is being copied, by their places. Each is parsed once.
     formulas: HashMap<Span, Arc<Formula>>,
-    /// The formulas of the time that have been read.
+    /// The formulas of the time that have been parsed.
     timed_formulas: Formulas,
-    /// The work done for formulas so far: see [`repeat::work_of_value`].
+    /// The work done for formulas so far, in the units of [`repeat::work_of_value`].
     work: u64,
-    /// The variables without a value, all of which have been reported.
+    /// The variables without a value. Their errors have been reported.
     broken: HashSet<String>,
-    /// The seed of random numbers, together with the path of their place.
+    /// The seed of the random numbers. The path of a value gives each value its own random numbers.
     seed: u64,
-    /// The path of the value that is looked at: `body.ball.location[1]`.
+    /// The path of the present value: `body.ball.location[1]`.
     path: String,
-    /// The name of the copy that is looked at, if it is one.
+    /// The name of the present copy. `None` outside of copies.
     copy: Option<Arc<str>>,
-    /// How many copies there are so far.
+    /// The number of copies so far.
     copies: usize,
-    /// How many names of copies stand in lists so far.
+    /// The number of names of copies in lists so far.
     names: usize,
     groups: Groups,
     of_defaults: HashSet<Span>,
-    /// Whether the current values are defaults: their formulas have values only where the defaults are used.
+    /// Whether the present values are defaults. Their formulas are evaluated only where a thing uses the default.
     is_default: bool,
     /// The places that name the variables.
     variable_spans: HashMap<String, Span>,
     /// The formulas whose errors have been reported. All copies share one formula.
     told: HashSet<Span>,
-    /// The unit of the key that is looked at; empty where there is none.
+    /// The unit of the present key. Empty for a key without a unit.
     unit: &'static str,
-    /// The formulas whose angles have been warned of.
+    /// The formulas with a warning about the unit of an angle.
     warned: HashSet<Span>,
-    /// The formulas that ask where bodies are.
+    /// The formulas that use the locations of bodies.
     of_bodies: Vec<habits::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -149,14 +148,14 @@ impl Expander<'_> {
                 continue;
             };
             let entry = &mut table.entries[number];
-            // A vector in a list of a key has the unit of that key.
+            // A vector in the list of a key has the unit of that key.
             let unit = std::mem::replace(&mut self.unit, key.unit);
             self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
             self.unit = unit;
         }
     }
 
-    /// Works on the value of a key.
+    /// Calls `work` with `key` added to the path.
     fn below<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
         let length = self.path.len();
         if length > 0 {
@@ -166,7 +165,7 @@ impl Expander<'_> {
         if is_plain {
             self.path.push_str(key);
         } else {
-            // A name with a dot in it is not the way to another table.
+            // Quote a name with a dot, because the dot does not lead to an inner table.
             let _ = write!(self.path, "{key:?}");
         }
         let done = work(self);
@@ -188,7 +187,7 @@ impl Expander<'_> {
             (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
                 self.items(node, |this, item| this.value(item, &Kind::Color));
             }
-            // Strings here are names of colors.
+            // Strings in a list of colors are names of colors.
             (Kind::Colors, Value::Array(items)) if items.iter().all(|item| item.as_str().is_some()) => {}
             (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color | Kind::Colors, Value::Array(_)) => {
                 self.items(node, Expander::number);
@@ -227,7 +226,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Visits the items of a list. If one has no value, which has been reported, the list has none.
+    /// Visits the items of a list. If one item is invalid, which has been reported, the whole list is.
     fn items(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
         let Value::Array(items) = &mut node.value else { return };
         let mut is_whole = true;
@@ -243,7 +242,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Replaces a formula by its value. A value that is no string stays.
+    /// Replaces a formula by its value. Leaves values other than strings unchanged.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         if self.is_hopeless(node.span)
@@ -261,12 +260,12 @@ impl Expander<'_> {
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
     }
 
-    /// Whether the error in the formula has been reported for another copy, so that no copy needs its value.
+    /// Whether an error in the formula has been reported for another copy. If so, the formula is not evaluated again.
     fn is_hopeless(&self, span: Span) -> bool {
         self.copy.is_some() && self.told.contains(&span)
     }
 
-    /// Like [`Expander::number`], where a formula may be one of the time: that is kept as a program.
+    /// Like [`Expander::number`], but keeps a formula of the time as a program.
     fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         if self.is_hopeless(node.span)
@@ -304,7 +303,8 @@ impl Expander<'_> {
         Some(read)
     }
 
-    /// Like [`Expander::number`], but for random numbers that each particle draws anew: such a formula is kept as a program.
+    /// Like [`Expander::number`], but keeps a formula with random numbers as a program, because each particle draws
+    /// its own.
     fn drawn_later(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
@@ -332,9 +332,9 @@ impl Expander<'_> {
         node.value = drawn.map_or(Value::Invalid, Value::Drawn);
     }
 
-    /// Like [`Expander::number`], where only a whole number will do.
+    /// Like [`Expander::number`], but requires a whole number.
     fn integer(&mut self, node: &mut Node) {
-        /// The largest whole number up to which all are exact.
+        /// The largest number up to which an `f64` represents all whole numbers.
         const LARGEST: f64 = 9_007_199_254_740_992.0;
         if !matches!(node.value, Value::String(_)) {
             return;
@@ -355,7 +355,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports errors of a formula that do not depend on its indices.
+    /// Reports errors of a formula that do not depend on the indices of a copy.
     fn look_over(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
         INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
@@ -364,14 +364,14 @@ impl Expander<'_> {
         }
     }
 
-    /// The value of the formula at a place. `None` after an error has been reported.
+    /// The value of the formula at a place. `None` after reporting an error.
     fn evaluate(&mut self, text: &str, span: Span) -> Option<f64> {
         let formula = self.parsed(text, span)?;
         self.look_at_angles(&formula, span);
         self.value_of(&formula, span)
     }
 
-    /// The formula at a place. `None` after an error has been reported. All copies of a body share it.
+    /// The formula at a place, which all copies of a body share. `None` after reporting an error.
     fn parsed(&mut self, text: &str, span: Span) -> Option<Arc<Formula>> {
         if let Some(known) = self.formulas.get(&span) {
             return Some(known.clone());
@@ -383,7 +383,7 @@ impl Expander<'_> {
         Some(formula)
     }
 
-    /// The value of a formula that has been read.
+    /// The value of a parsed formula. `None` after reporting an error.
     fn value_of(&mut self, formula: &Formula, span: Span) -> Option<f64> {
         if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
             return None;
@@ -398,7 +398,7 @@ impl Expander<'_> {
         self.keep(value, formula.text(), span)
     }
 
-    /// The random numbers of a formula at this place: those of another place do not follow from them.
+    /// Draws the random numbers of a formula. Each place has its own, independent random numbers.
     fn drawn(&self, resolved: &Resolved) -> Vec<f64> {
         if resolved.draws().is_empty() {
             return Vec::new();
@@ -411,17 +411,17 @@ impl Expander<'_> {
         resolved.draws().iter().map(draw).collect()
     }
 
-    /// The random numbers of the place that is looked at, or of one below it.
+    /// The stream of random numbers for the present path, followed by `below`.
     fn stream(&self, below: &str) -> Stream {
         Stream::new(self.seed, &format!("{}{below}", self.path))
     }
 
-    /// The copy that is looked at, to stand at the end of a message.
+    /// The name of the present copy, for the end of a message. Empty outside of copies.
     fn in_copy(&self) -> String {
         self.copy.as_ref().map_or_else(String::new, |name| format!(", in `{name}`"))
     }
 
-    /// Reports the errors of a formula, at its place in the scene.
+    /// Reports the errors of a formula at their places in the scene.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, text: &str, span: Span) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -452,13 +452,13 @@ impl Expander<'_> {
         None
     }
 
-    /// The text as written at a place.
+    /// The text of the scene at a place.
     fn raw(&self, span: Span) -> &str {
         self.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
     }
 }
 
-/// Whether there is something in a table that the expansion changes.
+/// Whether the expansion has to change anything in a table.
 fn has_work(table: &Table, spec: &TableSpec) -> bool {
     let is_open =
         |entry: &Entry| spec.key(&entry.name.text).is_some_and(|key| !is_settled(&entry.node, &key.kind));
@@ -469,7 +469,7 @@ fn is_list(node: &Node) -> bool {
     matches!(node.value, Value::Array(_))
 }
 
-/// Whether a value holds neither a formula nor the name of several bodies. Copies of a body share such values.
+/// Whether a value contains neither formulas nor names of several bodies. Copies of a body share such values.
 fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {

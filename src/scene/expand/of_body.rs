@@ -1,4 +1,4 @@
-//! Formulas of the quantities of a body, as those of a force are.
+//! Reads formulas of a body's quantities, such as those of a force.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use crate::scene::law::BodyFormula;
 use crate::scene::source::{Node, Value};
 
 impl Expander<'_> {
-    /// Like `number`, where a formula may be one of some quantities of a body: it is kept, and evaluated in the run. What is no string stays
-    /// as it is.
+    /// Like `number`, but keeps a formula of a body's quantities, which the run evaluates. Leaves values other than
+    /// strings unchanged.
     pub(super) fn of_body(&mut self, node: &mut Node, names: &'static [&'static str]) {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
@@ -34,7 +34,8 @@ impl Expander<'_> {
         node.value = Value::OfBody(Arc::new(BodyFormula::new(text, span, resolved)));
     }
 
-    /// Whether a formula uses a name that is a quantity of the body, and a variable of the scene as well: it says so.
+    /// Whether a formula uses a name that means both a quantity of the body and a variable of the scene. Reports such
+    /// a name.
     fn is_ambiguous(&mut self, formula: &Formula, node: &Node, names: &[&str]) -> bool {
         let mut both = formula.names().filter(|(name, _)| names.contains(name));
         let Some((name, range)) = both.find(|(name, _)| self.scope.value(name).is_some()) else {

@@ -1,13 +1,13 @@
-//! Places in a formula → places in the text of the scene.
+//! Converts places in a formula to places in the text of the scene.
 
 use std::ops::Range;
 
 use crate::diagnostic::Span;
 
-/// The place of a part of a string. `raw` is what is written there, with its quotes, and `text` the string.
+/// The place in the scene of a range of a string. `raw` is the string as written, with its quotes, and `text` is its
+/// value.
 ///
-/// The place of a range of a string. If the string has escapes, its bytes are not those of the text, and the place is the whole
-/// string.
+/// If the string has escapes, its bytes differ from the written text, and the place is the whole string.
 pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
     match offset(raw, text) {
         Some(offset) if !range.is_empty() => {
@@ -18,9 +18,9 @@ pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span
     }
 }
 
-/// The start of the string within the written text, if the text holds it literally.
+/// The offset of the string's value in the written text. `None` if the string has escapes.
 fn offset(raw: &str, text: &str) -> Option<usize> {
-    // An argument of `--set` needs no quotes; a string of several lines may begin on the next one.
+    // An argument of `--set` needs no quotes. A string of several lines may begin on the line after the quotes.
     ["", "\"", "'", "\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''"].into_iter().find_map(
         |open| {
             let close = open.trim_end();

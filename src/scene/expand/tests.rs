@@ -1,4 +1,4 @@
-//! Scenes with formulas.
+//! Tests scenes with formulas.
 
 use glam::DVec3;
 

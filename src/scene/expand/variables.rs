@@ -1,4 +1,4 @@
-//! `[variables]`: numbers by name, in any order.
+//! `[variables]`: named numbers, in any order.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -11,25 +11,25 @@ use crate::scene::source::{Table, Value};
 /// A variable that is given by a formula.
 struct Variable {
     name: String,
-    /// The place of its value.
+    /// The place of the variable's value.
     span: Span,
     formula: Formula,
-    /// The variables that it needs, each by its number, and where it does.
+    /// The variables in the formula: their indices, and their ranges in the text.
     needs: Vec<(usize, Range<usize>)>,
     state: State,
 }
 
-/// How far a variable is.
+/// The progress of evaluating a variable.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Untouched,
-    /// Something that it needs is being looked at.
+    /// The variables in its formula are being evaluated.
     Begun,
     Done,
 }
 
 impl Expander<'_> {
-    /// Evaluates the variables, makes them known to all formulas, and puts their values into the table.
+    /// Evaluates the variables, adds them to the scope of all formulas, and writes their values into the table.
     pub(super) fn variables(&mut self, table: &mut Table) {
         let mut variables = self.read(table);
         self.connect(&mut variables);
@@ -44,7 +44,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Makes the names known, and the values of those that are numbers; the formulas are returned.
+    /// Adds the names of all variables and the values of plain numbers to the scope. Returns the formulas.
     fn read(&mut self, table: &Table) -> Vec<Variable> {
         let mut variables = Vec::new();
         for entry in &table.entries {
@@ -63,7 +63,7 @@ impl Expander<'_> {
                     Some(formula) => {
                         let (needs, state) = (Vec::new(), State::Untouched);
                         variables.push(Variable { name: name.clone(), span, formula, needs, state });
-                        // Its name is known from the beginning, so that others are not taken for it.
+                        // Add the name before the value is known, so that no similar name is suggested in its place.
                         Some(f64::NAN)
                     }
                     None => None,
@@ -88,9 +88,9 @@ impl Expander<'_> {
         }
     }
 
-    /// Evaluates a variable after those that it needs. A chain of them may be long, so nothing recurses.
+    /// Evaluates a variable after the variables in its formula. Chains may be long, so the code does not recurse.
     fn visit(&mut self, start: usize, variables: &mut [Variable]) {
-        // Each with how many of its needs have been seen to.
+        // Each variable with the number of its `needs` that have been visited.
         let mut way = vec![(start, 0)];
         while let Some((current, seen)) = way.last_mut() {
             let variable = &mut variables[*current];
@@ -128,14 +128,14 @@ impl Expander<'_> {
         }
     }
 
-    /// Says that the variables of the way from `first` to its end need each other.
+    /// Reports that the variables of `way` from `first` to the end depend on each other.
     fn cycle(&mut self, way: &[(usize, usize)], first: usize, variables: &[Variable]) {
-        /// The number of variables shown of a cycle.
+        /// The maximum number of variables shown of a cycle.
         const SHOWN: usize = 6;
         let begin = way.iter().position(|(variable, _)| *variable == first).unwrap_or(0);
         let cycle = &way[begin..];
         if cycle.iter().any(|(variable, _)| self.broken.contains(&variables[*variable].name)) {
-            // Other ways around through the same ones are the same mistake, as far as anyone can tell.
+            // Another cycle through the same variables is probably the same mistake.
             return;
         }
         let name = |variable: usize| format!("`{}`", variables[variable].name);

@@ -1,4 +1,4 @@
-//! Copies evenly along a curve.
+//! Places copies at equal distances along a curve.
 
 use glam::{DQuat, DVec3};
 
@@ -10,21 +10,21 @@ use crate::scene::expression::{Formula, Program, Scope};
 use crate::scene::source::{Node, Value};
 use crate::scene::view::View;
 
-/// The places along a curve at which copies stand, at equal distances as measured on the curve.
+/// The places of the copies along a curve, at equal arc lengths.
 pub(super) struct Curve {
     places: Vec<Place>,
 }
 
 /// The shape of a curve.
 enum Path {
-    /// x, y and z by formulas of `u`.
+    /// x, y and z as formulas of the parameter `u`.
     Formulas(Box<[Program; 3]>),
-    /// Through points, smoothly: a spline of Catmull and Rom.
+    /// A smooth curve through points: a Catmull–Rom spline.
     Points { points: Vec<DVec3>, closed: bool },
 }
 
 impl Expander<'_> {
-    /// Reads a curve and measures it; `at` are its formulas.
+    /// Reads a curve and places the copies. `at` is the list of formulas, if there is one.
     pub(super) fn curve(&mut self, view: &View<'_>, at: Option<&Node>) -> Option<Curve> {
         let count = usize::try_from(view.integer("count")?).ok()?;
         let closed = view.boolean("closed")?;
@@ -55,7 +55,7 @@ impl Expander<'_> {
         Some(Curve { places: (0..count).map(place).collect() })
     }
 
-    /// The formulas of `u`, compiled.
+    /// Compiles the formulas of `u`.
     fn formulas(&mut self, node: &Node) -> Option<Path> {
         let Value::Array(items) = &node.value else { return None };
         let mut scope = self.scope.clone();
@@ -85,9 +85,9 @@ impl Expander<'_> {
         self.keep(compiled, text, span)
     }
 
-    /// Points of the curve, dense enough to measure it. Reports an error if the curve has no finite value.
+    /// Samples the curve densely enough to measure its length. Reports an error if a point is not finite.
     fn samples(&mut self, path: &Path, at: Option<&Node>, count: usize) -> Option<Vec<Sample>> {
-        /// This many chords for each copy approximate the arc length well enough.
+        /// The number of chords for each copy, which approximate the arc length.
         const PER_COPY: usize = 32;
         let number = (PER_COPY * count).clamp(4096, 1 << 20);
         let mut samples: Vec<Sample> = Vec::with_capacity(number + 1);
@@ -128,18 +128,18 @@ impl Curve {
 
 const NOWHERE: Place = Place { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
 
-/// How long a curve is up to a point of it.
+/// The arc length from the beginning of the curve to the point at `u`, m.
 struct Sample {
     u: f64,
     length: f64,
 }
 
-/// The parameter at which the curve is so long.
+/// The parameter `u` at an arc length.
 fn parameter_at(samples: &[Sample], length: f64) -> f64 {
     let next = samples.partition_point(|sample| sample.length < length);
     let (Some(b), Some(a)) = (samples.get(next), next.checked_sub(1).and_then(|last| samples.get(last)))
     else {
-        // The very beginning, or, by rounding, the very end.
+        // The length is before the first sample or, by rounding, after the last.
         return if next == 0 { 0.0 } else { 1.0 };
     };
     a.u + (b.u - a.u) * (length - a.length) / (b.length - a.length)
@@ -156,15 +156,15 @@ impl Path {
         }
     }
 
-    /// The direction of the curve, of any length.
+    /// The tangent of the curve, not normalized.
     fn tangent(&self, u: f64) -> DVec3 {
         const STEP: f64 = 1e-6;
         self.at((u + STEP).min(1.0)) - self.at((u - STEP).max(0.0))
     }
 }
 
-/// A point of the spline of Catmull and Rom, which goes through all points; beyond the ends of one that is not closed, the next
-/// to last is reflected in the last.
+/// A point of the Catmull–Rom spline, which goes through all points. Beyond the end of an open spline, the missing
+/// neighbour is the mirror image of the next-to-last point in the last.
 fn spline(points: &[DVec3], closed: bool, u: f64) -> DVec3 {
     let count = points.len();
     let pieces = if closed { count } else { count - 1 };
@@ -189,7 +189,7 @@ fn spline(points: &[DVec3], closed: bool, u: f64) -> DVec3 {
     b + 0.5 * v * (c - a + v * (2.0 * a - 5.0 * b + 4.0 * c - d + v * (3.0 * (b - c) + d - a)))
 }
 
-/// The rotation that takes the x axis along a direction and leaves y upwards as far as that lets it.
+/// The rotation that turns the x axis into a direction and keeps the y axis as upright as possible.
 fn along(direction: DVec3) -> DQuat {
     let Some(direction) = direction.try_normalize() else { return DQuat::IDENTITY };
     let yaw = libm::atan2(-direction.z, direction.x);

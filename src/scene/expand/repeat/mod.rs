@@ -1,7 +1,7 @@
-//! `repeat`: many bodies from one table.
+//! `repeat`: makes many bodies from one table.
 //!
-//! A copy has the name of its body with its index, `brick[3,0]`, and so numbers of its own: its random numbers follow from that
-//! name, and those of a copy that is added change none of the others'.
+//! The name of a copy is the name of its body with an index, `brick[3,0]`. The random numbers of a copy depend on
+//! this name, so adding copies does not change those of the others.
 
 mod curve;
 mod pattern;
@@ -26,19 +26,19 @@ use crate::scene::view::View;
 /// The names that formulas use for the index of a copy in each direction.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
 
-/// The most work for all copies with formulas, in units of about ten bytes. It needs less memory than a usual machine has, and
-/// some seconds.
+/// The maximum work for all copies with formulas, in units of about ten bytes. It takes a few seconds and fits into
+/// the memory of a typical computer.
 const MAX_WORK: u64 = 100_000_000;
 
-/// The work for a copy besides its formulas.
+/// The work for a copy without its formulas.
 const WORK_OF_COPY: u64 = 100;
 
-/// The work for a formula that is evaluated once: reading its letters, and keeping the value.
+/// The work for evaluating a formula once: parsing its text and storing its value.
 pub(super) fn work_of_value(text: &str) -> u64 {
     25 + text.len() as u64
 }
 
-/// The work for a formula in the time, which is kept as programs with its derivatives.
+/// The work for a formula of the time, which is stored as programs with its derivatives.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
     100 + 10 * formula.operations()
 }
@@ -50,7 +50,7 @@ pub(super) struct Place {
 }
 
 impl Expander<'_> {
-    /// Puts its copies in the place of every body that has a `repeat`.
+    /// Replaces every body with a `repeat` by its copies.
     pub(super) fn repeat(&mut self, bodies: &mut Table, spec: &'static TableSpec) {
         if !bodies.entries.iter().any(has_repeat) {
             return;
@@ -68,7 +68,7 @@ impl Expander<'_> {
         bodies.entries = all.into();
     }
 
-    /// Adds the copies of a body.
+    /// Adds the copies of a body to `all`.
     fn copies(&mut self, entry: Entry, name: &str, spec: &'static TableSpec, all: &mut Vec<Entry>) {
         let Entry { name: Name { span: named, .. }, node: Node { span, value } } = entry;
         let Value::Table(mut table) = value else { return };
@@ -83,7 +83,7 @@ impl Expander<'_> {
         let counts = pattern.as_ref().map(Pattern::counts);
         let counts = counts.filter(|counts| self.is_affordable(counts, "bodies", name, repeat.node.span));
         let mut is_known = counts.is_some();
-        // With a wrong count, one copy is still examined for other mistakes.
+        // With a wrong count, check one copy for other mistakes.
         let mut counts = counts.unwrap_or_else(|| vec![1]);
         self.collisions(&counts, name, repeat.name.span);
 
@@ -122,13 +122,13 @@ impl Expander<'_> {
         if let (Some(Pattern::Scatter(scatter)), true) = (&pattern, is_known) {
             self.scatter(scatter, &sizes, copies, name, &repeat, spec);
         }
-        // The validation still has to see it, once.
+        // The first copy keeps its `repeat` for the validation.
         if let Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) = all.get_mut(first) {
             table.entries.push(repeat);
         }
     }
 
-    /// Whether there is room for this many copies. Reports an error if not.
+    /// Whether this many copies are affordable. Reports an error if not.
     pub(super) fn is_affordable(&mut self, counts: &[usize], what: &str, name: &str, span: Span) -> bool {
         let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
         let number = counts.iter().fold(1usize, |product, count| product.saturating_mul(*count));
@@ -143,8 +143,8 @@ impl Expander<'_> {
         false
     }
 
-    /// Whether the formulas of this many copies are affordable, measured by the copy made since `before`. Reports an error if
-    /// not.
+    /// Whether the formulas of this many copies are affordable. `before` is the work before the first copy, whose
+    /// work is the estimate for each. Reports an error if not.
     pub(super) fn is_workable(&mut self, number: usize, before: u64, name: &str, span: Span) -> bool {
         let one = self.work - before;
         if one == 0 || (one + WORK_OF_COPY).saturating_mul(number as u64) <= MAX_WORK.saturating_sub(before) {
@@ -160,7 +160,7 @@ impl Expander<'_> {
         false
     }
 
-    /// Gives the indices of formulas the values of a copy.
+    /// Sets the indices `i`, `j` and `k` in formulas to those of a copy.
     pub(super) fn count_as(&mut self, index: &[usize]) {
         for (letter, number) in INDICES.iter().zip(index) {
             #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
@@ -168,7 +168,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Says which variables have the name of an index that the copies are told apart by.
+    /// Reports variables with the name of an index of the copies.
     pub(super) fn collisions(&mut self, counts: &[usize], name: &str, span: Span) {
         for letter in INDICES.into_iter().take(counts.len()) {
             let Some(&variable) = self.variable_spans.get(letter) else { continue };
@@ -182,7 +182,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Says which bodies are called as a copy is.
+    /// Reports two things with the same name: a copy and another.
     pub(super) fn unique(&mut self, all: &[Entry], what: &str) {
         let mut names = std::collections::HashMap::with_capacity(all.len());
         for Entry { name: Name { span, text }, .. } in all {
@@ -223,7 +223,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Moves and turns a copy to where the pattern has it.
+    /// Moves and rotates a copy to its place in the pattern.
     fn place(&mut self, copy: &mut Table, place: &Place, repeat: &Entry, spec: &'static TableSpec) {
         let Place { offset, turn } = *place;
         let has_turned = turn != DQuat::IDENTITY;
@@ -245,16 +245,16 @@ impl Expander<'_> {
     }
 }
 
-/// Keeps the tables of copies in little memory.
+/// Stores the tables of copies compactly, as differences from templates.
 #[derive(Default)]
 struct Keeper {
     templates: Vec<Arc<Table>>,
 }
 
 impl Keeper {
-    /// The value for the table of a copy. That of the first is the table itself.
+    /// The value for the table of a copy. The first copy keeps its whole table as a template.
     fn keep(&mut self, table: Table) -> Value {
-        /// The most sets of keys that copies may take in turn.
+        /// The maximum number of templates. Copies with other keys need another template.
         const MOST: usize = 4;
         if self.templates.iter().any(|template| template.entries.is_same(&table.entries)) {
             return Value::Table(table);
@@ -269,17 +269,17 @@ impl Keeper {
     }
 }
 
-/// Whether an entry is a table with the key.
+/// Whether an entry is a table with a `repeat`.
 fn has_repeat(entry: &Entry) -> bool {
     entry.node.as_table().is_some_and(|table| table.get("repeat").is_some())
 }
 
-/// Whether the value of a key has been evaluated, or is not there at all.
+/// Whether the value of a key is valid or missing.
 fn is_whole(table: &Table, key: &str) -> bool {
     table.get(key).is_none_or(|entry| !matches!(entry.node.value, Value::Invalid))
 }
 
-/// Puts a value in the place of that of a key, or adds it where there is none, as if it stood in the `repeat`.
+/// Replaces the value of a key. Adds a missing key at the place of the `repeat`.
 fn put(table: &mut Table, key: &str, value: Value, repeat: &Entry) {
     match table.get_mut(key) {
         Some(entry) => entry.node.value = value,
@@ -306,7 +306,7 @@ pub(super) fn copy_name(name: &str, index: &[usize]) -> String {
     text
 }
 
-/// All indices of a grid, the last direction running fastest. Directions that there are not are 0.
+/// All indices of a grid, with the last direction running fastest. Missing directions have the index 0.
 pub(super) fn indices(counts: &[usize]) -> impl Iterator<Item = [usize; 3]> + use<> {
     let count = |direction: usize| counts.get(direction).copied().unwrap_or(1);
     let [ni, nj, nk] = [count(0), count(1), count(2)];

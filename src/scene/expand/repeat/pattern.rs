@@ -1,4 +1,4 @@
-//! How copies stand.
+//! The patterns in which copies are placed.
 
 use glam::{DQuat, DVec3};
 
@@ -11,9 +11,9 @@ use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::view::View;
 
-/// How copies stand.
+/// The pattern in which copies are placed.
 pub(super) enum Pattern {
-    /// This many copies, each placed by its formulas.
+    /// The number of copies, each placed by its formulas.
     Count(usize),
     Grid {
         counts: Vec<usize>,
@@ -34,7 +34,7 @@ pub(super) enum Pattern {
     Scatter(Scatter),
 }
 
-/// The number of copies, which is positive.
+/// Converts the number of copies. The number is positive.
 fn number(count: i64) -> usize {
     usize::try_from(count).unwrap_or(1)
 }
@@ -45,7 +45,7 @@ pub(super) fn fraction(n: usize, of: usize) -> f64 {
 }
 
 impl Expander<'_> {
-    /// The pattern of a repeat. `None` if it is wrong; the error is reported here or by the validation.
+    /// Reads the pattern of a repeat. `None` if it has an error, which is reported here or by the validation.
     pub(super) fn pattern(&mut self, repeat: &Entry, spec: &'static TableSpec) -> Option<Pattern> {
         let alone = Table { entries: vec![repeat.clone()].into() };
         let body = View::new(spec, Some(&alone));
@@ -96,7 +96,7 @@ impl Expander<'_> {
                 Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
             let (spacings, spacing, count) = (spacing.len(), view.span("spacing")?, view.span("count")?);
             let error = error.at(spacing, "").at(count, format!("the grid has {directions}"));
-            // A grid with this many directions, with one copy along each missing one.
+            // The suggested grid has one copy along each missing direction.
             let padded = counts.iter().map(usize::to_string).chain(std::iter::repeat("1".to_owned()));
             let padded: Vec<String> = padded.take(spacings).collect();
             let is_short = counts.len() < spacings && spacings <= 3;
@@ -112,7 +112,7 @@ impl Expander<'_> {
 }
 
 impl Pattern {
-    /// The numbers of copies in each direction.
+    /// The number of copies in each direction.
     pub(super) fn counts(&self) -> Vec<usize> {
         match self {
             Pattern::Count(count) | Pattern::Ring { count, .. } | Pattern::Line { count, .. } => vec![*count],
@@ -122,7 +122,7 @@ impl Pattern {
         }
     }
 
-    /// The place of a copy. (Scattered copies are placed together.)
+    /// The place of a copy. Scattered copies are placed together, elsewhere.
     pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> Place {
         let here = |offset: DVec3| Place { offset, turn: DQuat::IDENTITY };
         match self {
@@ -148,7 +148,7 @@ impl Pattern {
 }
 
 impl Curve {
-    /// The node of `at` below that of a repeat.
+    /// The node of `at` in the curve of a repeat.
     fn formulas(repeat: &Node) -> Option<&Node> {
         let curve = repeat.as_table()?.get("curve")?.node.as_table()?;
         curve.get("at").map(|entry| &entry.node)

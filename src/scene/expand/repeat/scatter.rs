@@ -1,4 +1,4 @@
-//! Copies at random places in a volume, no two of them overlapping.
+//! Places copies at random in a volume, without overlaps.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -9,38 +9,38 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::random::Stream;
 use crate::scene::view::View;
 
-/// How copies are scattered.
+/// The settings for scattering copies.
 pub(super) struct Scatter {
     pub(super) count: usize,
     volume: Volume,
-    /// The least distance between the balls around two copies, m.
+    /// The minimum distance between the balls around two copies, m.
     gap: f64,
     turned: bool,
 }
 
-/// A volume around the origin; lengths in m.
+/// A volume around the origin. Lengths in m.
 enum Volume {
     Box { size: DVec3 },
     Sphere { radius: f64 },
     Cylinder { radius: f64, height: f64 },
 }
 
-/// The reason why not all copies have a place.
+/// The error that not all copies have a place.
 pub(super) struct Full {
     /// The number of copies that have a place.
     placed: usize,
-    /// Why the next has none.
+    /// Why the next copy has no place.
     why: Why,
 }
 
 enum Why {
-    /// It has no end.
+    /// The copy is endless.
     Endless,
-    /// It is too large for the volume even alone.
+    /// The copy is larger than the volume.
     TooLarge,
-    /// No place for it has been found among the others.
+    /// All tries overlap other copies.
     Crowded,
-    /// This many comparisons with other copies found no place.
+    /// The search exceeds this many comparisons with other copies.
     Costly(u64),
 }
 
@@ -63,14 +63,15 @@ impl Scatter {
         })
     }
 
-    /// The places of copies of these sizes. Each is placed at random until it overlaps none of those before it, so later copies
-    /// never move it. Each draws from its own random stream.
+    /// Places copies of these sizes. Tries random places for each copy until it overlaps no earlier copy, so later
+    /// copies never move earlier ones. Each copy has its own random stream.
     pub(super) fn places(
         &self,
         sizes: &[Option<f64>],
         mut stream: impl FnMut(usize) -> Stream,
     ) -> Result<Vec<Place>, Full> {
-        /// At the density at which balls of one size hardly find a place any more, one in a hundred tries succeeds.
+        /// The maximum number of tries for each copy. At the density at which balls of one size hardly fit any more,
+        /// one try in a hundred succeeds.
         const TRIES: usize = 20_000;
         let most = most_looks(sizes.len());
         let mut taken = Taken::default();
@@ -102,7 +103,7 @@ impl Scatter {
 }
 
 impl Full {
-    /// The error, at the `repeat`.
+    /// Describes the error. `span` is the place of the `repeat`.
     pub(super) fn diagnostic(&self, name: &str, count: usize, span: Span) -> Diagnostic {
         let Full { placed, why } = self;
         let (message, label) = match why {
@@ -131,7 +132,7 @@ impl Full {
 }
 
 impl Volume {
-    /// Whether a ball of this radius fits. Where the volume is flat, only the centres have to lie in it.
+    /// Whether a ball of this radius fits. In a flat volume, only the centre has to fit.
     fn holds(&self, radius: f64) -> bool {
         let fits = |length: f64| length == 0.0 || radius <= length / 2.0;
         match self {
@@ -141,7 +142,7 @@ impl Volume {
         }
     }
 
-    /// A point for the centre of a ball of this radius, any as likely.
+    /// A uniformly distributed point for the centre of a ball of this radius.
     fn point(&self, radius: f64, stream: &mut Stream) -> DVec3 {
         let mut between = |length: f64| (2.0 * stream.uniform() - 1.0) * (length / 2.0 - radius).max(0.0);
         match self {
@@ -161,7 +162,7 @@ impl Volume {
     }
 }
 
-/// A rotation, any as likely: four normal numbers have no preferred direction.
+/// A uniformly distributed rotation: the direction of four normal random numbers is uniform.
 fn any_turn(stream: &mut Stream) -> DQuat {
     let [x, y, z, w] = [stream.normal(), stream.normal(), stream.normal(), stream.normal()];
     let length = (x * x + y * y + z * z + w * w).sqrt();
@@ -172,32 +173,32 @@ fn any_turn(stream: &mut Stream) -> DQuat {
     }
 }
 
-/// The most comparisons made for a number of copies. Where balls fill a third of the volume, one copy takes a few hundred; forty
-/// million take some seconds.
+/// The maximum number of comparisons for all copies. If balls fill a third of the volume, each copy needs a few
+/// hundred. Forty million take some seconds.
 fn most_looks(copies: usize) -> u64 {
     5_000_000 + (1_000 * copies as u64).min(40_000_000)
 }
 
-/// The balls that have their place, those of a size together: one large ball must not make many small ones be compared
-/// with each other.
+/// The balls placed so far, grouped by size. Without groups, one large ball would make the cells large, and many
+/// small balls would share a cell.
 #[derive(Default)]
 struct Taken {
-    /// The copies by size: by the exponent of the power of two at or above their radius.
+    /// The balls by size: by the exponent of the power of two at or above their radius.
     sizes: BTreeMap<i32, OfSize>,
-    /// How many cells and balls have been looked at.
+    /// The number of cells and balls compared so far.
     looks: u64,
 }
 
-/// Balls of about one size, and where they are by the cells of a grid.
+/// Balls of similar size, found by the cells of a grid.
 struct OfSize {
-    /// No ball is larger, m.
+    /// The largest radius, m.
     largest: f64,
     balls: Vec<(DVec3, f64)>,
     cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Taken {
-    /// Whether a ball, whose radius holds the gap, overlaps none.
+    /// Whether a ball overlaps no other. The radius includes the gap.
     fn is_free(&mut self, place: DVec3, radius: f64) -> bool {
         let looks = &mut self.looks;
         self.sizes.values().all(|of_size| of_size.is_free(place, radius, looks))
@@ -237,7 +238,7 @@ impl OfSize {
             low.iter().zip(high).map(|(low, high)| high.saturating_sub(*low) as f64 + 1.0).product();
         #[allow(clippy::cast_precision_loss, reason = "an estimate")]
         let all = self.balls.len() as f64;
-        // A large ball reaches over more cells than there are small balls.
+        // If the ball reaches more cells than there are balls, comparing all balls is faster.
         if cells > all {
             return self.balls.iter().all(is_apart);
         }
@@ -260,7 +261,7 @@ impl OfSize {
 mod tests {
     use super::*;
 
-    /// With cells as large as the largest ball, all small balls would share a few of them.
+    /// With cells as large as the largest ball, all small balls would share a few cells.
     #[test]
     fn one_large_ball_does_not_make_small_ones_be_compared_with_each_other() {
         let looks = |count: usize| {

@@ -1,4 +1,4 @@
-//! Scenes with copies.
+//! Tests scenes with copies.
 
 use std::f64::consts::TAU;
 
@@ -101,16 +101,16 @@ fn a_line_has_a_copy_at_either_end() {
 
 #[test]
 fn copies_along_a_curve_are_evenly_apart_whatever_its_pace() {
-    // An arc of 2 rad of a circle of radius 3 is 6 long; `u^2` does not go along it evenly.
+    // An arc of 2 rad on a circle of radius 3 m is 6 m long. `u^2` does not run along it evenly.
     let arc = scene(
         "[body.a]\nshape.sphere.radius = 0.1\n[body.a.repeat.curve]\ncount = 7\nat = ['3*cos(2*u^2)', 5, '-3*sin(2*u^2)']",
     );
     for (n, body) in arc.bodies.iter().enumerate() {
         let angle = n as f64 / 3.0;
         let expected = DVec3::new(3.0 * libm::cos(angle), 5.0, -3.0 * libm::sin(angle));
-        // A chord is shorter than its arc by angle³ / 24 of the radius; there are 4096 of them.
+        // Each of the 4096 chords is shorter than its arc by angle³ / 24 of the radius.
         assert!(body.start.location.distance(expected) < 1e-6, "{n}");
-        // Along the circle is a right angle ahead of outwards.
+        // The tangent of a circle is perpendicular to its radius.
         let tangent = DVec3::new(-libm::sin(angle), 0.0, -libm::cos(angle));
         assert!((body.start.orientation * DVec3::X).distance(tangent) < 1e-3, "{n}");
         assert!((body.start.orientation * DVec3::Y).distance(DVec3::Y) < 1e-12, "{n}");
@@ -159,7 +159,7 @@ fn scattered_copies_do_not_overlap_and_stay_inside() {
                 assert!(place.distance(*other) > radius + size + 0.01 - 1e-12, "{within}: {n}");
             }
         }
-        // They are all over it: a quarter of a volume that is the same on all sides of its middle.
+        // The copies fill the whole volume: about a quarter of them is in a quarter of the volume.
         let quarter = balls.iter().filter(|(place, _)| place.x > 0.0 && place.z > 0.0).count();
         assert!((30..=70).contains(&quarter), "{within}: {quarter}");
     }
@@ -170,7 +170,7 @@ fn what_is_scattered_may_be_turned_any_way() {
     let text = "[body.a]\nshape.box.size = [1, 1, 1]\nrepeat.scatter = { count = 100, turned = true, within.sphere.radius = 9 }";
     let mean: DVec3 =
         scene(text).bodies.iter().map(|body| body.start.orientation * DVec3::Y).sum::<DVec3>() / 100.0;
-    // Each component has the deviation √(1/3) / 10.
+    // Each component has a standard deviation of √(1/3) / 10.
     assert!(mean.abs().max_element() < 4.0 * 0.058, "{mean}");
 }
 
