@@ -2,11 +2,11 @@
 
 pub(super) use super::color_names::NAMES;
 
-/// A color in sRGB, as screens and color pickers show it: red, green and blue from 0 to 1.
+/// A color in sRGB, as on screens and in color pickers: red, green and blue from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color(pub [f64; 3]);
 
-/// The colors that have names, each with what it is short for.
+/// The named colors: each name with its color as `#rrggbb`.
 pub(crate) fn names() -> Vec<(&'static str, String)> {
     NAMES.iter().map(|&(name, code)| (name, format!("#{code:06x}"))).collect()
 }
@@ -15,7 +15,7 @@ impl Color {
     /// White.
     pub const WHITE: Color = Color([1.0; 3]);
 
-    /// The color that a text stands for: `#rrggbb`, `#rgb`, or a name of CSS in capital or small letters.
+    /// Parses a color: `#rrggbb`, `#rgb`, or a CSS name in uppercase or lowercase letters.
     pub fn parse(text: &str) -> Option<Color> {
         if let Some(&(_, code)) = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)) {
             return Some(Color::from_code(code));
@@ -27,7 +27,7 @@ impl Color {
         let code = u32::from_str_radix(digits, 16).ok()?;
         match digits.len() {
             6 => Some(Color::from_code(code)),
-            // Every digit stands for two of the same.
+            // Double each digit: `#rgb` is short for `#rrggbb`.
             3 => Some(Color::from_code(
                 ((code >> 8) & 0xf) * 0x11_00_00 + ((code >> 4) & 0xf) * 0x11_00 + (code & 0xf) * 0x11,
             )),
@@ -35,12 +35,12 @@ impl Color {
         }
     }
 
-    /// The color `0xrrggbb`.
+    /// The color of a number `0xrrggbb`.
     pub fn from_code(code: u32) -> Color {
         Color([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
     }
 
-    /// The same color as linear light: red, green and blue from 0 to 1 (IEC 61966-2-1).
+    /// Converts the color to linear light: red, green and blue from 0 to 1 (IEC 61966-2-1).
     pub fn linear(self) -> [f64; 3] {
         self.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
     }

@@ -1,6 +1,6 @@
-//! The colors that have names: those of CSS.
+//! The named colors of CSS.
 
-/// Name and `0xrrggbb` of each.
+/// The name of each color, and its value as `0xrrggbb`.
 #[rustfmt::skip]
 pub(super) const NAMES: &[(&str, u32)] = &[
     ("aliceblue", 0xf0f8ff), ("antiquewhite", 0xfaebd7), ("aqua", 0x00ffff), ("aquamarine", 0x7fffd4),

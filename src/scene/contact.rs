@@ -4,20 +4,20 @@ use std::sync::Arc;
 
 use crate::dynamics::Surface;
 
-/// The method that detects contacts and stops bodies there.
+/// The method that detects contacts and keeps bodies from passing through each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactLaw {
-    /// The time of each impact is found within the step.
+    /// Finds the time of each impact within a step.
     EventDriven,
-    /// All contacts of a step are solved together.
+    /// Solves all contacts of a step together.
     TimeStepping,
 }
 
 impl ContactLaw {
-    /// All of them.
+    /// All contact laws.
     pub const ALL: [ContactLaw; 2] = [ContactLaw::EventDriven, ContactLaw::TimeStepping];
 
-    /// Its name in scenes.
+    /// The name of the contact law in scenes.
     pub fn name(self) -> &'static str {
         match self {
             ContactLaw::EventDriven => "event-driven",
@@ -25,7 +25,7 @@ impl ContactLaw {
         }
     }
 
-    /// When to choose it.
+    /// Advice on when to choose the contact law.
     pub fn summary(self) -> &'static str {
         match self {
             ContactLaw::EventDriven => {
@@ -39,11 +39,11 @@ impl ContactLaw {
     }
 }
 
-/// How a body collides.
+/// The contact properties of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider {
-    /// How its surface behaves where others touch it.
+    /// The restitution and friction of the body's surface.
     pub surface: Surface,
-    /// The name of its group: bodies of one group pass through each other.
+    /// The name of the body's group. Bodies of one group pass through each other.
     pub group: Option<Arc<str>>,
 }

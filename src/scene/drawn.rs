@@ -1,4 +1,4 @@
-//! Numbers that every particle has of its own.
+//! Numbers that each particle draws for itself.
 
 use std::sync::Arc;
 
@@ -6,16 +6,16 @@ use super::expression::{Draw, ExpressionError, Program};
 use crate::dynamics;
 use crate::random::Stream;
 
-/// A number, or a formula with random numbers that are drawn anew each time.
+/// A number, or a formula whose random numbers are drawn anew for each particle.
 #[derive(Clone, Debug)]
 pub enum Drawn {
-    /// It is always the same.
+    /// The same number for all particles.
     Constant(f64),
-    /// It follows from the time and from random numbers.
+    /// A formula of the time and of random numbers.
     Formula(Arc<DrawnFormula>),
 }
 
-/// A formula of the time `t` with `uniform` and `normal`, which give other numbers each time.
+/// A formula of the time `t`, with `uniform` and `normal`. Each evaluation draws new random numbers.
 #[derive(Debug)]
 pub struct DrawnFormula {
     text: Arc<str>,
@@ -23,17 +23,17 @@ pub struct DrawnFormula {
 }
 
 impl DrawnFormula {
-    /// A formula whose only name that is not known yet is the time, in slot 0.
+    /// Creates a formula. The time is its only unresolved name, in slot 0.
     pub(super) fn new(text: Arc<str>, program: Program) -> DrawnFormula {
         DrawnFormula { text, program }
     }
 
-    /// The text as written.
+    /// The formula as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Why a draw has no finite value; none where it has.
+    /// Explains why the formula has no finite value at time `t`, s. `None` if the value is finite.
     pub(super) fn explain_non_finite(&self, t: f64, random: &mut Stream) -> Option<ExpressionError> {
         self.program.explain_non_finite(&self.inputs(t, random))
     }
@@ -54,7 +54,7 @@ impl dynamics::Draw for DrawnFormula {
 }
 
 impl Drawn {
-    /// The same as the dynamics take it.
+    /// The number or formula in the form that the dynamics use.
     pub fn shared(&self) -> Arc<dyn dynamics::Draw> {
         match self {
             Drawn::Constant(number) => Arc::new(*number),

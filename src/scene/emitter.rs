@@ -1,30 +1,32 @@
-//! The emitters of particles of a checked scene.
+//! The particle emitters of a checked scene.
 
 use std::sync::Arc;
 
 use super::Color;
 use crate::dynamics::{BodyId, ParticleSource, Surface};
 
-/// A source of particles, with their look.
+/// A particle source and the look of its particles.
 #[derive(Clone, Debug)]
 pub struct Emitter {
-    /// Its name, unique among emitters.
+    /// The name of the emitter, unique among emitters.
     pub name: Arc<str>,
-    /// When, where and how its particles begin.
+    /// The times, places and velocities at which the particles are born.
     pub source: Arc<ParticleSource>,
-    /// The body that sends them out, and moves on.
+    /// The body that carries the emitter. `None` if the emitter is fixed in the world.
     pub carrier: Option<BodyId>,
     /// The radius of a particle, m.
     pub radius: f64,
-    /// The surface of a particle; none: it passes through bodies.
+    /// The surface of a particle. `None` if particles pass through bodies.
     pub collides: Option<Surface>,
-    /// How many times larger it is drawn over its life: the first at its birth, the last at its death, evenly between.
+    /// The factors by which a particle is drawn larger: the first at birth, the last at death, the others evenly
+    /// between.
     pub sizes: Vec<f64>,
-    /// Its color over its life, in the same way.
+    /// The colors of a particle: the first at birth, the last at death, the others evenly between.
     pub colors: Vec<Color>,
-    /// How brightly it shines by itself; 0 if it does not.
+    /// The brightness of a particle's own light. 0 if it gives no light.
     pub glow: f64,
-    /// It is drawn as a streak that is as long as its way in this time, s; 0: as a ball.
+    /// The time that a streak covers, s: a particle is drawn as a streak along its path in this time. 0: drawn as a
+    /// ball.
     pub streak: f64,
 }
 
@@ -35,13 +37,13 @@ impl Emitter {
         Color([0, 1, 2].map(|i| at_age(&self.colors, age, |color| color.0[i])))
     }
 
-    /// The radius with which a particle is drawn at an age from 0 (birth) to 1 (death), m.
+    /// The drawn radius of a particle, m, at an age from 0 (birth) to 1 (death).
     #[must_use]
     pub fn radius_at(&self, age: f64) -> f64 {
         self.radius * at_age(&self.sizes, age, |size| *size)
     }
 
-    /// The most particles that can be alive at once, as far as that is known before the run.
+    /// An upper bound for the number of particles alive at once, as known before the run.
     #[must_use]
     pub fn most_alive(&self, duration: f64) -> f64 {
         let births = self.source.births;
@@ -49,7 +51,7 @@ impl Emitter {
         self.births_within(life)
     }
 
-    /// The most births within so long a time, s.
+    /// The largest number of births within `time`, s.
     #[must_use]
     pub fn births_within(&self, time: f64) -> f64 {
         let births = self.source.births;

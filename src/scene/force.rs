@@ -9,48 +9,48 @@ use crate::dynamics::{
     LennardJones, Lorentz, Spring,
 };
 
-/// A force that is not a single body's own.
+/// A force between bodies, on several bodies, or on particles. The constant force on one body is part of the body.
 #[derive(Clone, Debug)]
 pub struct Force {
-    /// Its name, unique among forces.
+    /// The name of the force, unique among forces.
     pub name: String,
-    /// Its kind.
+    /// The kind of the force.
     pub kind: ForceKind,
-    /// The numbers of the emitters on whose particles it acts.
+    /// The indices of the emitters on whose particles the force acts.
     pub emitters: Vec<usize>,
 }
 
-/// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the number of a body of the scene.
+/// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum ForceKind {
     /// The same force and torque on several bodies.
     Constant(ConstantForce),
-    /// The resistance of air or a liquid.
+    /// Drag in air or a liquid.
     Drag(Drag),
-    /// Newton's gravitation between all pairs.
+    /// Newton's gravitation between all pairs of bodies.
     Gravitation(Gravitation),
-    /// Coulomb's force between all pairs of charges.
+    /// Coulomb's force between all pairs of charged bodies.
     Coulomb(Coulomb),
-    /// Uniform electric and magnetic fields.
+    /// The Lorentz force in uniform electric and magnetic fields.
     Lorentz(Lorentz),
-    /// A force by formulas.
+    /// A force defined by formulas.
     Formula {
-        /// The bodies it acts on.
+        /// The bodies on which the force acts.
         bodies: Vec<BodyId>,
-        /// The formulas.
+        /// The formulas of the force.
         law: Arc<FormulaLaw>,
     },
-    /// The force between neutral atoms, for all pairs that are near.
+    /// The Lennard-Jones force between neutral atoms, for all close pairs.
     LennardJones(LennardJones),
     /// Buoyancy in a liquid.
     Buoyancy(Buoyancy),
-    /// Magnetic dipoles.
+    /// The forces and torques between magnetic dipoles.
     Dipoles(Dipoles),
-    /// The gravity of a planet's bulge.
+    /// The gravity of an oblate planet (the J₂ term).
     J2(J2),
     /// A spring with a damper, or a chain of such springs.
     Spring {
-        /// The springs, one behind the other.
+        /// The springs of the chain, in order.
         links: Vec<Spring>,
         /// The look of the springs. `None` if the springs are not drawn.
         look: Option<SpringLook>,
@@ -58,7 +58,7 @@ pub enum ForceKind {
 }
 
 impl ForceKind {
-    /// The forces for a world.
+    /// The forces as the dynamics use them.
     pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
         match self {
             ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],

@@ -11,55 +11,55 @@ use crate::dynamics::{
     Slider, Target,
 };
 
-/// A joint: it holds two bodies together, or a body to a point of the world.
+/// A joint between two bodies, or between a body and a point of the world.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Its name, unique among joints.
+    /// The name of the joint, unique among joints.
     pub name: String,
-    /// Its kind.
+    /// The kind of the joint.
     pub kind: JointKind,
-    /// The motor that gives way, if it has one.
+    /// The motor with limited strength. `None` if the joint has none.
     pub servo: Option<Servo>,
-    /// Whether the bodies that it joins can collide with each other.
+    /// Whether the two bodies of the joint can collide with each other.
     pub collides: bool,
-    /// How it is drawn, if it is.
+    /// The look of the joint. `None` if the joint is not drawn.
     pub look: Option<JointLook>,
-    /// Arrows for what it does, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).
+    /// Arrows for the joint's force and torque, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).
     pub arrows: [Option<Arrow>; 2],
 }
 
-/// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the number of a body of the scene.
+/// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum JointKind {
-    /// Two points stay together.
+    /// Keeps two points together.
     Ball(Ball),
-    /// Two points stay together, and one axis is common.
+    /// Keeps two points together, and an axis common to both bodies.
     Hinge(Hinge),
-    /// One body moves along an axis of the other.
+    /// Lets one body move only along an axis of the other.
     Slider(Slider),
-    /// Two bodies move as one.
+    /// Fastens two bodies to each other, without any relative motion.
     Fixed(Fixed),
-    /// Two points keep their distance.
+    /// Keeps the distance between two points constant.
     Rod(Rod),
-    /// The distance of two points does not grow.
+    /// Keeps the distance between two points from exceeding the length of the rope.
     Rope(Rope),
     /// A rope that runs over two points.
     Pulley(Pulley),
-    /// Two joints move together.
+    /// Couples the motion of two joints.
     Gear(Gear),
 }
 
-/// How a joint is drawn: a rod from end to end, any other as a pin.
+/// The look of a joint: a rod is drawn from end to end, any other joint as a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLook {
     /// The radius of the rod or the pin, m.
     pub radius: Option<f64>,
-    /// Its color.
+    /// The color of the joint. `None` for the default color.
     pub color: Option<Color>,
 }
 
 impl JointKind {
-    /// The constraint for a world.
+    /// The constraint as the dynamics use it.
     pub fn constraint(&self) -> Arc<dyn Constraint> {
         match self {
             JointKind::Ball(ball) => Arc::new(*ball),
@@ -73,7 +73,7 @@ impl JointKind {
         }
     }
 
-    /// Its two ends; those of a gear are what the two joints turn.
+    /// The two ends of the joint. For a gear, the second end of each of its two joints.
     pub fn between(&self) -> [Anchor; 2] {
         match self {
             JointKind::Ball(Ball { between })
@@ -87,8 +87,9 @@ impl JointKind {
         }
     }
 
-    /// The error of the joint, m: the distance between its two points, or the error of its length. The closure gives the state of
-    /// a body. `None` while a body of the joint is absent, and for pulleys and gears, which hold no two points together.
+    /// The error of the joint, m: the distance between its two points, or the error of its length. `body` returns the
+    /// state of a body. `None` while a body of the joint is absent, and for pulleys and gears, which do not hold two
+    /// points together.
     pub fn gap(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<f64> {
         let ends = self.between().map(|end| match end {
             Anchor::Body { id, at } => body(id).map(|body| (body.point(at).0, body.orientation)),
@@ -105,7 +106,7 @@ impl JointKind {
         })
     }
 
-    /// The angle of a hinge, or the way of a slider.
+    /// The angle of a hinge, or the position of a slider. `None` for other joints.
     pub fn coordinate(&self) -> Option<Coordinate> {
         match self {
             JointKind::Hinge(hinge) => Some(hinge.coordinate()),
@@ -115,12 +116,12 @@ impl JointKind {
     }
 }
 
-/// A value of a joint that a scene gives by a formula.
+/// A joint coordinate that a scene gives as a function of time.
 #[derive(Clone, Debug)]
 pub struct Course {
     /// The formula.
     pub value: Timed,
-    /// One unit of it in the dynamics' unit: for degrees, π/180.
+    /// The factor from the unit of the formula to the unit of the dynamics: π/180 for degrees.
     pub unit: f64,
 }
 

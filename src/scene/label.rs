@@ -1,4 +1,4 @@
-//! The part of a checked scene that is measured and written: labels, the scale bar, the grid.
+//! The measurements and texts of a checked scene: labels, the scale bar, the grid.
 
 use super::Color;
 use super::JointKind;
@@ -8,62 +8,62 @@ use crate::dynamics::Reaction;
 /// A text in the picture.
 #[derive(Clone, Debug)]
 pub struct Label {
-    /// Its name, unique among labels.
+    /// The name of the label, unique among labels.
     pub name: String,
-    /// Its text, piece by piece.
+    /// The text of the label, in pieces.
     pub text: Vec<Piece>,
-    /// Its place.
+    /// The place of the label.
     pub place: LabelPlace,
-    /// The height of its lines, as part of the picture's height; none: as is well read.
+    /// The line height, as a part of the picture's height. `None` for a size that is easy to read.
     pub size: Option<f64>,
-    /// Its color; none: dark, or light before a dark background.
+    /// The color. `None` for the default: dark, or light on a dark background.
     pub color: Option<Color>,
 }
 
 /// A piece of a label.
 #[derive(Clone, Debug)]
 pub enum Piece {
-    /// Words as they are.
+    /// Constant text.
     Words(String),
-    /// The value of a formula at the moment that is shown.
+    /// The value of a formula at the time of the frame.
     Value {
         /// The formula, whose inputs are the values of `inputs`.
         formula: Program,
-        /// The measures that the formula uses.
+        /// The measures that the formula uses, in the order of its inputs.
         inputs: Vec<Measure>,
-        /// How the value is written.
+        /// The number format of the value.
         format: Format,
     },
 }
 
-/// How a number is written in a label.
+/// The format of a number in a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// With three significant digits.
+    /// Three significant digits.
     Short,
-    /// With so many decimals.
+    /// A fixed number of decimals.
     Decimals(usize),
-    /// With so many decimals and a power of ten.
+    /// Scientific notation: a fixed number of decimals, and a power of ten.
     Scientific(usize),
 }
 
 /// The place of a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LabelPlace {
-    /// At an edge of the picture.
+    /// At an edge or corner of the picture.
     Corner(Corner),
     /// Beside a body.
     Body {
-        /// The number of the body.
+        /// The index of the body.
         body: usize,
-        /// On which side.
+        /// The side of the body.
         side: Side,
-        /// Whether it stands beside each ghost as well, with the values of its time.
+        /// Whether each ghost of the body has a label too, with the values at the time of the ghost.
         ghosts: bool,
     },
 }
 
-/// An edge of the picture.
+/// A corner of the picture, or the middle of its top or bottom edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
     /// At the top, on the left.
@@ -81,7 +81,7 @@ pub enum Corner {
 }
 
 impl Corner {
-    /// All of them.
+    /// All corners.
     pub const ALL: [Corner; 6] = [
         Corner::TopLeft,
         Corner::Top,
@@ -91,7 +91,7 @@ impl Corner {
         Corner::BottomRight,
     ];
 
-    /// Its name in scenes.
+    /// The name of the corner in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Corner::TopLeft => "top-left",
@@ -107,21 +107,21 @@ impl Corner {
 /// A side of a body in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Over it.
+    /// Above the body.
     Above,
-    /// Under it.
+    /// Below the body.
     Below,
-    /// To its left.
+    /// Left of the body.
     Left,
-    /// To its right.
+    /// Right of the body.
     Right,
 }
 
 impl Side {
-    /// All of them.
+    /// All sides.
     pub const ALL: [Side; 4] = [Side::Above, Side::Below, Side::Left, Side::Right];
 
-    /// Its name in scenes.
+    /// The name of the side in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Side::Above => "above",
@@ -132,21 +132,21 @@ impl Side {
     }
 }
 
-/// A number of a moment that labels can show.
+/// A quantity that labels can show, with a value at each time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// A number of the whole run.
+    /// A quantity of the whole run.
     Run(RunMeasure),
-    /// A number of the body with this number in the scene.
+    /// A quantity of one body. The number is the index of the body in the scene.
     Body(usize, BodyMeasure),
-    /// A number of the joint with this number in the scene.
+    /// A quantity of one joint. The number is the index of the joint in the scene.
     Joint(usize, JointMeasure),
-    /// How many impacts there have been of the pair with this number in the scene.
+    /// The number of impacts so far of one pair of bodies. The number is the index of the pair in the scene.
     Impacts(usize),
 }
 
 impl Measure {
-    /// Whether it is a number of things, which is written with all of its digits.
+    /// Whether the quantity is a count. A label shows all digits of a count.
     pub fn is_count(self) -> bool {
         matches!(
             self,
@@ -155,25 +155,25 @@ impl Measure {
     }
 }
 
-/// A number of the whole run at a moment.
+/// A quantity of the whole run at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunMeasure {
     /// The time, s.
     Time,
     /// The number of the frame.
     Frame,
-    /// Kinetic and potential energy, J.
+    /// The sum of kinetic and potential energy, J.
     Energy,
     /// The kinetic energy, J.
     Kinetic,
     /// The potential energy, J.
     Potential,
-    /// How many impacts there have been.
+    /// The number of impacts so far.
     Impacts,
 }
 
 impl RunMeasure {
-    /// All of them, each with its name in formulas and what it is.
+    /// All quantities of the run: name in formulas, quantity, meaning.
     pub const ALL: [(&'static str, RunMeasure, &'static str); 6] = [
         ("t", RunMeasure::Time, "the time, s"),
         ("frame", RunMeasure::Frame, "the number of the frame"),
@@ -184,37 +184,37 @@ impl RunMeasure {
     ];
 }
 
-/// A number of a body at a moment.
+/// A quantity of a body at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyMeasure {
-    /// A coordinate of its location, m.
+    /// A coordinate of the location, m.
     Location(usize),
-    /// Its speed, m/s.
+    /// The speed, m/s.
     Speed,
-    /// A component of its velocity, m/s.
+    /// A component of the velocity, m/s.
     Velocity(usize),
-    /// The size of its acceleration, m/s².
+    /// The magnitude of the acceleration, m/s².
     Accelerating,
-    /// A component of its acceleration, m/s².
+    /// A component of the acceleration, m/s².
     Acceleration(usize),
-    /// The size of the sum of the forces on it, N.
+    /// The magnitude of the net force on the body, N.
     Pull,
-    /// A component of the sum of the forces on it, N.
+    /// A component of the net force on the body, N.
     Force(usize),
-    /// The size of its angular velocity, rad/s.
+    /// The magnitude of the angular velocity, rad/s.
     Spin,
-    /// Its mass, kg.
+    /// The mass, kg.
     Mass,
-    /// Its momentum, kg·m/s.
+    /// The magnitude of the momentum, kg·m/s.
     Momentum,
     /// The kinetic energy of its translation, J.
     Kinetic,
-    /// How many impacts it has had.
+    /// The number of impacts of the body so far.
     Impacts,
 }
 
 impl BodyMeasure {
-    /// All of them, each with its name in formulas and what it is.
+    /// All quantities of a body: name in formulas, quantity, meaning.
     pub const ALL: [(&'static str, BodyMeasure, &'static str); 20] = [
         ("x", BodyMeasure::Location(0), "its location, m"),
         ("y", BodyMeasure::Location(1), "its location, m"),
@@ -243,16 +243,16 @@ impl BodyMeasure {
     ];
 }
 
-/// A number of a joint at a moment.
+/// A quantity of a joint at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointMeasure {
-    /// The size of its force, N.
+    /// The magnitude of the joint's force, N.
     ForceMagnitude,
-    /// A component of its force, N.
+    /// A component of the joint's force, N.
     Force(usize),
-    /// The size of its torque, N·m.
+    /// The magnitude of the joint's torque, N·m.
     TorqueMagnitude,
-    /// A component of its torque, N·m.
+    /// A component of the joint's torque, N·m.
     Torque(usize),
     /// The angle of a hinge, degrees.
     Angle,
@@ -263,7 +263,7 @@ pub enum JointMeasure {
 }
 
 impl JointMeasure {
-    /// All of them, each with its name in formulas and what it is.
+    /// All quantities of a joint: name in formulas, quantity, meaning.
     pub const ALL: [(&'static str, JointMeasure, &'static str); 11] = [
         ("joint.NAME.force", JointMeasure::ForceMagnitude, "the size of its force on its second end, N"),
         ("joint.NAME.fx", JointMeasure::Force(0), "its force on its second end, N"),
@@ -290,12 +290,12 @@ impl JointMeasure {
         ("joint.NAME.speed", JointMeasure::Speed, "the rate of that angle, rad/s, or of that way, m/s"),
     ];
 
-    /// The names behind the name of a joint, with their measures.
+    /// The part of each name after the name of the joint, with its quantity.
     pub fn names() -> impl Iterator<Item = (&'static str, JointMeasure)> {
         JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
     }
 
-    /// Whether a joint has it.
+    /// Whether joints of this kind have the quantity.
     pub fn is_of(self, joint: &JointKind) -> bool {
         match self {
             JointMeasure::Angle => matches!(joint, JointKind::Hinge(_)),
@@ -305,12 +305,12 @@ impl JointMeasure {
         }
     }
 
-    /// Whether it is a force or a torque of the joint.
+    /// Whether the quantity is a force or a torque of the joint.
     pub fn is_reaction(self) -> bool {
         !matches!(self, JointMeasure::Angle | JointMeasure::Position | JointMeasure::Speed)
     }
 
-    /// Its value for what a joint does, and for its coordinate with its rate.
+    /// The value of the quantity, from the joint's force and torque, its coordinate and the rate of the coordinate.
     pub fn of(self, reaction: &Reaction, [value, rate]: [f64; 2]) -> f64 {
         match self {
             JointMeasure::Angle => value.to_degrees(),
@@ -327,18 +327,18 @@ impl JointMeasure {
 /// A bar in the picture that shows a length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleBar {
-    /// Its length, m; none: about a fifth of the picture's width.
+    /// The length of the bar, m. `None` for about a fifth of the picture's width.
     pub length: Option<f64>,
-    /// The corner of the picture.
+    /// The corner of the picture in which the bar is.
     pub corner: Corner,
 }
 
-/// Lines with numbers, to read lengths from.
+/// Lines with numbers at regular distances, for reading lengths in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// The distance from one line to the next, m; none: after the size of the motion.
+    /// The distance between two lines, m. `None` for a distance that suits the size of the motion.
     pub spacing: Option<f64>,
-    /// Its plane.
+    /// The plane of the grid.
     pub plane: GridPlane,
 }
 
@@ -347,15 +347,15 @@ pub struct Grid {
 pub enum GridPlane {
     /// On the ground.
     Ground,
-    /// Upright behind the motion.
+    /// Vertical, behind the motion.
     Wall,
 }
 
 impl GridPlane {
-    /// All of them.
+    /// All planes.
     pub const ALL: [GridPlane; 2] = [GridPlane::Ground, GridPlane::Wall];
 
-    /// Its name in scenes.
+    /// The name of the plane in scenes.
     pub fn name(self) -> &'static str {
         match self {
             GridPlane::Ground => "ground",

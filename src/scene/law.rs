@@ -1,4 +1,4 @@
-//! Forces by formulas of where a body is, how it moves, and what it is.
+//! Forces that formulas define, from the location, the velocity and the properties of a body.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,13 +10,13 @@ use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intr
 use crate::diagnostic::Span;
 use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
-/// The quantities that a formula of a force may use, first those of a potential.
+/// The quantities that a force formula can use. The first six are those that a potential can use too.
 pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];
 
-/// The quantities that a potential may use.
+/// The quantities that a potential can use: location, mass and charge.
 pub const OF_PLACE: &[&str] = QUANTITIES.split_at(6).0;
 
-/// The places of quantities among them.
+/// The indices of quantities in [`QUANTITIES`].
 const R: usize = 3;
 const MASS: usize = 4;
 const CHARGE: usize = 5;
@@ -26,7 +26,7 @@ const TIME: usize = 10;
 
 const _: () = assert!(FORCE_BLOCK == LANES);
 
-/// A formula of the quantities of a body, whose other names have been looked up.
+/// A formula of the quantities of a body, with resolved names.
 pub struct BodyFormula {
     text: Arc<str>,
     span: Span,
@@ -34,7 +34,7 @@ pub struct BodyFormula {
 }
 
 impl BodyFormula {
-    /// A formula that stands at a place; its slots are [`QUANTITIES`] in their order.
+    /// Creates a formula. `span` is its place in the text. Its slots are [`QUANTITIES`], in that order.
     pub(super) fn new(text: Arc<str>, span: Span, resolved: Resolved) -> BodyFormula {
         BodyFormula { text, span, resolved }
     }
@@ -44,14 +44,14 @@ impl BodyFormula {
         &self.text
     }
 
-    /// Its place in the text.
+    /// The place of the formula in the text.
     pub fn span(&self) -> Span {
         self.span
     }
 }
 
 impl fmt::Debug for BodyFormula {
-    // The place in the text does not change the formula.
+    // Leave the place out: equal formulas at different places have the same text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.resolved.fmt(f)
     }
@@ -60,9 +60,9 @@ impl fmt::Debug for BodyFormula {
 /// A number, or a formula of the quantities of a body.
 #[derive(Clone, Debug)]
 pub enum OfBody {
-    /// It is the same everywhere.
+    /// The same number for all bodies.
     Constant(f64),
-    /// It follows from the body.
+    /// A formula of the quantities of the body.
     Formula(Arc<BodyFormula>),
 }
 
@@ -75,30 +75,30 @@ impl OfBody {
     }
 }
 
-/// The force on a body by formulas, and its potential if it has one.
+/// The force on a body by formulas, and its potential, if the scene gives one.
 pub struct FormulaLaw {
     force: [OfBody; 3],
     potential: Option<OfBody>,
     program: Wide,
     energy: Option<Wide>,
-    /// ∂U/∂x, ∂U/∂y, ∂U/∂z, each as if r did not depend on it, and ∂U/∂r.
+    /// ∂U/∂x, ∂U/∂y and ∂U/∂z with r held constant, and ∂U/∂r.
     slopes: Option<Wide>,
 }
 
 impl fmt::Debug for FormulaLaw {
-    // The programs follow from the formulas.
+    // Leave the programs out: they are compiled from the formulas.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("FormulaLaw").field(&self.force).field(&self.potential).finish()
     }
 }
 
 impl FormulaLaw {
-    /// The law of these formulas.
+    /// Compiles the formulas of a force and its potential.
     ///
     /// # Errors
     /// If the derivatives of the potential are too long.
     pub fn new(force: [OfBody; 3], potential: Option<OfBody>) -> Result<FormulaLaw, ExpressionError> {
-        /// The most operations allowed in a derivative; meant for formulas of up to a thousand letters.
+        /// The largest number of operations in a derivative; enough for formulas of up to a thousand characters.
         const MOST: u64 = 100_000;
         let formulas = force.each_ref().map(OfBody::resolved);
         let program = Wide::new(&formulas.each_ref());
@@ -122,17 +122,18 @@ impl FormulaLaw {
         self.program.uses(TIME)
     }
 
-    /// Whether it depends on charges.
+    /// Whether the force depends on the charge of the body.
     pub fn depends_on_charge(&self) -> bool {
         self.program.uses(CHARGE)
     }
 
-    /// Whether it depends on masses.
+    /// Whether the force depends on the mass of the body.
     pub fn depends_on_mass(&self) -> bool {
         self.program.uses(MASS)
     }
 
-    /// Why a force has no finite value for these quantities: the formula, and what is wrong with it; none where all have.
+    /// Finds the first formula that has no finite value for these quantities, and the reason. `None` if all values are
+    /// finite.
     pub fn explain(&self, quantities: &[f64]) -> Option<(&BodyFormula, ExpressionError)> {
         self.force.iter().chain(&self.potential).find_map(|formula| match formula {
             OfBody::Constant(_) => None,
@@ -142,7 +143,7 @@ impl FormulaLaw {
         })
     }
 
-    /// The force on a body at rest, and minus the gradient of the potential there, N.
+    /// The force on a body at rest, and the negative gradient of the potential there, both N. A check compares the two.
     pub(super) fn compare(&self, quantities: &[f64]) -> (DVec3, DVec3) {
         let (mut force, mut gradient) = (DVec3::ZERO, DVec3::ZERO);
         let fill = |slot: usize, column: &mut [f64]| column[0] = quantities[slot];
@@ -160,7 +161,7 @@ impl FormulaLaw {
     }
 }
 
-/// The quantities of a body of a mass (kg) and a charge (C) at a place (m) with a velocity (m/s) at a time (s).
+/// The quantities of a body, in the order of [`QUANTITIES`]: SI units.
 pub fn quantities(
     location: DVec3,
     velocity: DVec3,
@@ -172,12 +173,13 @@ pub fn quantities(
     [x, y, z, location.length(), mass, charge, vx, vy, vz, velocity.length(), time]
 }
 
-/// The quantities where a force had no value.
+/// The quantities of a body at the place and time at which a force had no value.
 pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES.len()] {
     quantities(at.location, at.velocity, mass, charge, at.time)
 }
 
-/// Writes a quantity of some bodies; `row`: their numbers, where these are without a gap.
+/// Fills a column with one quantity of some bodies. `row` is the range of their indices, if the indices are
+/// consecutive.
 fn fill(
     slot: usize,
     (bodies, row): (&[BodyId], Option<&Range<usize>>),
@@ -204,7 +206,7 @@ fn fill(
     }
 }
 
-/// Copies one component of vectors.
+/// Copies one component of each vector into a column.
 fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
     let each = column.iter_mut().zip(from);
     match component {

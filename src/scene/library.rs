@@ -1,70 +1,70 @@
-//! The materials that every scene knows by name, without declaring them.
+//! The library: materials that every scene can use by name, without a declaration.
 //!
-//! POV-Ray's definition of each stands in `templates/library/`, in the file of its family.
+//! The POV-Ray definitions are in `templates/library/`, one file per family.
 
 use super::{Color, Finish, Look};
 
-/// A material that every scene knows by its name.
+/// A material of the library.
 #[derive(Debug, PartialEq)]
 pub struct LibraryMaterial {
-    /// Its name, as scenes write it.
+    /// The name of the material in scenes.
     pub name: &'static str,
-    /// Its look, in one line without a full stop.
+    /// The look of the material, in one line without a full stop.
     pub meaning: &'static str,
-    /// Its color where a scene gives no other, as `0xrrggbb`; none: it has colors of its own, and takes no other.
+    /// The default color as `0xrrggbb`. `None` if the material has its own colors and cannot take another.
     pub color: Option<u32>,
-    /// The template that makes it, below `templates/library/` and without its ending.
+    /// The template that defines the material, without its ending, in `templates/library/`.
     pub family: &'static str,
-    /// The behaviour of its pattern on a body.
+    /// How the pattern of the material is placed on a body.
     pub pattern: Pattern,
-    /// How strongly it refracts light; none: it is opaque.
+    /// The index of refraction. `None` for an opaque material.
     pub ior: Option<f64>,
-    /// Its approximation without POV-Ray: in the preview and in models.
+    /// An approximation without POV-Ray, for the preview and for exported models.
     pub plain: PlainLook,
 }
 
-/// A material in the terms of metallic-roughness shading, as glTF has it.
+/// A material in terms of metallic-roughness shading, as in glTF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlainLook {
-    /// Its mean color as a part of that of the material, red, green and blue, in linear light: as measured over a ball that
-    /// POV-Ray draws in even light. Of a material without a color, it is the color.
+    /// The mean color relative to the color of the material: red, green and blue in linear light. It was measured on a
+    /// ball that POV-Ray rendered in even light. For a material without a color, `tone` is the mean color itself.
     pub tone: [f64; 3],
-    /// How much it covers: 1 where nothing shines through.
+    /// The opacity: 1 if nothing shines through.
     pub cover: f64,
-    /// Whether it is a metal (1) or not (0).
+    /// 1 for a metal, 0 for other materials.
     pub metallic: f64,
-    /// How much it scatters what it reflects: from 0, a mirror, to 1, chalk.
+    /// The roughness, from 0 (a mirror) to 1 (chalk).
     pub roughness: f64,
 }
 
-/// The look of a material that gives none of these values.
+/// The look of a material before its own values are set.
 const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
 
 impl LibraryMaterial {
-    /// The same, with the part of its color that is left as a mean of its shades, as a metal or not, and so rough.
+    /// Sets a gray tone of the given shade, and the metallic and roughness values.
     const fn seen(self, shade: f64, metallic: f64, roughness: f64) -> LibraryMaterial {
         self.tinged([shade; 3], metallic, roughness)
     }
 
-    /// The same where the mean has another hue.
+    /// Sets a tone whose hue differs from the color of the material.
     const fn tinged(self, tone: [f64; 3], metallic: f64, roughness: f64) -> LibraryMaterial {
         LibraryMaterial { plain: PlainLook { tone, metallic, roughness, ..PLAIN }, ..self }
     }
 
-    /// The same, covering so much of what is behind it.
+    /// Sets the opacity and the roughness.
     const fn covers(self, cover: f64, roughness: f64) -> LibraryMaterial {
         LibraryMaterial { plain: PlainLook { cover, roughness, ..PLAIN }, ..self }
     }
 }
 
-/// The behaviour of a material's pattern on a body.
+/// How the pattern of a material is placed on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// There is none: it looks the same from all sides, however it is turned.
+    /// No pattern. The material looks the same from all sides.
     None,
-    /// It has a middle and an axis, y, which are the body's.
+    /// The pattern has a centre and an axis, y: the centre and the y axis of the body.
     Centred,
-    /// The body is cut from a block of it: every body from a place of its own.
+    /// The body is cut from a block of the material, each body from a different place in the block.
     Cut,
 }
 
@@ -100,10 +100,10 @@ const fn painted(name: &'static str, family: &'static str, meaning: &'static str
     LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None, plain: PLAIN }
 }
 
-/// The family of the materials that are a finish and nothing else.
+/// The family of materials that consist of a finish alone.
 const FINISH: &str = "finish";
 
-/// All of them, family by family.
+/// All materials, family by family.
 pub const MATERIALS: &[LibraryMaterial] = &[
     opaque("matte", FINISH, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
     opaque("satin", FINISH, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),
@@ -210,12 +210,12 @@ pub const MATERIALS: &[LibraryMaterial] = &[
 ];
 
 impl LibraryMaterial {
-    /// The material of a name.
+    /// The material with this name.
     pub fn named(name: &str) -> Option<&'static LibraryMaterial> {
         MATERIALS.iter().find(|material| material.name == name)
     }
 
-    /// The look of it, in a color if it takes one.
+    /// The look of the material. `color` replaces the default color, if the material takes a color.
     pub(super) fn look(&'static self, color: Option<Color>) -> Look {
         let own = self.color.map(Color::from_code);
         match self.finish() {
@@ -224,12 +224,12 @@ impl LibraryMaterial {
         }
     }
 
-    /// The finish that the material is, if it is nothing else.
+    /// The finish of a material that consists of a finish alone. `None` for other materials.
     pub(super) fn finish(&self) -> Option<Finish> {
         Finish::named(self.name).filter(|_| self.family == FINISH)
     }
 
-    /// Whether it shines by itself.
+    /// Whether the material gives light by itself.
     pub fn glows(&self) -> bool {
         matches!(self.name, "luminous" | "neon" | "sun")
     }

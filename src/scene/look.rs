@@ -1,4 +1,4 @@
-//! The part of a checked scene that is look.
+//! The look of a checked scene: materials, cameras, lights, surroundings, and settings for POV-Ray.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,39 +13,39 @@ use crate::dynamics::Surface;
 /// A material of bodies.
 #[derive(Clone, Debug)]
 pub struct Material {
-    /// Its name: that of the file, or one of the palette's.
+    /// The name of the material, from the scene's file or from the palette.
     pub name: String,
-    /// Its look.
+    /// The look of the material.
     pub look: Look,
 }
 
 /// The look of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
-    /// One color all over.
+    /// A single color with a finish.
     Plain {
         /// The color.
         color: Color,
-        /// How the surface throws light back.
+        /// How the surface reflects light.
         finish: Finish,
     },
-    /// One of the library.
+    /// A material of the library.
     Library {
-        /// Which.
+        /// The material of the library.
         material: &'static LibraryMaterial,
-        /// Its color, unless it has colors of its own.
+        /// The color. `None` if the material has its own colors.
         color: Option<Color>,
     },
-    /// The checkered look of the ground, for planes without a material.
+    /// The checkered look of the ground, the default for planes.
     Checkered,
-    /// A texture that an include file declares.
+    /// A texture that an include file declares, by its name.
     Texture(Arc<str>),
-    /// POV-Ray's own words.
+    /// POV-Ray code.
     Sdl(Arc<str>),
 }
 
 impl Look {
-    /// Whether a body of this look that is the same from all sides looks the same however it is turned.
+    /// Whether this look has no pattern, so that turning a ball of it changes nothing in the picture.
     pub fn is_uniform(&self) -> bool {
         match self {
             Look::Plain { .. } => true,
@@ -54,7 +54,7 @@ impl Look {
         }
     }
 
-    /// Whether it shines by itself, so that a lamp in a body of it must shine out.
+    /// Whether the look gives light by itself. A lamp inside a body with such a look must shine through the surface.
     pub fn glows(&self) -> bool {
         match self {
             Look::Plain { finish, .. } => *finish == Finish::Luminous,
@@ -64,34 +64,34 @@ impl Look {
     }
 }
 
-/// How a surface throws light back.
+/// How a surface reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
     /// Like chalk.
     Matte,
     /// Like eggshell.
     Satin,
-    /// Like enamel; the usual one.
+    /// Like enamel. The default.
     Glossy,
     /// Like polished, colored metal.
     Metal,
     /// Like a mirror.
     Mirror,
-    /// Shines by itself.
+    /// Gives light by itself.
     Luminous,
 }
 
 impl Finish {
-    /// All of them.
+    /// All finishes.
     pub const ALL: [Finish; 6] =
         [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Mirror, Finish::Luminous];
 
-    /// The finish of a name.
+    /// The finish with this name.
     pub fn named(name: &str) -> Option<Finish> {
         Finish::ALL.into_iter().find(|finish| finish.name() == name)
     }
 
-    /// Its name in scenes and templates.
+    /// The name of the finish in scenes and templates.
     pub fn name(self) -> &'static str {
         match self {
             Finish::Matte => "matte",
@@ -103,7 +103,7 @@ impl Finish {
         }
     }
 
-    /// Its description, in one line.
+    /// A description of the finish, in one line.
     pub fn summary(self) -> &'static str {
         match self {
             Finish::Matte => "Like chalk",
@@ -116,51 +116,51 @@ impl Finish {
     }
 }
 
-/// From where the scene is seen. What is not given follows from the motion.
+/// A camera. jabuka derives missing values from the motion.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The place of the camera, m.
+    /// The location of the camera, m.
     pub location: Option<DVec3>,
-    /// The point in the middle of the picture, m.
+    /// The point that the camera looks at, in the middle of the picture, m.
     pub look_at: Option<DVec3>,
-    /// How it moves.
+    /// The motion of the camera.
     pub motion: CameraMotion,
-    /// How it sees.
+    /// The projection of the camera.
     pub projection: Projection,
-    /// How it blurs what is not in focus.
+    /// The blur of things out of focus. `None` if everything is sharp.
     pub blur: Option<Blur>,
-    /// How it blurs what moves.
+    /// The shutter, for motion blur. `None` for sharp frames.
     pub shutter: Option<Shutter>,
 }
 
-/// How a camera moves: what is not given stays as it is at the start.
+/// The motion of a camera. Missing values stay as at the start.
 #[derive(Clone, Debug, Default)]
 pub struct CameraMotion {
-    /// The place of the camera, m.
+    /// The location of the camera, m.
     pub location: Option<TimedVector>,
-    /// The point in the middle of the picture, m.
+    /// The point that the camera looks at, in the middle of the picture, m.
     pub look_at: Option<TimedVector>,
-    /// The horizontal field of view in perspective, degrees.
+    /// The horizontal field of view of a perspective camera, degrees.
     pub angle: Option<Timed>,
-    /// The body that it goes along with.
+    /// The body that the camera follows.
     pub follow: Option<Follow>,
-    /// The time of a turn about the vertical through what it looks at, s.
+    /// The time of one turn about the vertical axis through the point that the camera looks at, s.
     pub orbit: Option<f64>,
 }
 
 /// A camera that follows a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follow {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// How far the camera stays from it, m; none: as at the start.
+    /// The distance of the camera from the body, m. `None` to keep the distance at the start.
     pub distance: Option<f64>,
-    /// The time by which the camera is behind, s.
+    /// The delay of the camera, s: it follows the body's earlier position.
     pub lag: Option<f64>,
 }
 
 impl CameraMotion {
-    /// Whether the camera is not the same in all frames.
+    /// Whether the camera changes from frame to frame.
     pub fn moves(&self) -> bool {
         self.location.is_some()
             || self.look_at.is_some()
@@ -170,43 +170,43 @@ impl CameraMotion {
     }
 }
 
-/// How a camera sees.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// As eyes do: what is farther is smaller.
+    /// Perspective, as in human vision: farther things look smaller.
     Perspective {
-        /// The horizontal field of view, degrees (as POV-Ray takes it).
+        /// The horizontal field of view, degrees, as in POV-Ray.
         angle: f64,
     },
-    /// By parallel rays, as in a technical drawing: size does not depend on distance.
+    /// Parallel rays, as in a technical drawing: distance does not change the size.
     Orthographic {
-        /// The width that is seen, m; none: that of the motion.
+        /// The width of the view, m. `None` to fit the motion.
         width: Option<f64>,
     },
 }
 
-/// How a camera blurs what is not in focus.
+/// The blur of things out of focus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
     /// The diameter of the lens, m.
     pub aperture: f64,
-    /// The point that is sharp, m; none: the one that is looked at.
+    /// The point in focus, m. `None` for the point that the camera looks at.
     pub focus: Option<DVec3>,
-    /// The number of rays for a pixel.
+    /// The number of rays per pixel.
     pub samples: u32,
 }
 
-/// How a camera blurs what moves: while its shutter is open, it looks at several moments.
+/// Motion blur: an image is the mean of several moments while the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
-    /// How long the shutter is open from the time of a frame on, s; greater than 0.
+    /// The time for which the shutter is open, s, greater than 0. It opens at the time of the frame.
     pub open: f64,
-    /// The number of moments.
+    /// The number of moments in one image.
     pub samples: u32,
 }
 
 impl Light {
-    /// Whether it is not the same in all frames.
+    /// Whether the light moves.
     pub fn moves(&self) -> bool {
         match &self.kind {
             LightKind::Point { location } | LightKind::Area { location, .. } => location.changes(),
@@ -216,32 +216,32 @@ impl Light {
 }
 
 impl Shutter {
-    /// The moments at which the camera looks for an image that begins at a time (s), each in the middle of an equal
-    /// part of the time for which the shutter is open.
+    /// The times of the moments in an image, s. `begin` is the time at which the shutter opens. Each moment is in the
+    /// middle of an equal part of the open time.
     pub fn moments(self, begin: f64) -> impl ExactSizeIterator<Item = f64> {
         (0..self.samples).map(move |i| begin + self.open * (f64::from(i) + 0.5) / f64::from(self.samples))
     }
 }
 
-/// A camera beside the main one.
+/// An additional camera.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// Its name, unique among views: letters, digits, `-` and `_`.
+    /// The name of the view, unique among views: letters, digits, `-` and `_`.
     pub name: String,
-    /// The camera; what the view does not say is as in `[camera]`.
+    /// The camera. Missing values are taken from `[camera]`.
     pub camera: Camera,
 }
 
 /// A light.
 #[derive(Clone, Debug)]
 pub struct Light {
-    /// Its name, unique among lights.
+    /// The name of the light, unique among lights.
     pub name: String,
     /// The kind of the light.
     pub kind: LightKind,
-    /// Its color.
+    /// The color of the light.
     pub color: Color,
-    /// Its brightness: 1 shows a white surface that faces it as white.
+    /// The brightness. At 1, a white surface that faces the light looks white.
     pub intensity: f64,
     /// Whether it casts shadows and highlights.
     pub shadows: bool,
@@ -250,40 +250,40 @@ pub struct Light {
 /// The kinds of lights.
 #[derive(Clone, Debug)]
 pub enum LightKind {
-    /// A lamp without size.
+    /// A point light.
     Point {
-        /// The place of the lamp, m.
+        /// The location of the light, m.
         location: TimedVector,
     },
-    /// A lamp with a size.
+    /// A light with a size, and so with soft shadows.
     Area {
-        /// The centre of the lamp, m.
+        /// The centre of the light, m.
         location: TimedVector,
-        /// Its diameter, m.
+        /// The diameter of the light, m.
         size: f64,
     },
-    /// Parallel light.
+    /// Parallel light, as from the sun.
     Sun {
-        /// The unit vector in which the light travels.
+        /// The direction in which the light travels, a unit vector.
         direction: DVec3,
     },
 }
 
-/// Ground, sky and fog.
+/// The ground, the sky and fog.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// The preset, which supplies the parts that are not given.
+    /// The preset, which supplies missing values.
     pub preset: Preset,
-    /// The ground, if there is one.
+    /// The ground. `None` if there is none.
     pub ground: Option<Ground>,
     /// The sky.
     pub sky: Sky,
-    /// Whether the ground fades into haze.
+    /// Whether the ground fades into haze at the horizon.
     pub fog: bool,
 }
 
 impl Environment {
-    /// Whether what stands before it is seen best in a light color.
+    /// Whether the sky is dark, so that texts before it are light.
     pub fn is_dark(&self) -> bool {
         match self.sky {
             Sky::Gradient => matches!(self.preset, Preset::Night | Preset::Blackboard | Preset::Space),
@@ -292,14 +292,14 @@ impl Environment {
     }
 }
 
-/// The checkered ground. What is not given follows from the motion.
+/// The checkered ground. jabuka derives missing values from the motion.
 #[derive(Clone, Debug, Default)]
 pub struct Ground {
-    /// Its height, m.
+    /// The height of the ground, m.
     pub height: Option<f64>,
-    /// The edge of one tile, m.
+    /// The edge length of one tile, m.
     pub tile: Option<f64>,
-    /// How it behaves where bodies touch it; none: they pass through it.
+    /// The restitution and friction of the ground. `None` if bodies pass through the ground.
     pub surface: Option<Surface>,
 }
 
@@ -308,92 +308,93 @@ pub struct Ground {
 pub enum Sky {
     /// The gradient of the preset.
     Gradient,
-    /// The same color everywhere.
+    /// One color for the whole sky.
     Plain(Color),
 }
 
-/// Code and settings passed to POV-Ray as they are.
+/// POV-Ray code and settings of the scene.
 #[derive(Clone, Debug)]
 pub struct PovRay {
     /// Include files.
     pub include: Vec<Include>,
-    /// Files that POV-Ray's own words read.
+    /// Files that the POV-Ray code of the scene reads.
     pub assets: Vec<Asset>,
-    /// Other files that the scene's trusted POV-Ray code names: the name between its quotes, and how it is read.
+    /// Other files that the trusted POV-Ray code of the scene reads: the kind of each file, and its name as in the
+    /// code.
     pub reads: Vec<(FileKind, String)>,
-    /// POV-Ray's own words, before the bodies.
+    /// POV-Ray code before the bodies.
     pub sdl: Option<String>,
-    /// The length of one unit of POV-Ray's, m; none: it follows from the size of the scene.
+    /// The length of one POV-Ray unit, m. `None` to derive the unit from the size of the scene.
     pub unit: Option<f64>,
-    /// Significant digits of the numbers in scripts.
+    /// The number of significant digits of numbers in scripts.
     pub digits: usize,
-    /// Templates that take the place of those built in.
+    /// The user's templates, which replace built-in templates of the same names.
     pub templates: Vec<OwnTemplate>,
 }
 
-/// A file that scripts read, of which a copy stands beside them.
+/// A file that scripts read. A copy of the file is placed beside the scripts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asset {
-    /// The name in scripts: the path of its copy below the folder of all copies, with `/`.
+    /// The path of the copy, relative to the folder of all copies, with `/`. Scripts use this path.
     pub name: String,
-    /// The path of its file.
+    /// The path of the original file.
     pub path: PathBuf,
 }
 
-/// A template of the user's own.
+/// A template of the user.
 #[derive(Clone, Debug)]
 pub struct OwnTemplate {
-    /// Its name among templates: `frame.pov`.
+    /// The name of the template: `frame.pov`.
     pub name: String,
-    /// The path of its file, for messages.
+    /// The path of the template's file, for messages.
     pub path: String,
-    /// Its text.
+    /// The text of the template.
     pub text: String,
 }
 
 /// An include file.
 #[derive(Clone, Debug)]
 pub enum Include {
-    /// One that POV-Ray finds by itself.
+    /// An include file of POV-Ray's standard library.
     Standard(String),
-    /// One that was found beside the scene, and its text.
+    /// An include file that was found beside the scene.
     Text {
-        /// Its name as the scene gives it.
+        /// The name of the file, as in the scene.
         name: String,
-        /// Its text.
+        /// The text of the file.
         text: String,
     },
 }
 
-/// The images that the scripts are meant for.
+/// The size and kind of the images.
 #[derive(Clone, Copy, Debug)]
 pub struct Output {
-    /// Width, pixels.
+    /// The width of an image, pixels.
     pub width: u32,
-    /// Height, pixels.
+    /// The height of an image, pixels.
     pub height: u32,
-    /// The place of the part that all scripts have in common.
+    /// The place of the code that all scripts share.
     pub layout: Layout,
-    /// Whether nothing stands behind the bodies: no sky, no ground, and alpha in the images.
+    /// Whether images have a transparent background: no sky, no ground.
     pub transparent: bool,
-    /// The frames per second of a film, if it has a rate of its own.
+    /// The frame rate of a video, frames per second. `None` to use the frame rate of the simulation.
     pub video_rate: Option<f64>,
 }
 
-/// The place of the part that all scripts have in common.
+/// The place of the code that all scripts share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// In every script: a node of a cluster needs one file.
+    /// In each script, so that a computer of a cluster needs only one file.
     SelfContained,
-    /// In a file of its own, which every script includes.
+    /// In a separate file, which each script includes.
     Shared,
 }
 
 impl Layout {
-    /// All of them.
+    /// All layouts.
     pub const ALL: [Layout; 2] = [Layout::SelfContained, Layout::Shared];
 
-    /// Its name in scenes.
+    /// The name of the layout in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Layout::SelfContained => "self-contained",

@@ -1,9 +1,9 @@
-//! Text → checked scene.
+//! Reads the text of a scene into a checked scene.
 //!
-//! A scene goes through four steps: [`source`] makes a tree of its text, `expand` puts numbers in the place of formulas
-//! (which [`expression`] reads and evaluates), `check::validate` holds the tree against the description of the language in
-//! [`grammar`], and `check` makes the [`Scene`]: names resolved, defaults filled in, SI units, radians. All mistakes of all
-//! steps are reported in one run.
+//! This takes four steps. [`source`] parses the text into a tree. `expand` replaces formulas by numbers (with
+//! [`expression`]). `check::validate` checks the tree against the description of the language in [`grammar`]. `check`
+//! makes the [`Scene`]: it resolves names, fills in defaults, and converts to SI units and radians. One run reports all
+//! mistakes of all steps.
 
 mod check;
 mod color;
@@ -61,7 +61,7 @@ pub use source::Override;
 use crate::diagnostic::Report;
 use crate::dynamics::Surface;
 
-/// Whether a scene may have so many frames.
+/// Whether a scene can have this number of frames.
 #[must_use]
 pub fn is_possible_number_of_frames(frames: usize) -> bool {
     #[allow(clippy::cast_precision_loss, reason = "the limit is far below 2^53")]
@@ -69,63 +69,64 @@ pub fn is_possible_number_of_frames(frames: usize) -> bool {
     possible
 }
 
-/// A checked scene: everything that there is to know, and nothing that could still be wrong.
+/// A checked scene: complete, and without mistakes.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The name of the scene's file without its ending; `scene` for a text without a file.
+    /// The file name of the scene without its ending; `scene` for a text without a file.
     pub name: String,
     /// The title of the scene.
     pub title: Option<String>,
-    /// How the world is advanced.
+    /// The settings of the simulation.
     pub simulation: Simulation,
     /// The bodies, in the order of the file.
     pub bodies: Vec<Body>,
-    /// The forces that are not a single body's own, in the order of the file.
+    /// The forces, in the order of the file. The constant force on one body is part of the body.
     pub forces: Vec<Force>,
-    /// Joints, in the order of the file.
+    /// The joints, in the order of the file.
     pub joints: Vec<Joint>,
-    /// Emitters of particles, in the order of the file.
+    /// The particle emitters, in the order of the file.
     pub emitters: Vec<Emitter>,
-    /// The materials of the file in its order, then those of bodies' own, the library and the palette.
+    /// The materials: first those of the file, in its order, then those of single bodies, the library and the palette.
     pub materials: Vec<Material>,
-    /// From where the scene is seen.
+    /// The main camera.
     pub camera: Camera,
-    /// The cameras beside the main one, in the order of the file.
+    /// The additional cameras, in the order of the file.
     pub views: Vec<View>,
-    /// The lights; none means the usual ones.
+    /// The lights. If the list is empty, the scene has the lights of its preset.
     pub lights: Vec<Light>,
-    /// Ground, sky and fog.
+    /// The ground, the sky and fog.
     pub environment: Environment,
-    /// The pairs of bodies whose impacts the labels count, the smaller number first; that of the ground is the number of bodies.
+    /// The pairs of bodies whose impacts the labels count, the smaller index first. The number of bodies stands for the
+    /// ground.
     pub pairs: Vec<[usize; 2]>,
-    /// The texts in the picture, in the order of the file.
+    /// The labels, in the order of the file.
     pub labels: Vec<Label>,
-    /// The scale bar, if there is one.
+    /// The scale bar. `None` if there is none.
     pub scale_bar: Option<ScaleBar>,
-    /// The grid, if there is one.
+    /// The grid. `None` if there is none.
     pub grid: Option<Grid>,
-    /// Code and settings passed to POV-Ray as they are.
+    /// POV-Ray code and settings of the scene.
     pub povray: PovRay,
-    /// The images that the scripts are meant for.
+    /// The size and kind of the images.
     pub output: Output,
-    /// A digest (SHA-256, in hexadecimal) of all texts and meshes that the scene was read from.
+    /// A digest (SHA-256, in hexadecimal) of all texts and meshes of the scene.
     pub digest: String,
-    /// The places in the text that errors of a run point at. The texts are those of `warnings`.
+    /// Places in the scene's text, for the errors of a run. The texts themselves are in `warnings`.
     pub places: Places,
-    /// The values that replaced those of the file, as they were written: `simulation.step=0.001`.
+    /// The values that replaced values of the file, as written: `simulation.step=0.001`.
     pub overrides: Vec<String>,
-    /// The warnings.
+    /// The warnings about the scene.
     pub warnings: Report,
 }
 
-/// How a scene is read.
+/// Options for reading a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Values that replace those of the file.
+    /// Values that replace values of the file.
     pub overrides: Vec<Override>,
-    /// A folder with templates that take the place of those built in, and of those that the scene names.
+    /// A folder of templates. They replace the built-in templates and the templates that the scene names.
     pub templates: Option<PathBuf>,
-    /// Whether the scene may contain SDL that opens, writes or includes files, and paths outside its folder.
+    /// Whether the scene may contain POV-Ray code that opens, writes or includes files, and paths outside its folder.
     pub trust: bool,
 }
 
@@ -133,7 +134,7 @@ impl Scene {
     /// Reads and checks the scene in a file.
     ///
     /// # Errors
-    /// All mistakes of the scene, each at its place; or why the file cannot be read.
+    /// All mistakes of the scene with their places, or the reason why the file cannot be read.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Scene, Report> {
         Scene::from_path_with(path, &Options::default())
     }
@@ -141,7 +142,7 @@ impl Scene {
     /// Like [`Scene::from_path`], with options.
     ///
     /// # Errors
-    /// All mistakes of the scene, each at its place; or why the file cannot be read.
+    /// All mistakes of the scene with their places, or the reason why the file cannot be read.
     pub fn from_path_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Report> {
         let path = path.as_ref();
         let text = source::load(path)?;
@@ -160,21 +161,21 @@ impl Scene {
         )
     }
 
-    /// The height of the ground, m, and its surface, if it stops bodies.
+    /// The height of the ground, m, and its surface. `None` if bodies pass through the ground.
     pub fn ground_that_stops(&self) -> Option<(f64, Surface)> {
         let ground = self.environment.ground.as_ref()?;
         Some((ground.height?, ground.surface?))
     }
 
-    /// The files that the scene was read from: its own, and all that it names.
+    /// The files of the scene: its own file, and all files that it names.
     pub fn files(&self) -> &[PathBuf] {
         self.warnings.sources.files()
     }
 
-    /// Reads and checks a scene that is a text in memory. It has no folder, so it cannot include files of its own.
+    /// Reads and checks the text of a scene. A text has no folder, so the scene cannot include other files of the user.
     ///
     /// # Errors
-    /// All mistakes of the scene, each at its place.
+    /// All mistakes of the scene with their places.
     pub fn parse(text: &str) -> Result<Scene, Report> {
         Scene::parse_with(text, &Options::default())
     }
@@ -182,7 +183,7 @@ impl Scene {
     /// Like [`Scene::parse`], with options.
     ///
     /// # Errors
-    /// All mistakes of the scene, each at its place.
+    /// All mistakes of the scene with their places.
     pub fn parse_with(text: &str, options: &Options) -> Result<Scene, Report> {
         check::check(
             &check::Input { name: "scene", shown: "scene.toml", path: None, folder: None, text },

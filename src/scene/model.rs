@@ -1,4 +1,4 @@
-//! The part of a checked scene that is physics.
+//! The physics of a checked scene: the simulation settings and the bodies.
 
 use std::sync::Arc;
 
@@ -8,27 +8,27 @@ use super::motion::BodyMotion;
 use super::{Collider, ContactLaw, Showing};
 use crate::dynamics::{Method, Presence, RigidBody, Shape};
 
-/// How the world is advanced.
+/// The settings of the simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// The time of the last frame asked for, s.
+    /// The duration that the scene asks for, s.
     pub duration: f64,
-    /// Frames per second.
+    /// The frame rate, frames per second.
     pub frame_rate: f64,
-    /// The longest timestep allowed, s; infinite where the method chooses its own.
+    /// The largest timestep, s. Infinite if the method chooses its own timesteps.
     pub step: f64,
-    /// The error that a step of an adaptive method may have.
+    /// The error tolerance of one step of an adaptive method.
     pub tolerance: f64,
-    /// The method that advances the world.
+    /// The integrator.
     pub method: &'static Method,
-    /// The acceleration of every body that can move, m/s².
+    /// The gravitational acceleration of all free bodies, m/s².
     pub gravity: DVec3,
-    /// The method that stops bodies where they touch. `None`: bodies pass through each other.
+    /// The contact law. `None` if bodies pass through each other.
     pub contacts: Option<ContactLaw>,
 }
 
 impl Simulation {
-    /// The number of frames: both ends of the duration are drawn.
+    /// The number of frames, including the frame at time 0 and the last frame.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -49,7 +49,7 @@ impl Simulation {
         self.time(self.frames() - 1)
     }
 
-    /// The time of the nearest frame, if `time` (s) differs from that by rounding alone; else `time`.
+    /// The time of the nearest frame, s, if `time` differs from it only by rounding; else `time`.
     pub fn nearest_frame(&self, time: f64) -> f64 {
         let frame = (time * self.frame_rate).round();
         let at_frame = frame / self.frame_rate;
@@ -60,51 +60,51 @@ impl Simulation {
 /// A rigid body and its look.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its name, unique among bodies.
+    /// The name of the body, unique among bodies.
     pub name: Arc<str>,
-    /// Its form.
+    /// The shape of the body.
     pub shape: Shape,
-    /// Its state at the start.
+    /// The state of the body at the start.
     pub start: RigidBody,
-    /// Its magnetic moment in its own axes, A m².
+    /// The magnetic moment, A m², in the body's axes.
     pub magnetic_moment: DVec3,
-    /// When it is there. What it is at the start, it is when it first comes.
+    /// The times between which the body is present. A body that appears later begins with its start state.
     pub presence: Presence,
-    /// The motion that it follows, whatever acts on it.
+    /// The prescribed motion. `None` if forces move the body.
     pub motion: Option<Arc<BodyMotion>>,
-    /// How it collides; none: others pass through it.
+    /// The contact properties. `None` if other bodies pass through the body.
     pub collider: Option<Arc<Collider>>,
-    /// The number of its material among the scene's; none for axes, which have colors of their own, and for
-    /// an object in SDL that is given none.
+    /// The index of the body's material. `None` for axes, which have their own colors, and for a POV-Ray object without
+    /// a material.
     pub material: Option<usize>,
-    /// How it differs in pictures from what it is in mechanics.
+    /// The differences between the drawn body and the simulated body.
     pub look: Arc<BodyLook>,
-    /// The physics shown beside the body. Copies of a body share it.
+    /// The physics drawn with the body. Copies of a body share it.
     pub showing: Arc<Showing>,
 }
 
-/// How a body differs in pictures from what it is in mechanics.
+/// The differences between the drawn body and the simulated body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyLook {
-    /// How many times larger it is drawn.
+    /// The factor by which the body is drawn larger.
     pub scale: f64,
-    /// The object that is drawn, in POV-Ray's own words and in metres; none: its shape is drawn.
+    /// The object to draw, as POV-Ray code with lengths in metres. `None` to draw the shape of the body.
     pub object: Option<Arc<str>>,
-    /// POV-Ray's own words in its object, before its place.
+    /// POV-Ray code inside the object, before its transform.
     pub sdl_before: Option<Arc<str>>,
-    /// POV-Ray's own words in its object, after its place.
+    /// POV-Ray code inside the object, after its transform.
     pub sdl_after: Option<Arc<str>>,
 }
 
 impl BodyLook {
-    /// Whether the body has words of POV-Ray's own.
+    /// Whether the body has its own POV-Ray code.
     pub fn has_sdl(&self) -> bool {
         self.object.is_some() || self.sdl_before.is_some() || self.sdl_after.is_some()
     }
 }
 
 impl Body {
-    /// The shape that pictures show, or that stands in for what they show.
+    /// The shape in the picture. If POV-Ray code draws the body, it is the shape that stands for this code.
     pub fn drawn(&self) -> Shape {
         self.shape.scaled(self.look.scale)
     }

@@ -1,4 +1,4 @@
-//! Motion that is given: a body goes where the scene says, whatever acts on it.
+//! Prescribed motion: the scene gives the path of a body, and forces do not change it.
 
 use std::sync::Arc;
 
@@ -7,22 +7,22 @@ use glam::{DQuat, DVec3};
 use super::timed::{Timed, TimedVector};
 use crate::dynamics::{Kinematics, Motion, Track};
 
-/// A motion that is given.
+/// A prescribed motion.
 #[derive(Clone, Debug)]
 pub enum BodyMotion {
-    /// By formulas in the time.
+    /// Formulas of the time.
     Formula {
-        /// The centre of mass, m.
+        /// The location of the centre of mass, m.
         location: TimedVector,
-        /// How the body is turned.
+        /// The orientation of the body.
         orientation: TimedOrientation,
     },
-    /// Through known places.
+    /// Interpolation between known positions.
     Track(Arc<Track>),
 }
 
 impl BodyMotion {
-    /// The place of the body at a time (s): its centre of mass (m), and its orientation.
+    /// The location of the centre of mass, m, and the orientation at a time (s).
     pub fn place(&self, t: f64) -> (DVec3, DQuat) {
         match self {
             BodyMotion::Formula { location, orientation } => (location.at(t), orientation.at(t).0),
@@ -62,21 +62,21 @@ impl Motion for BodyMotion {
 /// An orientation that may change with time.
 #[derive(Clone, Debug)]
 pub enum TimedOrientation {
-    /// Turned about the world's x, then y, then z, degrees.
+    /// Rotations about the world's x axis, then y, then z, degrees.
     Euler(TimedVector),
-    /// Turned about an axis.
+    /// A rotation about one axis.
     Axis {
-        /// The axis, a unit vector.
+        /// The axis of the rotation, a unit vector.
         axis: DVec3,
         /// The angle of the rotation, degrees.
         angle: Timed,
     },
-    /// It does not change.
+    /// A constant orientation.
     Constant(DQuat),
 }
 
 impl TimedOrientation {
-    /// The orientation at a time (s), and the angular velocity (world axes, rad/s).
+    /// The orientation at a time (s), and the angular velocity, rad/s, in world axes.
     pub fn at(&self, t: f64) -> (DQuat, DVec3) {
         match self {
             TimedOrientation::Constant(orientation) => (*orientation, DVec3::ZERO),
@@ -89,14 +89,14 @@ impl TimedOrientation {
                 let (angles, rates) = (radians(angles.at(t)), radians(angles.rate(t)));
                 let z = DQuat::from_rotation_z(angles.z);
                 let zy = z * DQuat::from_rotation_y(angles.y);
-                // Each turn is about an axis that the later ones turn too.
+                // The later rotations also turn the axes of the earlier rotations.
                 let spin = DVec3::Z * rates.z + z * (DVec3::Y * rates.y) + zy * (DVec3::X * rates.x);
                 (zy * DQuat::from_rotation_x(angles.x), spin)
             }
         }
     }
 
-    /// The angular acceleration at a time (s), world axes, rad/s².
+    /// The angular acceleration at a time (s), rad/s², in world axes.
     pub fn angular_acceleration(&self, t: f64) -> DVec3 {
         match self {
             TimedOrientation::Constant(_) => DVec3::ZERO,
@@ -108,7 +108,8 @@ impl TimedOrientation {
                 let z = DQuat::from_rotation_z(turned.z);
                 let y_axis = z * DVec3::Y;
                 let x_axis = z * (DQuat::from_rotation_y(turned.y) * DVec3::X);
-                // The axes of the earlier turns are turned by the later ones.
+                // The later rotations also turn the axes of the earlier rotations, and this adds to the angular
+                // acceleration.
                 let z_spin = DVec3::Z * rates.z;
                 let zy_spin = z_spin + y_axis * rates.y;
                 DVec3::Z * curvatures.z

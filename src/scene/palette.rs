@@ -1,11 +1,12 @@
-//! The materials that a scene does not declare: the colors of bodies without one, and those of the library.
+//! Materials that the scene does not declare: default colors of bodies, and materials of the library.
 
 use std::collections::HashMap;
 
 use super::{Color, Finish, LibraryMaterial, Look, Material};
 use crate::dynamics::Shape;
 
-/// The colors, in the order in which bodies get them: neighbours differ most, also for the color-blind.
+/// The default colors, in the order in which bodies get them. Neighbouring colors are easy to tell apart, also for
+/// color-blind people.
 const COLORS: [(&str, Color); 8] = [
     ("red", Color([0.80, 0.07, 0.10])),
     ("blue", Color([0.08, 0.31, 0.72])),
@@ -17,29 +18,30 @@ const COLORS: [(&str, Color); 8] = [
     ("slate", Color([0.15, 0.18, 0.24])),
 ];
 
-/// The materials that a scene does not declare, each made when it is first needed.
+/// Materials that the scene does not declare. Each is made when a body first needs it.
 #[derive(Default)]
 pub(super) struct Palette {
-    /// How many bodies have had their turn, copies included.
+    /// The number of bodies that have used up a place in the sequence of colors, copies included.
     turns: usize,
-    /// The numbers of the materials that have been made.
+    /// The index of the material of each color, if the material exists already.
     colors: [Option<usize>; COLORS.len()],
     checkered: Option<usize>,
-    /// The materials of the library that bodies name, by their names.
+    /// The indices of the library materials that bodies use, by name.
     by_name: HashMap<&'static str, usize>,
 }
 
-/// The look of a body without a material.
+/// The default look of a body without a material.
 #[derive(Clone, Copy)]
 pub(super) enum Usual {
-    /// One of the colors.
+    /// A default color, by its index.
     Color(usize),
-    /// Like the ground.
+    /// The checkered look of the ground.
     Checkered,
 }
 
 impl Palette {
-    /// The usual look of the next body, in the order of the file. A body added at the end changes no other's.
+    /// The default look of the next body, in the order of the file. A new body at the end of the file changes no other
+    /// body's color.
     pub(super) fn next(&mut self, shape: &Shape) -> Usual {
         if matches!(shape, Shape::Plane { .. }) {
             return Usual::Checkered;
@@ -48,7 +50,7 @@ impl Palette {
         Usual::Color((self.turns - 1) % COLORS.len())
     }
 
-    /// The number of a material of the library.
+    /// The index of a library material. Makes the material when it is first needed.
     pub(super) fn of_library(
         &mut self,
         material: &'static LibraryMaterial,
@@ -60,7 +62,7 @@ impl Palette {
         })
     }
 
-    /// The number of the material for a usual look.
+    /// The index of the material for a default look. Makes the material when it is first needed.
     pub(super) fn material(&mut self, usual: Usual, materials: &mut Vec<Material>) -> usize {
         let made = match usual {
             Usual::Color(number) => &mut self.colors[number],

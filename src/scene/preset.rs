@@ -1,9 +1,9 @@
-//! Surroundings that have a name.
+//! Presets: named surroundings of a scene.
 
-/// Sky, ground, usual lights and ambient light that go together.
+/// A named set of sky, ground, default lights and ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
-    /// A blue sky over light tiles: the usual one.
+    /// A blue sky over light tiles. The default.
     #[default]
     Daylight,
     /// A photographer's room: white and seamless, with soft lights.
@@ -19,16 +19,16 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All of them.
+    /// All presets.
     pub const ALL: [Preset; 6] =
         [Preset::Daylight, Preset::Studio, Preset::Night, Preset::Blackboard, Preset::Paper, Preset::Space];
 
-    /// The one of a name.
+    /// The preset with this name.
     pub fn named(name: &str) -> Option<Preset> {
         Preset::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// Its name in scenes and templates.
+    /// The name of the preset in scenes and templates.
     pub fn name(self) -> &'static str {
         match self {
             Preset::Daylight => "daylight",
@@ -40,7 +40,7 @@ impl Preset {
         }
     }
 
-    /// Its look, in a line.
+    /// A description of the preset, in one line.
     pub fn meaning(self) -> &'static str {
         match self {
             Preset::Daylight => "A blue sky over light tiles: the usual one",
@@ -52,12 +52,13 @@ impl Preset {
         }
     }
 
-    /// Whether it has a ground.
+    /// Whether the preset has a ground.
     pub fn has_ground(self) -> bool {
         self != Preset::Space
     }
 
-    /// The ambient light below its sky, linear; daylight's is 1, which materials are made for.
+    /// The ambient light of the preset, linear: red, green and blue, relative to daylight. Materials are made for
+    /// daylight.
     pub fn ambient(self) -> [f64; 3] {
         match self {
             Preset::Daylight | Preset::Studio => [1.0; 3],

@@ -1,6 +1,6 @@
-//! One value held against what it may be.
+//! Reads one value and checks it against its description.
 //!
-//! Every reader is used twice: the validation keeps the errors, the reading keeps the values.
+//! Each function has two uses: the validation keeps the errors, and the later reading keeps the values.
 
 use glam::DVec3;
 
@@ -12,9 +12,9 @@ use crate::scene::law::OfBody;
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
-/// The smallest magnitude beside zero: its square, and products of three, are still numbers.
+/// The smallest allowed magnitude other than 0. Squares, and products of three such numbers, do not underflow.
 const SMALLEST: f64 = 1e-100;
-/// The largest magnitude: its square, and products of three, are still numbers.
+/// The largest allowed magnitude. Squares, and products of three such numbers, do not overflow.
 const LARGEST: f64 = 1e100;
 
 /// The error for a value of the wrong type.
@@ -23,7 +23,7 @@ pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     Diagnostic::error(Code::WrongType, message).at(node.span, "")
 }
 
-/// A number as a message shows it: as a scene would write it, and never with hundreds of zeros.
+/// A number as in a scene, for messages. Very large and very small numbers get an exponent.
 pub(super) fn figure(number: f64) -> String {
     if number.is_nan() {
         "nan".to_owned()
@@ -34,7 +34,7 @@ pub(super) fn figure(number: f64) -> String {
     }
 }
 
-/// A finite number within a bound.
+/// Reads a finite number within a bound.
 pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     let Some(number) = node.as_number() else { return Err(wrong_type(node, &Kind::Number(bound))) };
     if !number.is_finite() {
@@ -53,7 +53,7 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     Ok(number)
 }
 
-/// A whole number in a range.
+/// Reads an integer from `low` to `high`.
 pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnostic> {
     match node.value {
         Value::Integer(number) if (low..=high).contains(&number) => Ok(number),
@@ -71,7 +71,7 @@ pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnosti
     }
 }
 
-/// The items of a list of a given length.
+/// Reads the items of a list that has from `min` to `max` items.
 fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<&'a [Node], Diagnostic> {
     let Value::Array(items) = &node.value else { return Err(wrong_type(node, expected)) };
     if (min..=max).contains(&items.len()) {
@@ -85,7 +85,7 @@ fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<
     Err(Diagnostic::error(Code::WrongLength, message).at(node.span, ""))
 }
 
-/// The items of a list, each still to be read.
+/// The items of a list. The items themselves are not checked yet.
 pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagnostic> {
     match kind {
         Kind::List { min, max, .. } => items(node, kind, *min, *max),
@@ -106,7 +106,8 @@ pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64;
     if errors.is_empty() { Ok(numbers) } else { Err(errors) }
 }
 
-/// A number within a bound, or a formula of the time, whose values are looked at where the times are known.
+/// Reads a number within a bound, or a formula of the time. The values of a formula are checked later, when the times
+/// are known.
 pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
     match &node.value {
         Value::Formula(formula) => Ok(Timed::Formula(formula.clone())),
@@ -115,7 +116,8 @@ pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
     }
 }
 
-/// A number within a bound, or a formula with random numbers, whose values are looked at where it is used.
+/// Reads a number within a bound, or a formula with random numbers. The values of a formula are checked later, where it
+/// is used.
 pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
     match &node.value {
         Value::Drawn(formula) => Ok(Drawn::Formula(formula.clone())),
@@ -124,7 +126,7 @@ pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
     }
 }
 
-/// Three numbers within a bound, or formulas of the time; every wrong one is an error of its own.
+/// Reads three numbers within a bound, or formulas of the time. Each wrong item gives its own error.
 pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec<Diagnostic>> {
     let items = items(node, &Kind::TimedNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
     let mut errors = Vec::new();
@@ -138,7 +140,7 @@ pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec
     if errors.is_empty() { Ok(vector) } else { Err(errors) }
 }
 
-/// A number, or a formula of quantities of a body, whose values are looked at where it is used.
+/// Reads a number, or a formula of a body's quantities. The values of a formula are checked later, where it is used.
 pub(super) fn of_body(node: &Node, names: &'static [&'static str]) -> Result<OfBody, Diagnostic> {
     match &node.value {
         Value::OfBody(formula) => Ok(OfBody::Formula(formula.clone())),
@@ -147,7 +149,7 @@ pub(super) fn of_body(node: &Node, names: &'static [&'static str]) -> Result<OfB
     }
 }
 
-/// Three numbers, or formulas of quantities of a body; every wrong one is an error of its own.
+/// Reads three numbers, or formulas of a body's quantities. Each wrong item gives its own error.
 pub(super) fn list_of_body(
     node: &Node,
     names: &'static [&'static str],
@@ -164,7 +166,7 @@ pub(super) fn list_of_body(
     if errors.is_empty() { Ok(list) } else { Err(errors) }
 }
 
-/// Reads `count` formulas or numbers. Each wrong one gives its own error.
+/// Checks that a list has `count` formulas or numbers. Each wrong item gives its own error.
 pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>> {
     let items = items(node, &Kind::Formulas(count), count, count).map_err(|error| vec![error])?;
     let is_formula = |item: &&Node| matches!(item.value, Value::String(_) | Value::Invalid);
@@ -174,10 +176,10 @@ pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>>
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// A unit vector in the direction of numbers that are not all zero.
+/// Reads a direction and returns it as a unit vector. The numbers must not all be zero.
 pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Diagnostic>> {
     let numbers = numbers::<N>(node, Bound::Any)?;
-    // Dividing by the largest first keeps squares from overflowing or vanishing.
+    // Divide by the largest number first, so that the squares neither overflow nor underflow.
     let largest = numbers.iter().fold(0.0, |largest: f64, n| largest.max(n.abs()));
     if largest == 0.0 {
         let message = format!("expected {}", Kind::Direction(N).in_words());
@@ -189,7 +191,7 @@ pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Dia
     Ok(scaled.map(|n| n / length))
 }
 
-/// A color.
+/// Reads a color.
 pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     match &node.value {
         Value::String(text) => Color::parse(text).ok_or_else(|| {
@@ -219,7 +221,7 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     }
 }
 
-/// A color, or a list of at least one; every wrong one is an error of its own.
+/// Reads a color, or a list of one or more colors. Each wrong color gives its own error.
 pub(super) fn colors(node: &Node) -> Result<Vec<Color>, Vec<Diagnostic>> {
     let Value::Array(items) = &node.value else { return color(node).map(|color| vec![color]) };
     if items.first().is_none_or(|item| item.as_number().is_some()) {
@@ -235,7 +237,7 @@ pub(super) fn colors(node: &Node) -> Result<Vec<Color>, Vec<Diagnostic>> {
     if errors.is_empty() { Ok(colors) } else { Err(errors) }
 }
 
-/// The numbers of a color that someone gave from 0 to 255.
+/// The three numbers of a color that was written with numbers from 0 to 255. `None` for other lists.
 fn bytes(items: &[Node]) -> Option<[u8; 3]> {
     let byte = |node: &Node| match node.as_number() {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within 0 and 255")]
@@ -248,7 +250,7 @@ fn bytes(items: &[Node]) -> Option<[u8; 3]> {
     }
 }
 
-/// A name that POV-Ray can know.
+/// Reads an identifier of POV-Ray.
 pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
     let text = node.as_str().ok_or_else(|| wrong_type(node, &Kind::Identifier))?;
     let starts_well = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
@@ -259,7 +261,7 @@ pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
     Err(Diagnostic::error(Code::BadIdentifier, message).at(node.span, ""))
 }
 
-/// Three numbers as a vector.
+/// Reads three numbers as a vector. `None` if a number is wrong.
 pub(super) fn vector(node: &Node, bound: Bound) -> Option<DVec3> {
     numbers::<3>(node, bound).ok().map(DVec3::from_array)
 }

@@ -1,21 +1,21 @@
-//! The part of a checked scene that shows its physics: arrows, axes, ghosts, trails and springs.
+//! The physics drawn in a checked scene: arrows, axes, ghosts, trails and springs.
 
 use glam::DVec3;
 
 use super::Color;
 
-/// The physics shown beside a body.
+/// The physics drawn with a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Showing {
-    /// Arrows for its vectors, in the order of [`Quantity::OF_BODIES`].
+    /// Arrows for the vectors of the body, in the order of [`Quantity::OF_BODIES`].
     pub arrows: [Option<Arrow>; 3],
-    /// Arrows for its weight and what touches it, in the order of [`Quantity::OF_LOADS`].
+    /// Arrows for the body's weight and contact forces, in the order of [`Quantity::OF_LOADS`].
     pub loads: [Option<Arrow>; 3],
-    /// Its own axes.
+    /// The axes of the body.
     pub axes: Option<BodyAxes>,
-    /// Ghosts: its earlier poses, at regular intervals.
+    /// The ghosts of the body: earlier poses at regular intervals.
     pub ghosts: Option<Ghosts>,
-    /// The way that it has come.
+    /// The trail of the body: its path so far.
     pub trail: Option<Trail>,
 }
 
@@ -25,7 +25,7 @@ impl Showing {
         self.arrows.iter().chain(&self.loads).any(Option::is_some)
     }
 
-    /// Whether it has arrows for its weight or for what touches it.
+    /// Whether the body has an arrow for its weight or a contact force.
     pub fn has_loads(&self) -> bool {
         self.loads.iter().any(Option::is_some)
     }
@@ -34,48 +34,48 @@ impl Showing {
 /// A vector of a body or of a joint that an arrow can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Its velocity, m/s.
+    /// The velocity of a body, m/s.
     Velocity,
-    /// The sum of the forces on it by its mass, m/s².
+    /// The net force on a body divided by its mass, m/s².
     Acceleration,
-    /// The sum of the forces on a body, or the force of a joint on its second end, N.
+    /// The net force on a body, or the force of a joint on its second end, N.
     Force,
     /// The torque of a joint on its second end, N m.
     Torque,
     /// The weight of a body, N.
     Weight,
-    /// The normal force of another body that touches it, N.
+    /// The normal force of a touching body, N.
     Normal,
-    /// The friction of another body that touches it, N.
+    /// The friction force of a touching body, N.
     Friction,
 }
 
 impl Quantity {
-    /// How many scales there are.
+    /// The number of scales.
     pub const COUNT: usize = 5;
-    /// How many colors there are.
+    /// The number of colors.
     pub const COLORS: usize = 7;
 
-    /// Those of bodies.
+    /// The vectors of a body.
     pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
 
-    /// The weight of a body, and the forces of what touches it.
+    /// The weight of a body, and the forces of touching bodies.
     pub const OF_LOADS: [Quantity; 3] = [Quantity::Weight, Quantity::Normal, Quantity::Friction];
 
-    /// Those of joints.
+    /// The vectors of a joint.
     pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
 
-    /// The number of its scale. Weight, normal force and friction share one, since they are to be compared.
+    /// The index of the scale. Weight, normal force and friction share a scale, so that their arrows can be compared.
     pub fn number(self) -> usize {
         self.color().min(Self::COUNT - 1)
     }
 
-    /// The number of its color, in the order of the enum.
+    /// The index of the color, in the order of the enum.
     pub fn color(self) -> usize {
         self as usize
     }
 
-    /// Its name in scenes.
+    /// The name of the quantity in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Velocity => "velocity",
@@ -92,59 +92,59 @@ impl Quantity {
 /// An arrow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arrow {
-    /// Its length for one unit of what it shows, m; none: the same for all arrows of its kind that have none, so
-    /// that the longest of the whole run is easily seen.
+    /// The length of the arrow per unit of its quantity, m. `None` for a common scale of all such arrows of the
+    /// quantity, at which the longest arrow of the run is easy to see.
     pub scale: Option<f64>,
-    /// Its color; none: that of its kind.
+    /// The color of the arrow. `None` for the color of its quantity.
     pub color: Option<Color>,
 }
 
-/// The axes that are drawn on a body.
+/// The axes drawn on a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyAxes {
-    /// The length of each, m; none: twice as far as the body reaches.
+    /// The length of each axis, m. `None` for twice the reach of the body.
     pub length: Option<f64>,
 }
 
-/// The places of a body as a stroboscope shows them.
+/// Earlier poses of a body at regular intervals, as under a stroboscope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghosts {
-    /// The time from one to the next, s; the first is at 0.
+    /// The interval between two ghosts, s. The first ghost is at time 0.
     pub every: f64,
-    /// Whether each has the arrows of the body.
+    /// Whether each ghost has the arrows of the body.
     pub arrows: bool,
 }
 
-/// A line along the way of a body.
+/// A line along the path of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Trail {
-    /// How far back it goes, s; none: to the beginning.
+    /// The time that the trail covers, s. `None` for the time since the start.
     pub duration: Option<f64>,
-    /// Its width, m; none: as is well seen.
+    /// The width of the trail, m. `None` for a width that is easy to see.
     pub width: Option<f64>,
-    /// Its color; none: that of the body.
+    /// The color of the trail. `None` for the color of the body.
     pub color: Option<Color>,
-    /// The point of the body that leaves it, in the body's own axes, from its centre of mass, m.
+    /// The point of the body that draws the trail, m, from the centre of mass, in the body's axes.
     pub at: DVec3,
 }
 
-/// How a spring is drawn. What is not given follows from its length and from what it is fastened to.
+/// The look of a spring. jabuka derives missing values from the length and the ends of the spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringLook {
-    /// As what.
+    /// The form of the drawn spring.
     pub line: SpringLine,
     /// The radius of the coil or of the straight line, m.
     pub radius: Option<f64>,
-    /// Its color.
+    /// The color of the spring.
     pub color: Option<Color>,
 }
 
-/// As what a spring is drawn.
+/// The form of a drawn spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpringLine {
     /// A coil of wire.
     Coil {
-        /// The number of its turns.
+        /// The number of turns of the coil. `None` for a number that suits the spring.
         turns: Option<u32>,
     },
     /// A straight line from end to end.

@@ -12,70 +12,70 @@ use crate::dynamics::{Motion, Track};
 /// A number, or a formula of the time.
 #[derive(Clone, Debug)]
 pub enum Timed {
-    /// It is always the same.
+    /// A constant number.
     Constant(f64),
-    /// It changes.
+    /// A formula of the time.
     Formula(Arc<TimeFormula>),
 }
 
 /// A formula of the time `t`, and its first two derivatives.
 ///
-/// Those of the copies of a body differ in numbers alone, and share the rest.
+/// Formulas of a body's copies differ only in their numbers, so they share their programs.
 pub struct TimeFormula {
     programs: Arc<Programs>,
     written: Arc<Written>,
-    /// The numbers of the formula, the inputs of the programs behind the time.
+    /// The numbers of the formula. They are inputs of the programs, after the time.
     constants: Box<[f64]>,
 }
 
 impl std::fmt::Debug for TimeFormula {
-    // The derivatives follow from the value.
+    // Leave the derivatives out: they follow from the formula.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let formula = self.programs.formula.at(&self.written.ranges);
         f.debug_tuple("TimeFormula").field(&formula).field(&self.constants).finish()
     }
 }
 
-/// The programs for a formula and its derivatives. Their inputs are the time and the formula's numbers.
+/// The programs of a formula and its first two derivatives. Their inputs are the time and the numbers of the formula.
 struct Programs {
     value: Code,
     rate: Code,
     curvature: Code,
-    /// The formula that the value is computed from, to explain a non-finite value.
+    /// The formula, which explains a non-finite value.
     formula: Resolved,
-    /// How many operations the three have together.
+    /// The number of operations of the three programs together.
     operations: u64,
 }
 
-/// A formula as it is written.
+/// The text of a formula.
 #[derive(Debug, PartialEq)]
 struct Written {
     text: Arc<str>,
-    /// The places of its parts.
+    /// The range of each part of the formula in the text, bytes.
     ranges: Box<[[u32; 2]]>,
 }
 
-/// The formulas of the time that have been read, so that equal ones are kept once.
+/// The formulas of the time that have been read. Equal formulas share memory.
 #[derive(Default)]
 pub(super) struct Formulas {
-    /// The programs, by all that they are made from.
+    /// The programs, by the words of their formulas.
     programs: HashMap<Vec<u64>, Arc<Programs>>,
-    /// The last formula that was read from a place: copies have theirs from the same one.
+    /// The last formula that was read at each place. All copies of a body read their formulas at the same place.
     last: HashMap<Span, Arc<TimeFormula>>,
 }
 
 impl Formulas {
-    /// Compiles a formula whose only name that is not known yet is the time, in slot 0.
+    /// Compiles a formula. The time is its only unresolved name, in slot 0.
     ///
     /// # Errors
-    /// If it is nested too deeply, or its derivatives are too long.
+    /// If the formula is nested too deeply, or its derivatives are too long.
     pub(super) fn read(
         &mut self,
         text: Arc<str>,
         span: Span,
         resolved: &Resolved,
     ) -> Result<Arc<TimeFormula>, ExpressionError> {
-        /// The most operations allowed in a derivative, and in one compilation; meant for formulas of up to a thousand letters.
+        /// The largest number of operations in a derivative; enough for formulas of up to a thousand characters.
         const MOST: u64 = 100_000;
         let rate = resolved.derivative(0);
         let curvature = if rate.operations() > MOST { None } else { Some(rate.derivative(0)) };
@@ -125,12 +125,12 @@ impl TimeFormula {
         &self.written.text
     }
 
-    /// How many operations it and its derivatives have together.
+    /// The number of operations of the formula and its first two derivatives together.
     pub(super) fn operations(&self) -> u64 {
         self.programs.operations
     }
 
-    /// Why it has no finite value at a time (s); none where it has.
+    /// Explains why the formula has no finite value at a time (s). `None` if the value is finite.
     pub fn explain_non_finite(&self, t: f64) -> Option<ExpressionError> {
         if self.value(t).is_finite() {
             return None;
@@ -145,7 +145,7 @@ impl TimeFormula {
 }
 
 impl Timed {
-    /// The value at a time, s; it may not be finite.
+    /// The value at a time (s). It may be non-finite.
     pub fn at(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(value) => *value,
@@ -153,7 +153,7 @@ impl Timed {
         }
     }
 
-    /// The derivative at a time, per second.
+    /// The first derivative at a time (s), per second.
     pub fn rate(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -161,7 +161,7 @@ impl Timed {
         }
     }
 
-    /// The second derivative at a time, per second squared.
+    /// The second derivative at a time (s), per second squared.
     pub fn curvature(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -169,7 +169,7 @@ impl Timed {
         }
     }
 
-    /// Whether it changes with time.
+    /// Whether the number changes with time.
     pub fn changes(&self) -> bool {
         matches!(self, Timed::Formula(_))
     }
@@ -178,14 +178,14 @@ impl Timed {
 /// Three numbers that may change with time.
 #[derive(Clone, Debug)]
 pub enum TimedVector {
-    /// Each by itself.
+    /// Three numbers or formulas.
     Each([Timed; 3]),
-    /// The place on a track.
+    /// The location on a track.
     Track(Arc<Track>),
 }
 
 impl TimedVector {
-    /// The value at a time, s.
+    /// The value at a time (s).
     pub fn at(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].at(t))),
@@ -193,7 +193,7 @@ impl TimedVector {
         }
     }
 
-    /// The derivative at a time, per second.
+    /// The first derivative at a time (s), per second.
     pub fn rate(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].rate(t))),
@@ -201,7 +201,7 @@ impl TimedVector {
         }
     }
 
-    /// The second derivative at a time, per second squared.
+    /// The second derivative at a time (s), per second squared.
     pub fn curvature(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].curvature(t))),
@@ -209,7 +209,7 @@ impl TimedVector {
         }
     }
 
-    /// Whether any of it changes with time.
+    /// Whether any component changes with time.
     pub fn changes(&self) -> bool {
         match self {
             TimedVector::Each(each) => each.iter().any(Timed::changes),

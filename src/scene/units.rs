@@ -1,6 +1,6 @@
-//! Units that people write behind numbers, and what they are in the units of the scene language.
+//! Units that people write after numbers, with factors to the units of the scene language.
 
-/// A unit: the ways to write it, the unit of the scene language for the same quantity, and how many of those it is.
+/// A unit: its names, the scene language's unit of the same quantity, and the factor to this unit.
 struct Unit {
     names: &'static [&'static str],
     of: &'static str,
@@ -15,7 +15,7 @@ const fn unit(names: &'static [&'static str], of: &'static str, factor: f64) -> 
 const YEAR: f64 = 365.25 * 86_400.0;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// The unit of a quantity itself comes first: it holds where none is given.
+/// The known units. For each quantity, the unit of the scene language comes first: it is the default.
 static UNITS: &[Unit] = &[
     unit(&["s", "sec", "second", "seconds"], "s", 1.0),
     unit(&["ns"], "s", 1e-9),
@@ -27,7 +27,7 @@ static UNITS: &[Unit] = &[
     unit(&["yr", "y", "a", "year", "years"], "s", YEAR),
     unit(&["m", "meter", "meters", "metre", "metres"], "m", 1.0),
     unit(&["pm"], "m", 1e-12),
-    // Angstrom has two letters in Unicode.
+    // Unicode has two characters for the angstrom sign.
     unit(&["Å", "Å", "A", "angstrom", "ångström"], "m", 1e-10),
     unit(&["nm"], "m", 1e-9),
     unit(&["um", "µm", "μm"], "m", 1e-6),
@@ -89,29 +89,29 @@ static UNITS: &[Unit] = &[
     unit(&["px", "pixel", "pixels"], "pixels", 1.0),
 ];
 
-/// How many of the scene language's unit a unit is; none if it measures something else.
+/// The factor from a unit to a unit of the scene language. `None` if the two measure different quantities.
 pub(super) fn factor(unit: &str, of: &str) -> Option<f64> {
     let is_it = |known: &&Unit| known.of == of && known.names.contains(&unit);
     UNITS.iter().find(is_it).map(|known| known.factor)
 }
 
-/// Whether somebody may have meant this word as a unit.
+/// Whether a word is probably meant as a unit.
 pub(super) fn is_unit(word: &str) -> bool {
     UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "J" | "W" | "Pa" | "K" | "V" | "A")
 }
 
-/// How many of the scene language's unit a unit is whose name can hardly be that of a variable.
+/// The factor to the scene language's unit, for unit names that are unlikely as names of variables.
 pub(super) fn of_several_letters(name: &str) -> Option<f64> {
     let is_it = |unit: &&Unit| unit.names.contains(&name);
     if name.len() < 2 { None } else { UNITS.iter().find(is_it).map(|unit| unit.factor) }
 }
 
-/// How the units of a quantity are usually written, its own first.
+/// The usual names of the units of a quantity, the unit of the scene language first.
 pub(super) fn usual(of: &str) -> Vec<&'static str> {
     UNITS.iter().filter(|unit| unit.of == of).map(|unit| unit.names[0]).collect()
 }
 
-/// `2.5 km` → `2.5` and `km`, if that is a number with a unit.
+/// Splits a number and its unit: `2.5 km` → `2.5` and `km`. `None` for other texts.
 pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let mut bytes = text.bytes().enumerate().peekable();
@@ -134,19 +134,19 @@ pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     is_unit(unit).then_some((number, unit))
 }
 
-/// Converts a number to the unit of a key, as a scene writes it. For a key without a unit, it converts to the scene language's
-/// unit for that quantity.
+/// Converts a number to the unit of a key, as text for a scene. For a key without a unit, converts to the scene
+/// language's unit of the quantity.
 pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
     let factor = match (factor(unit, of), of) {
         (None, "") => UNITS.iter().find(|known| known.names.contains(&unit)).map(|known| known.factor),
-        // Degrees are meant as degrees per second there.
+        // For an angular velocity, degrees stand for degrees per second.
         (None, "rad/s") => factor(unit, "degrees").map(|degrees| degrees * DEGREE),
         (factor, _) => factor,
     };
     factor.map(|factor| written(number * factor))
 }
 
-/// A number as a scene writes it, without the dirt of a conversion in its last digits.
+/// A number as text for a scene, without the rounding error of a conversion in its last digits.
 pub(super) fn written(number: f64) -> String {
     let rounded = format!("{number:.12e}").parse::<f64>().unwrap_or(number);
     if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {

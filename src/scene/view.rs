@@ -1,4 +1,4 @@
-//! The values of a table, read by the names of its keys.
+//! Reads the values of a table by the names of the keys.
 
 use std::sync::Arc;
 
@@ -13,15 +13,15 @@ use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
-/// A table as its description knows it, to read values from. A value that is absent reads as its default, and so does
-/// one that is wrong, which the validation has said. Where the description has no value for a default, it reads as `None`.
+/// A table with its description, for reading values. A missing or invalid value reads as its default; the validation
+/// has reported the invalid ones. A value without a default reads as `None`.
 #[derive(Clone, Copy)]
 pub(in crate::scene) struct View<'a> {
     spec: &'static TableSpec,
     table: Option<&'a Table>,
 }
 
-/// A table with a name, which may be the copy of another: it is made when it is looked at.
+/// A named table. If it is a copy of another table, it is made only when it is read.
 #[derive(Clone, Copy)]
 pub(super) struct NamedTable<'a> {
     spec: &'static TableSpec,
@@ -33,12 +33,12 @@ impl<'a> NamedTable<'a> {
         &self.entry.name.text
     }
 
-    /// The place of the name.
+    /// The place of the table's name.
     pub(super) fn span(self) -> Span {
         self.entry.name.span
     }
 
-    /// Does some work with the values of the table.
+    /// Makes the table, and passes a view of it to `work`.
     pub(super) fn look<T>(self, work: impl FnOnce(&View<'_>) -> T) -> T {
         let table = self.entry.node.table();
         work(&View { spec: self.spec, table: table.as_deref() })
@@ -50,13 +50,13 @@ impl<'a> View<'a> {
         View { spec, table }
     }
 
-    /// The value of a key as it stands there.
+    /// The value of a key, as in the text. `None` if the key is missing.
     pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
         self.table?.get(name).map(|entry| &entry.node)
     }
 
-    /// The description of a key and the value that stands there; the value of `Either` is read as the given kind.
+    /// The kind of a key that `is` accepts. A key with several kinds has the kind that fits.
     fn kind_of(&self, name: &str, is: impl Fn(&Kind) -> bool) -> Option<&'static Kind> {
         let Key { kind, .. } = self.spec.key(name)?;
         let found = match kind {
@@ -77,18 +77,18 @@ impl<'a> View<'a> {
         self.table?.get(name).map(|entry| entry.name.span)
     }
 
-    /// Whether a key is there that the description does not know.
+    /// Whether the table has a key that its description does not contain.
     pub(super) fn has_unknown(&self) -> bool {
         let mut entries = self.table.iter().flat_map(|table| table.entries.iter());
         entries.any(|entry| self.spec.key(&entry.name.text).is_none())
     }
 
-    /// Whether a key is there, whatever its value.
+    /// Whether the table has the key, with a valid value or not.
     pub(in crate::scene) fn has(&self, name: &str) -> bool {
         self.node(name).is_some()
     }
 
-    /// The value of a key, or its default. What is of another kind than this, where a key may be of several, is neither.
+    /// Reads a value, or the default of the key. If the key allows several kinds and the value has another one, `None`.
     fn read<T>(
         &self,
         name: &str,
@@ -116,7 +116,7 @@ impl<'a> View<'a> {
         self.read(name, |node| read::integer(node, *low, *high).ok(), DefaultValue::integer)
     }
 
-    /// A whole number that counts something.
+    /// Reads an integer that counts something.
     pub(in crate::scene) fn count(&self, name: &str) -> Option<u32> {
         self.integer(name).and_then(|count| u32::try_from(count).ok())
     }
@@ -128,7 +128,7 @@ impl<'a> View<'a> {
         self.read(name, |node| read::vector(node, *bound), default)
     }
 
-    /// A number that may change with time.
+    /// Reads a number that may change with time.
     pub(super) fn timed(&self, name: &str) -> Option<Timed> {
         let Kind::Timed(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Timed(_)))? else {
             return None;
@@ -137,7 +137,7 @@ impl<'a> View<'a> {
         self.read(name, |node| read::timed(node, *bound).ok(), default)
     }
 
-    /// A number that each particle has of its own; none where it is absent and has no default.
+    /// Reads a number that each particle draws for itself. `None` if the key is missing and has no default.
     pub(super) fn drawn(&self, name: &str) -> Option<Drawn> {
         let Kind::Drawn(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Drawn(_)))? else {
             return None;
@@ -146,14 +146,14 @@ impl<'a> View<'a> {
         self.read(name, |node| read::drawn(node, *bound).ok(), default)
     }
 
-    /// A number, or a formula of quantities of a body.
+    /// Reads a number, or a formula of a body's quantities.
     pub(super) fn of_body(&self, name: &str) -> Option<OfBody> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::OfBody(_)))?;
         let Kind::OfBody(names) = kind else { return None };
         read::of_body(self.node(name)?, names).ok()
     }
 
-    /// Three numbers, or formulas of quantities of a body.
+    /// Reads three numbers, or formulas of a body's quantities.
     pub(super) fn list_of_body(&self, name: &str) -> Option<[OfBody; 3]> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::ListOfBody(3, _)))?;
         let Kind::ListOfBody(_, names) = kind else { return None };
@@ -161,12 +161,12 @@ impl<'a> View<'a> {
         read::list_of_body(node, names).ok()
     }
 
-    /// A color or several, without a default.
+    /// Reads a color or a list of colors. `None` if the key is missing or a color is invalid.
     pub(super) fn colors(&self, name: &str) -> Option<Vec<Color>> {
         read::colors(self.node(name)?).ok()
     }
 
-    /// A vector that may change with time.
+    /// Reads a vector that may change with time.
     pub(super) fn timed_vector(&self, name: &str) -> Option<TimedVector> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::TimedNumbers(3, _)))?;
         let Kind::TimedNumbers(_, bound) = kind else { return None };
@@ -174,12 +174,12 @@ impl<'a> View<'a> {
         read::timed_vector(node, *bound).ok()
     }
 
-    /// The value of a key, as the text has it.
+    /// The value of a key, unchecked.
     pub(super) fn raw(&self, name: &str) -> Option<&'a Node> {
         self.node(name)
     }
 
-    /// A direction as a unit vector.
+    /// Reads a direction as a unit vector.
     pub(in crate::scene) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         self.kind_of(name, |kind| matches!(kind, Kind::Direction(n) if *n == N))?;
         self.read(name, |node| read::direction(node).ok(), DefaultValue::numbers)
@@ -199,12 +199,12 @@ impl<'a> View<'a> {
         self.read(name, |node| read::color(node).ok(), |default| default.word().and_then(Color::parse))
     }
 
-    /// A string of any kind.
+    /// Reads a text.
     pub(in crate::scene) fn text(&self, name: &str) -> Option<&'a str> {
         self.read(name, |node| node.as_str(), DefaultValue::word)
     }
 
-    /// Which one of these a word names.
+    /// Reads a word, and returns the item of `all` with this name.
     pub(in crate::scene) fn choice<T: Copy, const N: usize>(
         &self,
         name: &str,
@@ -212,11 +212,11 @@ impl<'a> View<'a> {
         word_of: impl Fn(T) -> &'static str,
     ) -> T {
         let named = |word: &str| all.into_iter().find(|one| word_of(*one) == word);
-        // The grammar's default is one of these; a test sees to that.
+        // A test checks that the default in the grammar is one of the items.
         self.read(name, |node| named(node.as_str()?), |default| named(default.word()?)).unwrap_or(all[0])
     }
 
-    /// Like [`View::text`], in the memory that all copies of a body have together.
+    /// Like [`View::text`], but in memory that all copies of a body share.
     pub(in crate::scene) fn shared_text(&self, name: &str) -> Option<Arc<str>> {
         match &self.node(name)?.value {
             Value::String(text) => Some(text.clone()),
@@ -224,12 +224,12 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The table itself, which shares its memory.
+    /// The table itself. The clone shares its memory with the original.
     pub(super) fn to_table(self) -> Option<Table> {
         self.table.cloned()
     }
 
-    /// Whether it is a view of that table, so that the values are the same.
+    /// Whether this view shows the table `other`, so that all values are equal.
     pub(super) fn is_same(&self, other: Option<&Table>) -> bool {
         match (self.table, other) {
             (Some(one), Some(two)) => one.entries.is_same(&two.entries),
@@ -243,7 +243,7 @@ impl<'a> View<'a> {
         read::list(self.node(name)?, kind).ok()
     }
 
-    /// The whole numbers of a list; none where one of them is wrong.
+    /// Reads a list of integers. `None` if one of them is invalid.
     pub(in crate::scene) fn integers(&self, name: &str) -> Option<Vec<i64>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Integer(..), .. }))?;
         let Kind::List { of: Kind::Integer(low, high), .. } = kind else { return None };
@@ -251,7 +251,7 @@ impl<'a> View<'a> {
         self.read(name, |_| self.list(name)?.iter().map(whole).collect(), DefaultValue::integers)
     }
 
-    /// The numbers of a list of any length; none where one of them is wrong.
+    /// Reads a list of numbers of any length. `None` if one of them is invalid.
     pub(in crate::scene) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Number(_), .. }))?;
         let Kind::List { of: Kind::Number(bound), .. } = kind else { return None };
@@ -259,14 +259,14 @@ impl<'a> View<'a> {
         items.iter().map(|item| read::number(item, *bound).ok()).collect()
     }
 
-    /// The vectors of a list; none where one of them is wrong.
+    /// Reads a list of vectors. `None` if one of them is invalid.
     pub(in crate::scene) fn vectors(&self, name: &str) -> Option<Vec<DVec3>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Numbers(3, _), .. }))?;
         let Kind::List { of: Kind::Numbers(_, bound), .. } = kind else { return None };
         self.list(name)?.iter().map(|item| read::vector(item, *bound)).collect()
     }
 
-    /// A table inside this one; an empty one where it is absent.
+    /// A view of a table inside this table. The view is empty if the key is missing.
     pub(in crate::scene) fn table(&self, name: &str) -> View<'a> {
         let spec = match self.kind_of(name, |kind| matches!(kind, Kind::Table(_))) {
             Some(Kind::Table(spec)) => *spec,
@@ -275,13 +275,13 @@ impl<'a> View<'a> {
         View { spec, table: self.node(name).and_then(Node::as_table) }
     }
 
-    /// A table inside this one, if the key is there and is a table.
+    /// A view of a table inside this table. `None` if the key is missing or its value is not a table.
     pub(in crate::scene) fn variant(&self, name: &str) -> Option<View<'a>> {
         let view = self.table(name);
         view.table.is_some().then_some(view)
     }
 
-    /// The tables of a list of tables.
+    /// Views of the tables in a list.
     pub(in crate::scene) fn tables(&self, name: &str) -> Vec<View<'a>> {
         let Some(Kind::List { of: Kind::Table(spec), .. }) =
             self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Table(_), .. }))
@@ -292,14 +292,14 @@ impl<'a> View<'a> {
         items.iter().map(|node| View { spec, table: node.as_table() }).collect()
     }
 
-    /// The variables of a scene that have values.
+    /// The variables of the scene that have a value, with their values.
     pub(super) fn variables(&self) -> impl Iterator<Item = (&'a str, f64)> {
         let table = self.node("variables").and_then(Node::as_table);
         let entries = table.map_or(&[][..], |table| &table.entries);
         entries.iter().filter_map(|entry| Some((&*entry.name.text, entry.node.as_number()?)))
     }
 
-    /// The bodies of a scene, copies included.
+    /// The bodies of the scene, including copies.
     pub(super) fn bodies(&self) -> impl ExactSizeIterator<Item = NamedTable<'a>> + use<'a> {
         let spec = match self.kind_of("body", |kind| matches!(kind, Kind::Named(_))) {
             Some(Kind::Named(spec)) => *spec,
@@ -309,7 +309,7 @@ impl<'a> View<'a> {
         entries.iter().map(move |entry| NamedTable { spec, entry })
     }
 
-    /// The tables with names under a key, which is not that of bodies: name, where the name stands, table.
+    /// The named tables under a key: name, place of the name, table. Bodies are read by `bodies` instead.
     pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
             return Vec::new();
