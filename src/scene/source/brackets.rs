@@ -1,28 +1,28 @@
-//! Errors in a text's brackets, quotes and dotted keys, beyond those of the parser.
+//! Finds errors in brackets, quotes and dotted keys that the parser does not report well.
 //!
-//! The parser reads TOML 1.1, which most editors and users of the schema do not know, so its additions are refused here. If a
-//! bracket is never closed, the parser reads on to the end of the file and reports every line; the place to mend is the bracket.
-//! The parser also refuses a key of too many parts, but without its place.
+//! The parser accepts TOML 1.1, which most editors and users of the schema do not know, so its additions are refused
+//! here. If a bracket is never closed, the parser reads on to the end of the file and reports every line, but the
+//! mistake is the bracket. The parser also refuses a key with too many parts, but does not report its place.
 
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// As deep as the crate `toml` goes.
+/// The maximum depth of nested values, as in the crate `toml`.
 const MAX_DEPTH: u32 = 80;
 
-/// Findings on a text's brackets, quotes and dotted keys.
+/// The errors in a text's brackets, quotes and dotted keys.
 pub(super) struct Brackets {
     /// Additions of TOML 1.1.
     pub(super) too_new: Vec<Diagnostic>,
-    /// The first bracket or quote that is never closed: what follows it cannot be trusted.
+    /// The first bracket or quote that is never closed. The text after it is unreliable.
     pub(super) unclosed: Option<Diagnostic>,
-    /// The keys of too many parts.
+    /// The keys with too many parts.
     pub(super) deep_keys: Vec<Diagnostic>,
 }
 
-/// Looks through a text.
+/// Finds the errors in a text.
 pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     let tokens = toml_parser::Source::new(text).lex().into_vec();
     let found = Brackets { too_new: Vec::new(), unclosed: None, deep_keys: Vec::new() };
@@ -32,21 +32,21 @@ pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     looker.found
 }
 
-/// A list or an inline table that has begun.
+/// An open list or inline table.
 struct Open {
     start: usize,
     is_list: bool,
-    /// The last comma, while nothing follows it.
+    /// The last comma. `None` if a value follows it.
     comma: Option<toml_parser::Span>,
-    /// Whether a line ends directly in it.
+    /// Whether a line break stands directly in the list or table.
     several_lines: bool,
 }
 
-/// A dotted key, as far as it was seen.
+/// A dotted key, as far as it has been read.
 struct Key {
     start: usize,
     parts: u32,
-    /// Whether its last dot awaits a part.
+    /// Whether a dot is the last thing read, so that another part must follow.
     goes_on: bool,
 }
 
@@ -67,7 +67,7 @@ impl Looker<'_> {
                 let is_list = kind == EventKind::ArrayOpen;
                 self.open.push(Open { start: span.start(), is_list, comma: None, several_lines: false });
             }
-            // If the parser skips something unreadable, brackets may close that were never opened.
+            // If the parser skips unreadable text, brackets may close that were never opened.
             EventKind::ArrayClose if self.open.last().is_some_and(|open| open.is_list) => {
                 self.close(span, "list", "]");
             }
@@ -130,7 +130,7 @@ impl Looker<'_> {
         }
     }
 
-    /// A list or table ends; the parser gives one that is never closed an end without extent.
+    /// Ends a list or an inline table. If it is never closed, the parser gives an empty span.
     fn close(&mut self, span: toml_parser::Span, noun: &str, bracket: &str) {
         if let (Some(open), true) = (self.open.pop(), span.is_empty()) {
             self.unclosed(open.start..open.start + 1, noun, bracket);
@@ -138,7 +138,7 @@ impl Looker<'_> {
     }
 
     fn unclosed(&mut self, range: std::ops::Range<usize>, noun: &str, closing: &str) {
-        // The outermost comes last, and is the first in the text.
+        // The outermost bracket comes last, and is the first in the text.
         if self.found.unclosed.as_ref().and_then(Diagnostic::span).is_none_or(|span| range.start < span.start)
         {
             let error = Diagnostic::error(Code::TomlUnclosed, format!("the {noun} is never closed"));

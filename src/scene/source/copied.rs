@@ -1,4 +1,4 @@
-//! Tables that differ from another one in some values only, as the copies of a body do.
+//! Stores a table as its differences from another table: copies of a body differ in some values only.
 
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -7,16 +7,16 @@ use std::sync::Arc;
 use super::{Entry, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 
-/// A table that is kept as what makes it different from another one.
+/// A table that is stored as its differences from a template.
 #[derive(Clone, Debug)]
 pub struct CopiedTable {
     template: Arc<Table>,
-    /// In the order of their places.
+    /// The changed values, in the order of their places.
     changes: Box<[Change]>,
 }
 
-/// A value that is another than in the template. Its place is its number, if all values of the template, tables and lists
-/// included, are counted in the order of the file.
+/// A value that differs from the template. Its place is its index among all values of the template, in the order of
+/// the file. Tables and lists count as values, too.
 #[derive(Clone, Debug)]
 enum Change {
     Number { place: u32, value: f64 },
@@ -43,20 +43,21 @@ impl Change {
 }
 
 impl CopiedTable {
-    /// Keeps a table as a copy of another one. None where it has other keys, or they stand elsewhere.
+    /// Stores a table as its differences from a template. `None` if the keys or their places differ.
     pub fn new(table: &Table, template: &Arc<Table>) -> Option<CopiedTable> {
         let mut changes = Vec::new();
         let is_alike = compare_tables(table, template, &mut 0, &mut changes);
         is_alike.then(|| CopiedTable { template: template.clone(), changes: changes.into() })
     }
 
-    /// The table itself.
+    /// Rebuilds the table.
     pub fn table(&self) -> Table {
         copy_table(&self.template, &mut 0, &mut self.changes.iter().peekable())
     }
 }
 
-/// Notes what is different in a table, and says whether nothing but values is. `next` is the place of the next value.
+/// Collects the values that differ from the template. Returns whether everything except the values is the same.
+/// `next` is the index of the next value.
 fn compare_tables(table: &Table, template: &Table, next: &mut u32, changes: &mut Vec<Change>) -> bool {
     if table.entries.is_same(&template.entries) {
         *next += values_of(template);
@@ -102,7 +103,7 @@ fn compare(value: &Value, old: &Value, next: &mut u32, changes: &mut Vec<Change>
     true
 }
 
-/// How many values are counted within a value.
+/// The number of values within a value.
 fn values_within(value: &Value) -> u32 {
     match value {
         Value::Table(table) => values_of(table),
@@ -119,7 +120,7 @@ fn values(node: &Node) -> u32 {
     1 + values_within(&node.value)
 }
 
-/// Copies a table; what is the same as in the template is shared with it.
+/// Rebuilds a table. Parts without changes share memory with the template.
 fn copy_table(template: &Table, next: &mut u32, changes: &mut Peekable<Iter<'_, Change>>) -> Table {
     let end = *next + values_of(template);
     if changes.peek().is_none_or(|change| change.place() >= end) {
@@ -170,7 +171,7 @@ mod tests {
         }
     }
 
-    /// All of a table but for the places.
+    /// A table in words, without places in the text.
     fn shown(table: &Table) -> String {
         format!("{table:?}")
     }
@@ -181,7 +182,7 @@ mod tests {
         for (text, changes) in [
             ("a = 1\nb = [1, 2]\nc = { d = 'x', e = [3] }\nf = true\n", 0),
             ("a = 2\nb = [1, 3]\nc = { d = 'y', e = [4] }\nf = 1.25\n", 5),
-            // A value in the place of a list or a table, and the values behind it.
+            // A value replaces a list or a table, and the values after it change, too.
             ("a = 1\nb = 123456\nc = { d = 'x', e = 333 }\nf = 1.25\n", 3),
         ] {
             let table = table(text);

@@ -1,20 +1,20 @@
-//! How the files of a scene are opened: only regular files, and none larger than a bound.
+//! Opens the files of a scene: only regular files up to a maximum size.
 
 use std::fs::{File, FileType, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Opens a regular file of at most `most` bytes. Anything else is refused before it is read: a pipe would block until
+/// Opens a regular file of at most `most` bytes. Refuses other files before reading them: a pipe would block until
 /// somebody writes to it, and a device may have no end.
 ///
 /// # Errors
-/// If it cannot be opened, is no regular file, or is too large. The message of the error says which, as a clause.
+/// If the file cannot be opened, is not a regular file, or is too large. The error's message says which, as a clause.
 pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
-    // Opening a device may have effects of its own, so it is not even opened.
+    // Opening a device may have side effects, so check the metadata before.
     accept(&std::fs::metadata(path)?, most)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Another file may have taken its place. Opening a pipe must not block then.
+    // Another file may have taken its place since the check. If it is a pipe, opening it must not block.
     #[cfg(all(unix, feature = "render"))]
     {
         use std::os::unix::fs::OpenOptionsExt;
@@ -28,7 +28,7 @@ pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
 /// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`].
+/// The errors of [`open`].
 pub(in crate::scene) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // The file may have grown since it was opened.
@@ -39,7 +39,7 @@ pub(in crate::scene) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// Reads a regular file of at most `most` bytes as UTF-8.
 ///
 /// # Errors
-/// As [`open`], and where the bytes are no UTF-8.
+/// The errors of [`open`], and an error if the bytes are not UTF-8.
 pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read(path, most)?).map_err(|error| {
         let line = error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|byte| **byte == b'\n');
@@ -47,7 +47,7 @@ pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> 
     })
 }
 
-/// The kind of a file that is no regular file, in words: `a named pipe`.
+/// The type of a file that is not a regular file, in words: `a named pipe`.
 pub(in crate::scene) fn irregular(kind: FileType) -> Option<&'static str> {
     #[cfg(unix)]
     {

@@ -1,4 +1,4 @@
-//! Habits from other languages, and their equivalents in TOML.
+//! Corrects notations from other languages to TOML.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use crate::scene::expression::Formula;
 use crate::scene::grammar::unit_of_key;
 use crate::scene::units;
 
-/// A piece of a line, what belongs in its place, and why.
+/// A correction of part of a line: the range, the new text, and the reason.
 pub(super) struct Mended {
     pub(super) range: Range<usize>,
     pub(super) text: String,
     pub(super) why: &'static str,
 }
 
-/// A better value, and the reason.
+/// A corrected value, and the reason.
 type Better = (String, &'static str);
 
 const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
@@ -27,7 +27,7 @@ const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
 const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
 const HEADER: &str = "a dot stands between the parts of a header";
 
-/// The correction of a line that is no TOML, if it can be told.
+/// Corrects a line that is not TOML. `None` if the right text is unclear.
 pub(super) fn mend(line: &str) -> Option<Mended> {
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
@@ -44,7 +44,7 @@ pub(super) fn mend(line: &str) -> Option<Mended> {
         return None;
     }
     let mut raw = content[split + 1..].trim();
-    // A color that has lost its quotes is a comment.
+    // A hexadecimal color without quotes looks like a comment.
     let color = line[content.len()..].trim();
     if raw.is_empty() && color.len() > 3 && color[1..].bytes().all(|byte| byte.is_ascii_hexdigit()) {
         raw = color;
@@ -75,7 +75,7 @@ fn header(content: &str, trimmed: &str) -> Option<Mended> {
     })
 }
 
-/// A value in TOML, from what people write; `key` is the last part of its key.
+/// Corrects a value to TOML. `key` is the last part of its key.
 fn value(raw: &str, key: &str) -> Option<Better> {
     let is_toml = |text: &str| parse_value(text, no_source()).is_ok();
     let cut = raw.trim_end_matches([';', ',']).trim_end();
@@ -100,7 +100,7 @@ fn value(raw: &str, key: &str) -> Option<Better> {
         if let Some(inner) = cut.strip_prefix(open).and_then(|rest| rest.strip_suffix(close)) {
             let is_table = open == '{' && !top_level(inner, &['=', ':']).is_empty();
             let better = if is_table { table(inner) } else { list(inner, key) };
-            // `(1 + 2) * (3 + 4)` is no list.
+            // A formula such as `(1 + 2) * (3 + 4)` is not a list.
             if better.as_ref().is_some_and(|(text, _)| is_toml(text)) {
                 return better;
             }
@@ -122,7 +122,7 @@ fn value(raw: &str, key: &str) -> Option<Better> {
     (!cut.contains(['"', '\\']) && (is_word(cut) || is_formula())).then(|| (format!("\"{cut}\""), QUOTES))
 }
 
-/// A number that TOML does not read: `.5`, `5.`, `0,5`, `007`.
+/// Corrects a number that TOML does not read: `.5`, `5.`, `0,5`, `007`.
 fn number(text: &str) -> Option<String> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(rest) => ("-", rest),
@@ -149,7 +149,7 @@ fn number(text: &str) -> Option<String> {
     Some(format!("{sign}{whole}{part}{}", exponent.map_or(String::new(), |exponent| format!("e{exponent}"))))
 }
 
-/// The values of a list, whatever stands between them.
+/// Corrects a list with any separators.
 pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     let split = |by: &[char]| {
         let mut items = Vec::new();
@@ -164,7 +164,7 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     };
     let mended = |items: Vec<&str>| items.iter().map(|item| value(item, key)).collect::<Option<Vec<_>>>();
     let decimal = |item: &&str| number(item).is_some();
-    // `0,5; 1,5` and `0,5, 1,5`: commas with a blank are those of the list.
+    // In `0,5; 1,5` and `0,5, 1,5`, a comma before a space separates values, and any other comma is a decimal comma.
     let spaced: Vec<&str> = inner.split(", ").map(str::trim).collect();
     let has_decimal_commas = spaced.len() > 1
         && spaced.iter().all(decimal)
@@ -189,7 +189,7 @@ pub(in crate::scene) fn items(list: &str) -> usize {
         .map_or(0, |inner| top_level(inner, &[',']).len() + 1)
 }
 
-/// The entries of a table in braces, with `=` or with `:`.
+/// Corrects a table in braces, with `=` or `:` between keys and values.
 fn table(inner: &str) -> Option<Better> {
     let mut entries = Vec::new();
     let mut ends = top_level(inner, &[',']);
@@ -209,7 +209,7 @@ fn table(inner: &str) -> Option<Better> {
     Some((format!("{{ {} }}", entries.join(", ")), TABLE))
 }
 
-/// The places of some signs outside of quotes and brackets.
+/// The positions of characters outside of quotes and brackets.
 pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
     let (mut depth, mut quote, mut found) = (0usize, None, Vec::new());
     for (at, c) in text.char_indices() {
@@ -226,7 +226,8 @@ pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
     found
 }
 
-/// A line without its comment, and the words of the comment, which other languages begin with `//`.
+/// Splits a line into its content and the text of its comment. The comment may also begin with `//`, as in other
+/// languages.
 fn split_comment(line: &str) -> (&str, Option<&str>) {
     let mut quote = None;
     for (at, c) in line.char_indices() {
@@ -244,12 +245,12 @@ fn split_comment(line: &str) -> (&str, Option<&str>) {
     (line, None)
 }
 
-/// A text that is looked at for its form alone has no place.
+/// A source for texts that are parsed only to see whether they are TOML.
 fn no_source() -> crate::diagnostic::SourceId {
     Sources::default().add("", "")
 }
 
-/// The value of a YAML scalar or list in TOML.
+/// Converts a YAML scalar or list to TOML.
 pub(super) fn scalar(raw: &str, key: &str) -> Option<String> {
     value(raw, key).map(|(text, _)| text)
 }

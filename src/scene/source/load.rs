@@ -1,14 +1,14 @@
-//! File → text.
+//! Reads the text of a scene file.
 
 use std::path::Path;
 
 use super::file;
 use crate::diagnostic::{Code, Diagnostic, Report, Sources, Span};
 
-/// The largest scene file that is read. Ten thousand bodies are one megabyte.
+/// The maximum size of a scene file, bytes. Ten thousand bodies are one megabyte.
 pub const MAX_BYTES: u64 = 64 << 20;
 
-/// Reads a scene's text, or says why it cannot be one.
+/// Reads the text of a scene file. The error says why the file cannot be a scene.
 pub fn load(path: &Path) -> Result<String, Report> {
     let shown = path.display();
     let cannot_read = |error: &std::io::Error| {
@@ -40,13 +40,13 @@ fn too_large(path: &Path) -> Report {
     Report::of_error(Code::FileTooLarge, message)
 }
 
-/// Points at the first byte that is not UTF-8, in the line as far as it can be shown.
+/// Reports the first byte that is not UTF-8, in its line.
 fn not_utf8(path: &Path, error: &std::string::FromUtf8Error) -> Report {
     let mut sources = Sources::default();
     let valid = error.utf8_error().valid_up_to();
     let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
     let id = sources.add(path.display().to_string(), text);
-    // Before the first bad byte nothing was replaced, so its place is the same in the shown text.
+    // No byte before the first bad byte is replaced, so that byte has the same place in the shown text.
     let span = Span::new(id, valid..valid + char::REPLACEMENT_CHARACTER.len_utf8());
     let diagnostic = Diagnostic::error(Code::NotUtf8, "the file is not UTF-8, which TOML asks for")
         .at(span, "this byte is no character")

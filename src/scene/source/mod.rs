@@ -1,4 +1,4 @@
-//! The scene as written: texts become a tree of values that know where they stand.
+//! The scene as written: converts texts to a tree of values with their places.
 
 mod brackets;
 mod copied;

@@ -3,13 +3,13 @@
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A list whose clones are the same memory, until one of them is changed: many copies of a body take little more room than
-/// one, as far as they are the same.
+/// A list whose clones share memory until one of them is changed. So many equal copies of a body take little more
+/// memory than one.
 #[derive(Clone, Debug)]
 pub struct Shared<T>(Arc<Vec<T>>);
 
 impl<T> Shared<T> {
-    /// Whether two lists are the same memory, and so are equal without a look at them.
+    /// Whether two lists share memory. If so, they are equal.
     pub(in crate::scene) fn is_same(&self, other: &Shared<T>) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

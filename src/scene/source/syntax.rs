@@ -1,13 +1,14 @@
-//! Syntax errors of TOML, in the words of the other messages.
+//! Rewrites the parser's syntax errors in the style of all other messages.
 
 use toml::de::Error;
 
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// The parser's message for a key of too many parts, which has no place. `brackets` reports it with one.
+/// The parser's message for a key with too many parts, which has no place. `brackets` reports the error with its
+/// place.
 pub(super) const DEEP_KEY: &str = "recursion limit";
 
-/// An error of the parser as a diagnostic. What the parser says in words that are not known here is said as it is.
+/// Converts an error of the parser to a diagnostic. An unknown message stays unchanged.
 pub(super) fn diagnose(error: &Error, text: &str, source: SourceId) -> Diagnostic {
     let range = error.span();
     let found = range.clone().and_then(|range| text.get(range)).unwrap_or_default();
@@ -37,7 +38,7 @@ fn is_unclosed(expected: &str) -> bool {
     matches!(expected, "`\"`" | "`'`" | "'''")
 }
 
-/// The message and the help of a syntax error. `found` is the wrong text, `next` the first character there.
+/// The message and the help of a syntax error. `found` is the wrong text, and `next` its first character.
 fn words(what: &str, expected: &str, found: &str, next: Option<char>) -> (String, String) {
     let (message, help): (&str, &str) = match what {
         "string values must be quoted" | "missing value for key" if found.is_empty() => {

@@ -1,4 +1,4 @@
-//! TOML text → tree.
+//! Parses TOML into a tree.
 
 use std::num::IntErrorKind;
 
@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue, Error};
 use super::{Entry, Name, Node, Table, Value, brackets, habits, syntax, yaml};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// Parses a text as far as it goes: what cannot be read becomes a diagnostic, and the rest a tree.
+/// Parses a text. Reports unreadable parts as diagnostics and returns a tree of the rest.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
     let (document, mut errors) = DeTable::parse_recoverable(text);
     errors.retain(|error| error.message() != syntax::DEEP_KEY);
@@ -57,7 +57,7 @@ fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagno
     error.fix(Span::new(source, 0..text.len()), toml)
 }
 
-/// Adds what the line should have been, if that can be told.
+/// Adds a fix with the corrected line, if the right text is clear.
 fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, at);
     let is_duplicate = diagnostic.code == Code::DuplicateKey;
@@ -69,7 +69,7 @@ fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -
     diagnostic.fix(Span::new(source, start..end), mended.text)
 }
 
-/// The line around a byte, without its end.
+/// The range of the line that contains a byte, without its line break.
 fn line_at(text: &str, at: usize) -> std::ops::Range<usize> {
     let bytes = text.as_bytes();
     let at = at.min(bytes.len());
@@ -79,7 +79,7 @@ fn line_at(text: &str, at: usize) -> std::ops::Range<usize> {
     start..end
 }
 
-/// Parses a text that is one value, as it would stand after `key = `.
+/// Parses a single value, as written after `key = `.
 pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Diagnostic>), Error> {
     let value = DeValue::parse(text)?;
     let mut diagnostics = Vec::new();
@@ -89,7 +89,7 @@ pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Dia
 
 struct Reader<'a> {
     source: SourceId,
-    /// The places of syntax errors, in order. A value that touches one is not to be trusted.
+    /// The places of syntax errors, in order. A value that touches one is unreliable.
     wrong: Vec<usize>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -101,7 +101,7 @@ impl Reader<'_> {
             let name = Name { span: Span::new(self.source, key.span()), text: text.as_ref().into() };
             Entry { name, node: self.node(value) }
         };
-        // The parser sorts a table by its keys.
+        // The parser sorts a table by its keys. Restore the order of the file.
         let mut in_order: Vec<_> = table.iter().collect();
         in_order.sort_by_key(|(key, _)| key.span().start);
         Table { entries: in_order.into_iter().map(entry).collect() }
@@ -112,7 +112,7 @@ impl Reader<'_> {
         let value = match value.get_ref() {
             DeValue::Array(items) => self.list(items),
             DeValue::Table(table) => Value::Table(self.table(table)),
-            // If a value is missing, the parser invents one without extent.
+            // If a value is missing, the parser invents a value with an empty span.
             _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
             DeValue::String(text) => Value::String(text.as_ref().into()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
@@ -123,7 +123,7 @@ impl Reader<'_> {
                 },
             },
             DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
-                // `1e999` is a typing error, while `inf` was meant; that one is refused where it is read.
+                // `1e999` is a mistake. A written `inf` may be intended, and the check of the key reports it.
                 Ok(number) if number.is_infinite() && !digits.as_str().contains("inf") => {
                     self.too_large(span)
                 }
@@ -136,7 +136,7 @@ impl Reader<'_> {
         Node { span, value }
     }
 
-    /// Reads a list. If one item is invalid, the whole list is invalid.
+    /// Reads a list. If one item is invalid, the whole list is.
     fn list(&mut self, items: &[Spanned<DeValue<'_>>]) -> Value {
         let items: Vec<Node> = items.iter().map(|item| self.node(item)).collect();
         if items.iter().any(|item| matches!(item.value, Value::Invalid)) {

@@ -9,23 +9,23 @@ use crate::scene::drawn::DrawnFormula;
 use crate::scene::law::BodyFormula;
 use crate::scene::timed::TimeFormula;
 
-/// A value and where it stands.
+/// A value and its place in the text.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// Its place.
+    /// The place of the value in the text.
     pub span: Span,
-    /// Its value.
+    /// The value.
     pub value: Value,
 }
 
-/// A value as TOML knows it.
+/// A value in TOML, or a formula in place of a string.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// Text; where a number is wanted, a formula.
+    /// Text, or a formula that has not been evaluated.
     String(Arc<str>),
-    /// A whole number that 64 bits hold.
+    /// A whole number of at most 64 bits.
     Integer(i64),
-    /// Any other number, also one that is not finite.
+    /// Any other number, which may be infinite or not a number.
     Float(f64),
     /// A formula of the time, in place of a string.
     Formula(Arc<TimeFormula>),
@@ -35,50 +35,50 @@ pub enum Value {
     OfBody(Arc<BodyFormula>),
     /// `true` or `false`.
     Boolean(bool),
-    /// A date or a time, for which a scene has no use.
+    /// A date or a time. No key of a scene takes one.
     Datetime,
     /// A list.
     Array(Shared<Node>),
     /// A table.
     Table(Table),
-    /// A table that is the copy of another: see [`Node::table`].
+    /// A table that is stored as its differences from a template: see [`Node::table`].
     Copied(CopiedTable),
-    /// An unreadable value, which has been reported already.
+    /// An unreadable value. The error has been reported.
     Invalid,
 }
 
-/// A table: its entries in the order of the file. Its clones share them.
+/// A table: its entries in the order of the file. Clones share the entries.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// The entries; names are unique.
+    /// The entries. Names are unique.
     pub entries: Shared<Entry>,
 }
 
-/// One entry of a table.
+/// An entry of a table.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its key.
+    /// The key of the entry.
     pub name: Name,
-    /// Its value.
+    /// The value of the entry.
     pub node: Node,
 }
 
-/// A key and where it stands.
+/// A key and its place in the text.
 #[derive(Clone, Debug)]
 pub struct Name {
-    /// Its place.
+    /// The place of the key in the text.
     pub span: Span,
     /// The key, without quotes.
     pub text: Arc<str>,
 }
 
 impl Table {
-    /// The entry with the given name.
+    /// The entry with the given name. `None` if there is no such entry.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| &*entry.name.text == name)
     }
 
-    /// Like [`Table::get`], to change it.
+    /// Like [`Table::get`], but mutable.
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Entry> {
         let place = self.entries.iter().position(|entry| &*entry.name.text == name)?;
         self.entries.get_mut(place)
@@ -86,7 +86,7 @@ impl Table {
 }
 
 impl Node {
-    /// The table that the value is, if it is one, and not the copy of another.
+    /// The value as a table. `None` for other values and for a [`Value::Copied`].
     pub fn as_table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
@@ -94,7 +94,7 @@ impl Node {
         }
     }
 
-    /// The table that the value is, also where it is the copy of another, if it is one.
+    /// The value as a table. Rebuilds the table of a [`Value::Copied`]. `None` for other values.
     pub fn table(&self) -> Option<Cow<'_, Table>> {
         match &self.value {
             Value::Table(table) => Some(Cow::Borrowed(table)),
@@ -103,7 +103,7 @@ impl Node {
         }
     }
 
-    /// The text that the value is, if it is one.
+    /// The value as text. `None` for other values.
     pub fn as_str(&self) -> Option<&str> {
         match &self.value {
             Value::String(text) => Some(text),
@@ -111,7 +111,7 @@ impl Node {
         }
     }
 
-    /// The number that the value is, if it is one.
+    /// The value as a number. `None` for other values.
     #[allow(
         clippy::cast_precision_loss,
         reason = "a scene's whole numbers are small; TOML's own floats round too"

@@ -1,24 +1,24 @@
-//! A scene in YAML → the same in TOML, so that somebody who took one for the other can go on.
+//! Converts a scene in YAML to TOML, for users who confuse the two.
 
 use std::fmt::Write as _;
 
 use super::habits;
 use crate::scene::grammar::{Kind, SCENE};
 
-/// A line of YAML: how far it is indented, its key, and its value, which may be empty.
+/// A line of YAML: its indentation, its key, and its value, which may be empty.
 struct Line<'a> {
     indent: usize,
     key: Option<&'a str>,
     value: &'a str,
 }
 
-/// A text in TOML, if it is one in YAML of keys, values and lists. What YAML has beyond that is not read.
+/// Converts YAML with keys, values and lists to TOML. `None` for any other YAML.
 pub(super) fn to_toml(text: &str) -> Option<String> {
     let lines: Vec<Line<'_>> = text.lines().filter_map(line).collect::<Option<Vec<_>>>()?;
     if lines.is_empty() {
         return None;
     }
-    // The keys that lead to a line, each with its indent.
+    // The keys that lead to a line, each with its indentation.
     let mut path: Vec<(usize, &str)> = Vec::new();
     let mut entries: Vec<(Vec<&str>, String)> = Vec::new();
     let mut lists: Vec<(Vec<&str>, Vec<String>)> = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn to_toml(text: &str) -> Option<String> {
     Some(write(&entries))
 }
 
-/// A line that is none is nothing; one that cannot be read is an inner nothing.
+/// Reads a line. `None` for a line without content, `Some(None)` for an unreadable line.
 #[allow(
     clippy::option_option,
     reason = "a line that says nothing and one that is not understood are two things"
@@ -76,7 +76,7 @@ fn line(text: &str) -> Option<Option<Line<'_>>> {
     }))
 }
 
-/// Entries under the headers that a scene has: `[simulation]`, `[body.ball]`.
+/// Writes the entries under the headers of a scene: `[simulation]`, `[body.ball]`.
 fn write(entries: &[(Vec<&str>, String)]) -> String {
     let mut sections: Vec<(String, Vec<String>)> = vec![(String::new(), Vec::new())];
     for (path, value) in entries {
