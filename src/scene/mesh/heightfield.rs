@@ -1,4 +1,4 @@
-//! Gray levels of an image → heights.
+//! Converts the gray levels of an image to heights.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -10,15 +10,15 @@ use super::{MOST_BYTES, Unreadable};
 use crate::dynamics::Mesh;
 use crate::scene::source::file;
 
-/// The largest number of pixels: each makes two triangles, and more than 8 million are no scene.
+/// The maximum number of pixels. Each gives two triangles, so a heightfield has at most about 8 million triangles.
 const MOST_PIXELS: u64 = 1 << 22;
 
-/// The surface over a rectangle whose heights are the gray levels of a PNG, for 8 and for 16 bits from black, 0, to white,
-/// `size.y`. Each pixel is one vertex, at its middle, and each square of four two triangles; so what is drawn is the
-/// image to the pixel. A color counts by its luma (Rec. 709), transparency not at all.
+/// Reads a PNG as a surface. Black is height 0 and white is height `size.y`, with 8 or 16 bits. Each pixel gives a
+/// vertex at its centre, and each square of four pixels gives two triangles, so the surface is exact to the pixel. A
+/// color counts by its luma (Rec. 709). Transparency is ignored.
 ///
-/// POV-Ray has height fields of its own, which take less memory, but interpret colors, gamma and the edge of the image in
-/// ways of their own; with triangles there is one truth for the picture, the camera and the ground.
+/// POV-Ray's own height fields take less memory, but interpret colors, gamma and the edge of the image differently.
+/// With triangles, the picture, the camera and the ground have the same surface.
 pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Unreadable> {
     let image = read(path)?;
     let [width, depth] = [image.width, image.levels.len() / image.width];
@@ -38,7 +38,7 @@ pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Un
         for column in 0..width - 1 {
             let far = (row * width + column) as u32;
             let near = far + width as u32;
-            // Counter-clockwise from above.
+            // The vertices of a triangle are counter-clockwise as seen from above.
             triangles.extend([[far, near, far + 1], [far + 1, near, near + 1]]);
         }
     }

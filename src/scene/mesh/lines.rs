@@ -1,38 +1,39 @@
-//! A text file line by line, counted, and each line made such as a reader expects.
+//! Reads a text file line by line, counts the lines, and rewrites each line for a parser.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
-/// Longer lines are none: the longest polygon that is drawn has some hundred corners.
+/// The maximum length of a line, bytes. A face with some hundred vertices is far shorter.
 const LONGEST: u64 = 1 << 24;
 
-/// Feeds the lines of a mesh file, one at a time, to the parser of an external crate (for OBJ or STL). If the parser
+/// Feeds the lines of a mesh file to the parser of an external crate (for OBJ or STL), one at a time. If the parser
 /// fails, `number` is the number of the faulty line.
 pub(super) struct Lines<'a> {
     file: BufReader<File>,
-    /// The number of lines that have been read.
+    /// The number of lines read so far.
     pub(super) number: usize,
     line: Vec<u8>,
-    /// How much of the line has been handed out.
+    /// The number of bytes of the line that have been handed out.
     used: usize,
     rewrite: Box<Rewrite<'a>>,
     ended: bool,
 }
 
-/// Changes a line into what a reader expects.
+/// A function that rewrites a line for the parser.
 type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, Place) + 'a;
 
 /// A place in the file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Place {
-    /// At the line of this number, from 1.
+    /// A line of the file, counted from 1.
     Line(usize),
-    /// Behind the last line.
+    /// After the last line.
     End,
 }
 
 impl<'a> Lines<'a> {
-    /// The lines of a file, without their ends; `rewrite` may change each, and add one at the end.
+    /// Reads the lines of a file, without their line breaks. `rewrite` may change each line, and may add a line at
+    /// the end.
     pub(super) fn new(file: File, rewrite: impl FnMut(&mut Vec<u8>, Place) + 'a) -> Lines<'a> {
         let file = BufReader::new(file);
         let rewrite = Box::new(rewrite);
@@ -84,7 +85,7 @@ impl Read for Lines<'_> {
 }
 
 impl Seek for Lines<'_> {
-    /// Goes back to the beginning, whatever is asked for: readers do so once they know the format.
+    /// Goes back to the beginning for any argument. Parsers seek only there, once they know the format.
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
         self.file.seek(SeekFrom::Start(0))?;
         (self.number, self.used, self.ended) = (0, 0, false);

@@ -1,4 +1,4 @@
-//! Files of triangles → [`Mesh`].
+//! Reads files of triangles as [`Mesh`].
 
 mod heightfield;
 mod lines;
@@ -18,32 +18,32 @@ use crate::scene::source::file;
 
 pub(super) use heightfield::heightfield;
 
-/// Why a file is no mesh.
+/// Why a file cannot be read as a mesh.
 #[derive(Debug)]
 pub(super) struct Unreadable {
     /// The mistake, as a clause.
     pub(super) why: String,
-    /// The number of the line at which that was noticed, from 1.
+    /// The number of the faulty line, counted from 1, if it is known.
     pub(super) line: Option<usize>,
 }
 
-/// Vertices, and the triangles between them.
+/// Vertices, and triangles by the indices of their vertices.
 type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// The endings of the files that are read, in small letters.
+/// The endings of mesh files, in lower case.
 const OBJ: &str = "obj";
 const STL: &str = "stl";
 
-/// The largest coordinate of a vertex: moments of inertia, which have its fifth power, are still numbers.
+/// The largest coordinate of a vertex, m. Moments of inertia contain its fifth power, which must be finite.
 const FARTHEST: f64 = 1e50;
 
-/// The largest file that is read: ten million triangles in a binary STL, whose script would have a gigabyte.
+/// The maximum size of a file, bytes: ten million triangles in a binary STL. The script of that mesh has a gigabyte.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// The largest number of vertices, so that an edge fits in 64 bits.
+/// The maximum number of vertices. An edge, which is two vertices, then fits into 64 bits.
 const MOST_VERTICES: usize = 1 << 31;
 
-/// Reads a mesh. Vertices at the same place are one vertex, whatever the file says: surfaces that touch hang together.
+/// Reads a mesh. Merges vertices at the same place, so that surfaces that touch are connected.
 pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (positions, triangles) = match ending.as_deref() {
@@ -65,7 +65,7 @@ pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
     Ok(Mesh::new(&name, vertices, triangles))
 }
 
-/// The SHA-256 of a file.
+/// The SHA-256 digest of a file.
 pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
     let (mut file, mut hash) = (file::open(path, MOST_BYTES)?, Sha256::new());
     let mut buffer = [0; 1 << 16];

@@ -1,4 +1,4 @@
-//! STL, binary or as a text, by the crate `stl_io`.
+//! Reads STL, binary or as text, with the crate `stl_io`.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -9,13 +9,13 @@ use stl_io::create_stl_reader;
 use super::lines::{Lines, Place};
 use super::{Triangles, Unreadable};
 
-/// The bytes of a binary file before its triangles, of which the last four count them.
+/// The number of bytes before the triangles of a binary file. The last four are the number of triangles.
 const HEAD: usize = 84;
-/// The bytes of a triangle.
+/// The size of a triangle, bytes.
 const TRIANGLE: u64 = 50;
 
-/// The positions and triangles of a file; each triangle has vertices of its own. Its normals are not looked at: they
-/// follow from the triangles.
+/// Reads the positions and triangles of a file. Each triangle has its own three vertices. Ignores the normals,
+/// because they follow from the vertices.
 pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     let mut head = Vec::with_capacity(HEAD);
     (&mut file).take(HEAD as u64).read_to_end(&mut head)?;
@@ -24,7 +24,7 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     let count = head.get(HEAD - 4..).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
     let claimed = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
     let says_solid = head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    // Binary files may begin with the word as well; but their number of triangles hardly does without a zero.
+    // A binary file may begin with `solid`, too, but its number of triangles hardly ever lacks a zero byte.
     if claimed == Some(length) || !says_solid || head.contains(&0) {
         return match (count, claimed) {
             (Some(_), Some(claimed)) if claimed <= length => triangles(&mut Binary(file)),
@@ -40,7 +40,7 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     triangles(&mut lines).map_err(|error| error.at(lines.number))
 }
 
-/// The triangles that the crate reads.
+/// Reads the triangles with the crate.
 fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, Unreadable> {
     let mut positions = Vec::new();
     for triangle in create_stl_reader(file)? {
@@ -51,11 +51,11 @@ fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, Unreadable> {
     Ok((positions, (0..count / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()))
 }
 
-/// Makes a line such as the crate expects: in small letters, with a name after the first `solid`, and as if several
-/// solids were one, since the crate stops behind the first.
+/// Rewrites a line for the crate: in lower case, with a name after the first `solid`, and with several solids joined
+/// into one, because the crate stops after the first.
 fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
     if place == Place::End {
-        // A file that is cut off lacks its last line, and is to be told so.
+        // A file that is cut off lacks its last line, and the crate must report this.
         line.extend_from_slice(if *closed { b"endsolid" } else { b"" });
         return;
     }
@@ -69,12 +69,13 @@ fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
         line.clear();
     }
     if place == Place::Line(1) {
-        // Before the word, there may be blank lines.
+        // Line 1 becomes the header, because blank lines may precede the word `solid`.
         line.splice(.., *b"solid x");
     }
 }
 
-/// A binary file that does not begin with `solid`, by which the crate knows texts: of its head, nothing is looked at.
+/// A binary file with a 0 as its first byte. The crate would take a file that begins with `solid` for text, and does
+/// not use the first bytes otherwise.
 struct Binary(File);
 
 impl Read for Binary {

@@ -1,4 +1,4 @@
-//! Files of triangles, whole and broken.
+//! Tests intact and broken mesh files.
 
 use std::fs;
 
@@ -25,7 +25,7 @@ p 1
 f 3 1 4
 ";
 
-/// The same as a text of two solids.
+/// The same tetrahedron as a text with two solids.
 const STL_TEXT: &str = "
 SOLID
  facet normal 0 0 -1
@@ -107,7 +107,7 @@ fn every_format_gives_the_same_solid() {
 #[test]
 fn polygons_are_cut_and_seams_closed() {
     let mut cube = String::new();
-    // Every face with vertices of its own, as programs write that cut at the seams of textures.
+    // Every face has its own vertices, as in files from programs that cut surfaces at the seams of textures.
     for (axis, side) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)] {
         for (u, v) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
             let mut corner = [side; 3];
@@ -145,7 +145,7 @@ fn what_cannot_be_read_says_why_and_where() {
     assert_eq!(why("x.ply", b"ply"), "its name ends neither with `.obj` nor with `.stl`");
 }
 
-/// Whatever a file is cut off at, or has instead of a byte, reading it ends.
+/// Reading a cut or changed file ends with a mesh or an error.
 #[test]
 fn broken_files_are_no_reason_to_panic() {
     let files = [("x.obj", OBJ_TEXT.into()), ("x.stl", STL_TEXT.into()), ("x.stl", binary_stl())];

@@ -1,15 +1,15 @@
-//! Vertices at the same place made one.
+//! Merges vertices at the same place.
 
 use glam::DVec3;
 
 use super::Triangles;
 
-/// Gives vertices at exactly the same place one number, in the order in which they come, and leaves out those that no
-/// triangle has. STL knows no shared vertices at all, and programs that write OBJ cut surfaces at the seams of textures.
+/// Merges vertices at exactly the same place, and drops vertices without triangles. Keeps the order of the vertices.
+/// STL has no shared vertices at all, and programs that write OBJ cut surfaces at the seams of textures.
 pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> Triangles {
-    // 0 and −0 are the same place.
+    // Adding 0 turns −0 into 0, so that both are the same place.
     positions.iter_mut().for_each(|p| *p += DVec3::ZERO);
-    // A sort takes less memory than a table of places, and gives the same numbers everywhere.
+    // Sorting takes less memory than a table of places, and the result is the same on every machine.
     let place = |vertex: u32| positions[vertex as usize].to_array();
     let compare = |a: &u32, b: &u32| {
         let ([ax, ay, az], [bx, by, bz]) = (place(*a), place(*b));
