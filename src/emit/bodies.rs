@@ -1,9 +1,9 @@
-//! The bodies of a frame as one block of SDL.
+//! Writes the bodies of a frame as one block of SDL.
 //!
-//! Everything about a body that does not change from frame to frame is written once, when the block is planned; a
-//! frame only puts places between these texts. Bodies of one plain material stand in a union that bears the
-//! material, which POV-Ray parses fastest and with the least memory. The line of a body is the same however many
-//! stand with it, so that a body added at the end of a scene changes no other's line.
+//! The texts of a body that stay constant are written once, when the block is planned. A frame only inserts the places
+//! of bodies between these texts. Bodies of one plain material form a union that has the material, which POV-Ray parses
+//! fastest and with the least memory. The line of a body does not depend on the number of bodies in its union. So a new
+//! body at the end of a scene leaves the lines of all other bodies unchanged.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -18,50 +18,50 @@ use crate::dynamics::{BodySnapshot, Shape};
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
 
-/// The block of all bodies, but for their places.
+/// The block of all bodies, without their places.
 pub(super) struct Block {
     style: Style,
     groups: Vec<Group>,
     forms: Vec<Form>,
 }
 
-/// Bodies that stand together: those of one plain material, or a single one with a look of its own.
+/// Bodies that are written together: all bodies of one plain material, or a single body with its own look.
 struct Group {
     bodies: Vec<Item>,
-    /// The material that they share, as it is used.
+    /// The SDL text of the common material. `None` for a single body.
     shared: Option<String>,
 }
 
-/// One body: the text that many have, and behind it the name.
+/// One body: the index of its form, which many bodies share, and the name of the body.
 struct Item {
     id: usize,
-    /// The number of its form.
+    /// The index of the body's form.
     form: usize,
     name: Arc<str>,
 }
 
-/// The text that bodies share if they differ in place and name alone: one part before the place, and one after it.
+/// The text that bodies share if they differ only in place and name: one part before the place, and one after it.
 #[derive(PartialEq)]
 struct Form {
     before: String,
     place: Place,
-    /// Up to the name.
+    /// The text between the place and the name.
     after: String,
 }
 
 /// How the place of a body is written.
 #[derive(PartialEq)]
 enum Place {
-    /// The centre.
+    /// The centre of the body.
     Centre,
-    /// A matrix. The shape is first turned by the quaternion.
+    /// A matrix. The quaternion first turns the shape.
     Matrix(DQuat),
-    /// The normal and the distance from the origin, for a plane. The normal given here is in the body's own axes.
+    /// For a plane: the normal and the distance from the origin. The vector is the normal in the body's axes.
     Plane(DVec3),
 }
 
 impl Block {
-    /// Plans the block of a scene, whose materials are given in its order.
+    /// Plans the block of a scene. `materials` are in the order of the scene's materials.
     pub(super) fn new(scene: &Scene, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
         let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];
@@ -88,12 +88,14 @@ impl Block {
         Block { style, groups, forms }
     }
 
-    /// Appends the bodies present in a frame. The first body that cannot be written in these units is an error.
+    /// Appends the bodies that are present in a frame. The error is the first body whose place cannot be written in
+    /// this unit.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
         for Group { bodies, shared } in &self.groups {
             let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
             if shared.is_some() {
-                // POV-Ray warns of a union of one. How many there are is not said: that line would change with every body.
+                // POV-Ray warns about a union of one object. The text omits the number of bodies, which would change
+                // with each new body.
                 match there.clone().take(2).count() {
                     0 => continue,
                     1 => out.push_str("object {\n"),
@@ -110,16 +112,16 @@ impl Block {
         Ok(())
     }
 
-    /// Plans the block of a single body, whatever its number.
+    /// Plans the block of a single body.
     pub(super) fn of(body: &Body, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut forms = Vec::new();
         Block { style, groups: vec![single(body, materials, 0, meshes, style, &mut forms)], forms }
     }
 
-    /// Appends the single body of a block at a place of its own.
+    /// Appends the only body of a block, at another place.
     pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
-            // Trails that cannot be written are left out: the past of a body is no reason to refuse the picture.
+            // If the place cannot be written, leave the body out: an earlier pose is no reason to refuse the picture.
             let _ = self.item(out, item, body);
         }
     }
@@ -151,12 +153,12 @@ impl Block {
     }
 }
 
-/// Whether a body can stand with all others of its material.
+/// Whether a body can be in one union with all other bodies of its material.
 fn stands_with_others(body: &Body, material: &MaterialText) -> bool {
     material.is_uniform && !body.shape.is_unbounded() && !body.look.has_sdl()
 }
 
-/// The bodies of one plain material, each on a line of its own.
+/// Plans the bodies of one plain material, each on its own line.
 fn of_one_material(
     scene: &Scene,
     material: &MaterialText,
@@ -174,7 +176,7 @@ fn of_one_material(
     Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()) }
 }
 
-/// One body with its material.
+/// Plans one body with its material.
 fn single(
     body: &Body,
     materials: &[MaterialText],
@@ -194,15 +196,15 @@ fn single(
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         return group(Form { before, place, after: " }) // ".to_owned() });
     }
-    // An object from the scene's own POV-Ray code may look different when it turns.
+    // An object from the scene's POV-Ray code may look different when it is turned.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
     let (mut before, place, mut after) = shape(body, uniform, meshes, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
-    // On lines of their own, since the words may end with a comment.
+    // Put the scene's code on separate lines, since it may end with a comment.
     let own = |sdl: &Option<Arc<str>>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
     let usage = usage + &own(&body.look.sdl_before);
     after.push_str(&own(&body.look.sdl_after));
-    // A pattern moves with the body: the transform comes after it.
+    // The transform comes after the pattern, so that the pattern moves with the body.
     match place {
         Place::Matrix(_) => {
             before.truncate(before.trim_end_matches(' ').len());
@@ -214,15 +216,15 @@ fn single(
     group(Form { before, place, after })
 }
 
-/// The name of a body as it stands in comments.
+/// The name of a body as text for a comment.
 fn in_comment(body: &Body) -> Arc<str> {
     let name = text::comment(&body.name);
     if *name == *body.name { body.name.clone() } else { name.into() }
 }
 
-/// The number of a form among those that there are, or of a new one.
+/// The index of a form in `forms`. Adds the form if it is new.
 fn number(form: Form, forms: &mut Vec<Form>) -> usize {
-    /// The search looks at this many of the latest forms.
+    /// The number of latest forms that the search compares.
     const LATEST: usize = 16;
     if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {
         return known.0;
@@ -231,7 +233,7 @@ fn number(form: Form, forms: &mut Vec<Form>) -> usize {
     forms.len() - 1
 }
 
-/// The text before the place of a body, how its place is written, and the text after it.
+/// The text before the place of a body, the kind of its place, and the text after the place.
 fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, Place, String) {
     if let Some(object) = &body.look.object {
         let place = Place::Matrix(DQuat::IDENTITY);

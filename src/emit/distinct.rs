@@ -1,7 +1,7 @@
-//! Checks for differences too small for POV-Ray: it would refuse the script, or draw nothing.
+//! Checks for differences that are too small for POV-Ray. POV-Ray would refuse the script, or draw nothing.
 //!
-//! POV-Ray's parser takes everything below 10⁻¹⁰ of its units for zero. Its tracer takes two places for the same if they are less
-//! than one step of single precision apart. Both are errors here, before a script is written.
+//! POV-Ray's parser treats numbers below 10⁻¹⁰ POV-Ray units as zero. Its tracer treats two points as one if they are
+//! closer than a step of single precision. Both are errors here, before a script is written.
 
 use super::EmitError;
 use super::unit::{Reach, reach};
@@ -9,27 +9,27 @@ use crate::diagnostic::{Code, Diagnostic, Report, Span};
 use crate::picture::{Placed, Plan, number};
 use crate::scene::{Camera, Scene};
 
-/// A step of single precision, relative to the number.
+/// The relative step of single precision.
 const STEP: f64 = 1.0 / 16_777_216.0;
 
-/// Lengths below this count as zero, in POV-Ray's units. The limit of POV-Ray's parser is 10⁻¹⁰.
+/// Lengths below this limit count as zero, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NOTHING: f64 = 1e-8;
 
-/// A camera that is nearer to the point that it looks at has no direction, in POV-Ray's units: the square is compared
-/// with 10⁻¹⁰.
+/// The smallest distance between a camera and the point that it looks at, POV-Ray units. POV-Ray compares the square of
+/// the distance with 10⁻¹⁰.
 const NEAREST: f64 = 2e-5;
 
-/// How many of POV-Ray's units a scene may reach, from the first to the second.
+/// The smallest and the largest allowed reach of a scene, POV-Ray units.
 const UNITS: [f64; 2] = [1e-3, 1e9];
 
-/// Checks that POV-Ray can tell apart what a camera of the scene sees. `unit` is in metres.
+/// Checks that POV-Ray can tell apart the things that a camera of the scene sees. `unit` is in metres.
 ///
 /// # Errors
 /// [`EmitError::Indistinct`], at the body, the camera, or the unit.
 pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> Result<(), EmitError> {
     let reach = reach(plan);
     if !(reach.metres / unit).is_finite() || reach.metres == f64::INFINITY {
-        // The bodies present are checked when their frame is written.
+        // Numbers of the scene overflow. Writing a frame reports the body or camera whose place is not finite.
         return Ok(());
     }
     let error = unit_of(scene, &reach, unit)
@@ -61,7 +61,7 @@ fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
     }
 }
 
-/// The error for a `unit` in the scene that is too large or too small for it.
+/// The error for a `povray.unit` that is too large or too small for the scene.
 fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     scene.povray.unit?;
     let units = reach.metres / unit;
@@ -74,7 +74,7 @@ fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     Some(indistinct(message, scene.places.unit, &label).help(help))
 }
 
-/// The error for a body that POV-Ray takes for a point, or for thinner than nothing. It names the smallest such body.
+/// The error for a body that POV-Ray would draw as a point or not at all. It names the smallest such body.
 fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     let bodies = scene.bodies.iter().enumerate();
     let too_small = bodies.filter_map(|(id, body)| {
@@ -99,7 +99,7 @@ fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     Some(error.help(help))
 }
 
-/// The error for a camera that has no direction, or whose picture has no size.
+/// The error for a camera without a direction, or with a picture of size zero.
 fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<Diagnostic> {
     let distance = placed.location().distance(placed.look_at());
     let place = scene.places.camera;
@@ -125,7 +125,7 @@ fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<D
     Some(indistinct(message.to_owned(), place, &label).help(help))
 }
 
-/// A length with two digits.
+/// A length in metres with two significant digits, as text.
 fn metres(length: f64) -> String {
     let mut text = String::new();
     number::write(&mut text, length, 2);

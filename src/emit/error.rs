@@ -1,30 +1,30 @@
-//! Why a script cannot be written.
+//! The errors of writing a script.
 
 use crate::diagnostic::{Code, Diagnostic, Report, Span};
 
-/// Why a script cannot be written.
+/// The reason why a script cannot be written.
 #[derive(Clone, Debug)]
 pub enum EmitError {
-    /// A place is not a number in POV-Ray's units.
+    /// A coordinate is not finite in POV-Ray units.
     OutOfRange {
-        /// The thing at that place: a body, a light, or the camera.
+        /// The thing at this coordinate: a body, a light, or the camera.
         what: String,
         /// The time, s.
         time: f64,
     },
-    /// The camera moves to where POV-Ray cannot tell it from the point that it looks at.
+    /// The camera comes too close to the point that it looks at: POV-Ray cannot tell the two apart.
     Blind {
         /// The time, s.
         time: f64,
     },
-    /// POV-Ray cannot tell apart what the scene shows; the report says what, and where in the scene.
+    /// POV-Ray cannot tell apart things that the scene shows. The report names them and their places in the scene.
     Indistinct(Report),
-    /// A template fails; the report says where.
+    /// A template fails. The report names the place in the template.
     Template(Report),
 }
 
 impl EmitError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// The code of the error's diagnostic.
     pub fn code(&self) -> Code {
         match self {
             EmitError::Indistinct(_) => Code::Indistinct,
@@ -34,7 +34,7 @@ impl EmitError {
         }
     }
 
-    /// The error as a diagnostic, with its place if it has one.
+    /// The error as a report. The diagnostic has a place if the error has one.
     pub fn report(&self) -> Report {
         match self {
             EmitError::Template(report) | EmitError::Indistinct(report) => report.clone(),
@@ -44,12 +44,12 @@ impl EmitError {
         }
     }
 
-    /// The error of a template: in which file, with which text, and where in it.
+    /// Converts the error of a template, with the template's file, text and place.
     pub(super) fn of_template(
         error: &minijinja::Error,
         text_of: impl Fn(&str) -> Option<(String, String)>,
     ) -> EmitError {
-        // The innermost cause is the mistake; the others name the templates on the way.
+        // The innermost error is the mistake. The outer errors name the templates that include the faulty template.
         let mut innermost = error;
         let mut message = error.to_string();
         let mut cause = std::error::Error::source(error);
@@ -60,7 +60,8 @@ impl EmitError {
             }
             cause = inner.source();
         }
-        // The place is shown, so it need not be said as well; and what we refuse to write says all by itself.
+        // The report shows the place, so the message omits it. A detail for an operation that jabuka refuses is a full
+        // message.
         if let (Some(detail), true) = (innermost.detail(), innermost.name().is_some()) {
             message = match innermost.kind() {
                 minijinja::ErrorKind::BadSerialization => detail.to_owned(),
@@ -83,7 +84,7 @@ impl EmitError {
     }
 }
 
-/// The bytes of a line, counted from 1.
+/// The range of a line, bytes. Lines are counted from 1.
 fn line_range(text: &str, line: usize) -> std::ops::Range<usize> {
     let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let length = text[start..].lines().next().map_or(0, str::len);

@@ -1,4 +1,4 @@
-//! The materials of a scene as the scripts know them.
+//! The materials of a scene, as text for scripts.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -12,13 +12,13 @@ use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
 /// A material as templates see it.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialText {
-    /// Its name in the scene.
+    /// The name of the material in the scene.
     pub(super) name: String,
-    /// Its identifier in the scripts.
+    /// The identifier of the material in the scripts.
     pub(super) identifier: String,
-    /// `plain`, `library`, `checkered`, `texture` or `sdl`.
+    /// The kind of the material: `plain`, `library`, `checkered`, `texture` or `sdl`.
     kind: &'static str,
-    /// The color in sRGB, for a plain material or one of the library.
+    /// The color in sRGB, for a plain material or a material of the library.
     pub(super) color: Option<[f64; 3]>,
     /// The name of the finish, for a plain material.
     finish: Option<&'static str>,
@@ -28,26 +28,26 @@ pub(super) struct MaterialText {
     family: Option<&'static str>,
     /// The index of refraction, for a clear material of the library.
     ior: Option<f64>,
-    /// Whether it shines by itself, and casts no shadow.
+    /// Whether the material gives light, and so casts no shadow.
     glows: bool,
-    /// Whether a plane is made of it, which must be able to fade.
+    /// Whether a plane has this material. The material of a plane must be able to fade into the haze.
     on_plane: bool,
     /// The name of the texture that an include file declares.
     texture: Option<String>,
-    /// POV-Ray's own words.
+    /// POV-Ray code.
     sdl: Option<String>,
-    /// Its pattern, if bodies have it in a size of their own.
+    /// The pattern, if its size depends on the body.
     #[serde(skip)]
     pattern: Pattern,
-    /// Whether it looks the same however it is turned.
+    /// Whether the material looks the same from all sides.
     #[serde(skip)]
     pub(super) is_uniform: bool,
-    /// The number of its pale twin, which ghosts are made of.
+    /// The index of the pale version of the material, which is used for ghosts.
     #[serde(skip)]
     pub(super) pale: Option<usize>,
 }
 
-/// The materials of a scene, each with an identifier of its own.
+/// The materials of a scene, each with a unique identifier.
 pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
     let mut identifiers = Identifiers::default();
     let mut texts: Vec<_> = scene.materials.iter().map(|m| text(m, &mut identifiers)).collect();
@@ -68,7 +68,7 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
     texts
 }
 
-/// A material for ghosts, paler than that of the body; none where it has colors of its own.
+/// The pale version of a material, for ghosts. `None` if the material has its own colors.
 fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> Option<MaterialText> {
     let color = picture::pale(Color(material.color?), dark).0;
     Some(MaterialText {
@@ -125,8 +125,8 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
 }
 
 impl MaterialText {
-    /// The name of a macro that makes a whole plane of a transform, if planes of this material need one: to fade into
-    /// the haze, or to have a pattern of the size of the ground's tiles.
+    /// The name of a macro that draws a whole plane with its transform. `None` if planes of this material need no
+    /// macro: they neither fade into the haze nor have a pattern of the size of the ground's tiles.
     pub(super) fn plane_macro(&self) -> Option<String> {
         match self.kind {
             "checkered" => Some(self.identifier.clone()),
@@ -135,10 +135,10 @@ impl MaterialText {
         }
     }
 
-    /// The text inside an object of this material, equal for all bodies.
+    /// The text inside an object of this material. It is equal for all bodies.
     pub(super) fn usage(&self) -> String {
         match self.kind {
-            // Raw SDL may hold more than a texture, so it is a macro, whose text stands wherever it is called.
+            // Raw SDL may contain more than a texture, so it is a macro, which inserts its text at each call.
             "sdl" => format!("{}()", self.identifier),
             _ if self.glows => format!("material {{ {} }} no_shadow", self.identifier),
             _ => format!("material {{ {} }}", self.identifier),
@@ -147,8 +147,8 @@ impl MaterialText {
 
     /// The text inside a body of this material.
     ///
-    /// A pattern is made for a ball of radius 1. Its size on a body is that for a ball of the same drawn volume: a crate has as
-    /// many rings of wood as a matchbox.
+    /// A pattern is made for a ball of radius 1. On a body, it is scaled as for a ball of the same volume. So a crate
+    /// and a matchbox have equally many rings of wood.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
         let (Pattern::Centred | Pattern::Cut, Some(radius)) = (self.pattern, body.drawn().radius_of_ball())
         else {
@@ -166,8 +166,8 @@ impl MaterialText {
     }
 }
 
-/// A place within a block of a patterned material, from which the body of a name is cut; not far, so that a place that
-/// the pattern is centred on, as the rings of wood are, stays in sight.
+/// A place in a block of patterned material, from which the body with this name is cut. It is near the origin, so that
+/// the centre of the pattern, as in rings of wood, stays visible.
 fn of_name(name: &str) -> DVec3 {
     let digest = Sha256::digest(name);
     let [x, y, z] = [0, 1, 2].map(|i| f64::from(digest[i]) / 256.0);

@@ -1,4 +1,4 @@
-//! Meshes, each declared once.
+//! Declares the meshes of a scene, each once.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -17,18 +17,19 @@ use crate::surface::normals;
 #[derive(Default)]
 pub(super) struct Meshes {
     all: Vec<Known>,
-    /// The number of each, by the place of the mesh in memory; this decides nothing but which is which.
+    /// The index of each mesh, by the address of the mesh. The addresses only identify meshes, so they do not affect
+    /// the output.
     numbers: HashMap<*const Mesh, usize>,
 }
 
 struct Known {
     mesh: Arc<Mesh>,
     identifier: String,
-    /// The length that is 1 where it is declared, in units of the mesh.
+    /// The length of one unit of the declaration, in units of the mesh.
     unit: f64,
 }
 
-/// Six digits of a normal are a ten-thousandth of a degree.
+/// With six digits, the error of a normal is about a ten-thousandth of a degree.
 const NORMAL: Style = Style { unit: 1.0, digits: 6 };
 
 impl Meshes {
@@ -51,7 +52,8 @@ impl Meshes {
                 self.numbers.insert(Arc::as_ptr(mesh), self.all.len());
                 let reach = |p: &DVec3| p.abs().max_element();
                 let reach = mesh.vertices().iter().map(reach).fold(0.0, f64::max);
-                // POV-Ray drops triangles with very small coordinates, and takes very near points for the origin of the ray.
+                // POV-Ray drops triangles with very small coordinates, and confuses very near points with the origin of
+                // a ray.
                 let unit = decimal_step(reach.max(f64::MIN_POSITIVE)) / 10.0;
                 let identifier = identifiers.add("Mesh", mesh.name());
                 self.all.push(Known { mesh: Arc::clone(mesh), identifier, unit });
@@ -60,7 +62,7 @@ impl Meshes {
         }
     }
 
-    /// Appends their declarations.
+    /// Appends the declarations of all meshes.
     pub(super) fn declare(&self, out: &mut String, layout: Layout, digits: usize) {
         let scope = match layout {
             Layout::SelfContained => "local",
@@ -83,7 +85,8 @@ impl Meshes {
             } else {
                 list(out, "face_indices", mesh.triangles(), corners);
             }
-            // POV-Ray looks along a direction to find out what is inside. This direction is unlikely to lie in any face or edge.
+            // POV-Ray casts a ray in this direction to test whether a point is inside. The direction is unlikely to be
+            // parallel to a face or an edge.
             if mesh.flaw().is_none() {
                 out.push_str("  inside_vector <0.31, 0.83, 0.47>\n");
             }
@@ -91,10 +94,11 @@ impl Meshes {
         }
     }
 
-    /// An object that is a mesh whose unit has a length in metres; the words up to where its material and its place go.
+    /// Opens an object for a mesh. `scale` is the length of the mesh's unit, m. The text ends where the material and
+    /// the place follow.
     pub(super) fn open(&self, mesh: &Arc<Mesh>, scale: f64, style: Style) -> String {
         let known = self.numbers.get(&Arc::as_ptr(mesh)).map(|&number| &self.all[number]);
-        // All that bodies draw has been declared.
+        // Every mesh of a body has been declared, so the lookup always succeeds.
         let Some(Known { identifier, unit, .. }) = known else { return "union { ".to_owned() };
         let mut out = format!("object {{ {identifier} ");
         if scale * unit != style.unit {
@@ -106,7 +110,7 @@ impl Meshes {
     }
 }
 
-/// Appends a list of a mesh, one item a line.
+/// Appends a list of a mesh, one item per line.
 fn list<T>(out: &mut String, name: &str, items: &[T], write: impl Fn(&mut String, &T)) {
     let _ = write!(out, "  {name} {{ {}", items.len());
     for item in items {

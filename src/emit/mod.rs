@@ -1,6 +1,6 @@
-//! Frames → scripts.
+//! Writes frames as POV-Ray scripts.
 //!
-//! Here, and nowhere else, physics becomes POV-Ray's words. An [`Emitter`] is made once for a scene; then it turns
+//! Only this module translates physics into POV-Ray's language. An [`Emitter`] is made once for a scene. It then turns
 //! any frame into its script, in any order and from several threads at once.
 
 mod bodies;
@@ -45,10 +45,10 @@ pub use templates::{TEMPLATES, write_templates};
 #[cfg(feature = "render")]
 pub(crate) use text::comment;
 
-/// Turns the frames of one scene into scripts.
+/// Turns the frames of a scene into scripts.
 pub struct Emitter {
     templates: Templates,
-    /// The part common to all scripts, if it is a file of its own.
+    /// The part that all scripts share, if it is a separate file.
     shared: Option<String>,
     constants: FrameConstants,
     block: Block,
@@ -62,17 +62,18 @@ pub struct Emitter {
     names: Vec<Arc<str>>,
     /// The names of the emitters.
     emitters: Vec<Arc<str>>,
-    /// The bytes of the longest block of bodies so far.
+    /// The length of the longest block of bodies so far, bytes.
     longest: AtomicUsize,
-    /// The length of the longest block of things beside the bodies, bytes.
+    /// The length of the longest block of other drawn things so far, bytes.
     longest_beside: AtomicUsize,
 }
 
 impl Emitter {
-    /// Prepares everything that the scripts of a scene have in common.
+    /// Prepares everything that the scripts of a scene share.
     ///
     /// # Errors
-    /// If a template fails, or POV-Ray could not tell a body, or the camera and what it looks at, apart.
+    /// If a template fails, or POV-Ray cannot tell apart the points of a body, or the camera and the point that it
+    /// looks at.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let plan = Plan::new(scene, camera, survey);
@@ -107,7 +108,7 @@ impl Emitter {
         })
     }
 
-    /// The length of one unit of POV-Ray's in the scripts, m.
+    /// The length of one POV-Ray unit in the scripts, m.
     pub fn unit(&self) -> f64 {
         self.unit.length
     }
@@ -117,17 +118,17 @@ impl Emitter {
         &self.plan
     }
 
-    /// The name of a body, or of an emitter of particles, that POV-Ray may not draw, since no unit makes it thick enough and its surroundings small
-    /// enough.
+    /// The name of a body or emitter that POV-Ray may not draw. In every unit, either it is too thin or its
+    /// surroundings are too large.
     pub fn too_thin(&self) -> Option<&str> {
         let names = |number: usize| self.names.iter().chain(&self.emitters).nth(number);
         self.unit.too_thin.and_then(names).map(|name| &**name)
     }
 
-    /// The script of a frame.
+    /// Writes the script of a frame.
     ///
     /// # Errors
-    /// If a body is at a place that cannot be written, or a template fails.
+    /// If the place of a body cannot be written, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
@@ -138,7 +139,8 @@ impl Emitter {
         {
             return Err(EmitError::Blind { time: frame.time });
         }
-        // The blocks of frames are about as long as each other, and room that grows step by step is twice as much.
+        // The blocks of all frames have similar lengths. Reserving the length at once avoids a buffer of up to twice
+        // the size.
         let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
         let written = self.block.write(&mut solids_sdl, frame);
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
@@ -151,18 +153,18 @@ impl Emitter {
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
     }
 
-    /// The files with parts of trails that the script of a frame includes, but for those that `has` knows by name: a
-    /// name says what is in its file, so each has to be written once for all frames. None in the layout
+    /// The trail files that the script of a frame includes, except the files whose names `has` accepts. The name of a
+    /// file is a digest of its text, so each file has to be written only once for all frames. Empty in the layout
     /// `self-contained`.
     pub fn trail_files(&self, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
         self.showing.trail_files(&self.plan, frame, has)
     }
 
-    /// The script of an image with motion blur, piece by piece, so that its moments need not be held together: `put`
-    /// gets one piece after another. `frame` is the moment at which the shutter opens.
+    /// Writes the script of an image with motion blur, piece by piece, so that only one moment is in memory at a time.
+    /// `put` gets each piece in turn. `frame` is the moment at which the shutter opens.
     ///
     /// # Errors
-    /// As [`Emitter::script`], where a moment cannot be simulated, and what `put` says.
+    /// The errors of [`Emitter::script`], of the simulation of a moment, and of `put`.
     pub fn shutter<E: From<EmitError>>(
         &self,
         frame: &Frame,
@@ -177,8 +179,8 @@ impl Emitter {
         put(&shutter::end(shutter))
     }
 
-    /// The files beside the scripts, name and text of each: those with which one `povray` command renders the whole
-    /// sequence, and what the scripts share, if that is a file of its own.
+    /// The name and text of each file beside the scripts: the files with which one `povray` command renders the whole
+    /// sequence, and the file that all scripts share, if there is one.
     ///
     /// # Errors
     /// If a template fails.

@@ -1,28 +1,28 @@
 //! The names of the files of a sequence.
 
-/// The script that a single `povray` command needs to render the whole sequence.
+/// The script with which one `povray` command renders the whole sequence.
 pub const MASTER: &str = "animation.pov";
-/// The options for that command.
+/// The options for the `povray` command that renders the whole sequence.
 pub const INI: &str = "animation.ini";
 
-/// The file with the part common to all scripts, if it is a file of its own.
+/// The file that all scripts share, if there is one.
 pub const COMMON: &str = "common.inc";
 
-/// The folder with the files that scripts read, where there are any.
+/// The folder of files that scripts read, if there are any.
 pub const ASSETS: &str = "assets";
 
-/// The number of digits in the names of this many scripts: at least 4.
+/// The number of digits in the names of the scripts: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
     const LEAST: usize = 4;
     frames.saturating_sub(1).to_string().len().max(LEAST)
 }
 
-/// The name of a frame's script, in a sequence of this many frames: `frame_0050.pov`.
+/// The name of a frame's script in a sequence of `frames` frames: `frame_0050.pov`.
 pub fn frame_name(index: usize, frames: usize) -> String {
     format!("frame_{index:0width$}.pov", width = width(frames))
 }
 
-/// The name of the script of an image with motion blur, in a sequence of this many frames: `shutter_0050.pov`.
+/// The name of the script of an image with motion blur, in a sequence of `frames` frames: `shutter_0050.pov`.
 pub fn shutter_name(index: usize, frames: usize) -> String {
     format!("shutter_{index:0width$}.pov", width = width(frames))
 }

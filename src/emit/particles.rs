@@ -1,6 +1,7 @@
-//! The particles of emitters in POV-Ray's words: balls or streaks in groups of one color and size.
+//! Writes the particles of emitters in SDL: balls or streaks, in groups of one color and size.
 //!
-//! A particle takes a short line, which POV-Ray parses fast: its place is rounded to a hundredth of its radius or finer.
+//! Each particle takes one short line, which POV-Ray parses fast. Its coordinates are rounded to a hundredth of its
+//! radius or finer.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -14,12 +15,12 @@ use crate::picture::decimal_step;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;
 
-/// The number of groups that show how particles change over their lives.
+/// The largest number of groups of an emitter. The groups show how particles change with age.
 const GROUPS: usize = 32;
-/// The part of the radius to which places are rounded.
+/// The precision of coordinates, relative to the radius of a particle.
 const PRECISION: f64 = 0.01;
 
-/// The part of the particles that is equal in all frames.
+/// The text of particles that is equal in all frames.
 pub(super) struct Particles {
     style: Style,
     emitters: Vec<Looks>,
@@ -28,21 +29,21 @@ pub(super) struct Particles {
 /// The looks of an emitter's particles.
 struct Looks {
     name: Arc<str>,
-    /// From birth to death.
+    /// The looks in order of age, from birth to death.
     groups: Vec<Look>,
     streak: f64,
 }
 
-/// Particles of one age.
+/// The look of particles of similar age.
 struct Look {
-    /// m.
+    /// The drawn radius, m.
     radius: f64,
-    /// The text behind the last particle.
+    /// The text after the last particle of the group.
     usage: String,
 }
 
 impl Particles {
-    /// Writes what does not change.
+    /// Prepares the text that is equal in all frames.
     pub(super) fn new(scene: &Scene, style: Style) -> Particles {
         let looks = |emitter: &Emitter| Looks {
             name: text::comment(&emitter.name).into(),
@@ -52,7 +53,8 @@ impl Particles {
         Particles { style, emitters: scene.emitters.iter().map(looks).collect() }
     }
 
-    /// Appends the particles of a frame. The name of an emitter with one that cannot be written in these units is an error.
+    /// Appends the particles of a frame. The error is the name of an emitter with a particle that cannot be written in
+    /// this unit.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), &str> {
         for (looks, particles) in self.emitters.iter().zip(&frame.particles) {
             if particles.iter().any(|particle| !self.style.can_write(particle.location)) {
@@ -71,7 +73,7 @@ impl Particles {
         }
         for (look, particles) in looks.groups.iter().zip(of_group) {
             let is_seen = self.style.can_tell(DVec3::ZERO, DVec3::X * look.radius);
-            // POV-Ray warns of a union of one.
+            // POV-Ray warns about a union of one object.
             let opening = match particles.len() {
                 0 => continue,
                 _ if !is_seen => continue,
@@ -103,7 +105,7 @@ impl Particles {
     }
 }
 
-/// A place on a lattice of this spacing, as far as there are digits for it.
+/// Rounds a place to multiples of `step`, as far as the digits allow it.
 fn rounded(place: DVec3, step: f64) -> DVec3 {
     let rounded = (place / step).round() * step;
     if rounded.is_finite() { rounded } else { place }
@@ -119,12 +121,13 @@ fn group(age: f64, groups: usize) -> usize {
     ((age * groups as f64) as usize).min(groups - 1)
 }
 
-/// The looks of an emitter's particles from birth to death: one, where nothing changes.
+/// The looks of an emitter's particles, from birth to death. A single look if neither color nor size changes.
 fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
     let changes = emitter.colors.len() > 1 || emitter.sizes.len() > 1;
     let count = if changes && emitter.source.longest_life.is_finite() { GROUPS } else { 1 };
     let look = |number: usize| {
-        // A group has the look of the middle of its ages, and the first and the last one those of the ends.
+        // The first group has the look at birth, the last group the look at death, the others the looks at evenly
+        // spaced ages.
         #[allow(clippy::cast_precision_loss, reason = "groups are few")]
         let age = if count == 1 { 0.0 } else { number as f64 / (count - 1) as f64 };
         let color = super::showing::color(emitter.color_at(age), style);

@@ -1,28 +1,28 @@
-//! Vectors and transforms in POV-Ray's words.
+//! Writes vectors and transforms in SDL.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::number;
 
-/// Two places that are nearer are one to POV-Ray's parser, in its units; its own limit is 10⁻¹⁰.
+/// The smallest distance at which two places count as different, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NEAREST: f64 = 1e-8;
 
-/// How lengths and numbers are written in one scene's scripts.
+/// The unit and precision of numbers in the scripts of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
-    /// The length of one unit of POV-Ray's, m.
+    /// The length of one POV-Ray unit, m.
     pub(super) unit: f64,
-    /// Significant digits.
+    /// The number of significant digits.
     pub(super) digits: usize,
 }
 
 impl Style {
-    /// Appends a length in POV-Ray's units.
+    /// Appends a length in POV-Ray units.
     pub(super) fn length(&self, out: &mut String, metres: f64) {
         number::write(out, metres / self.unit, self.digits);
     }
 
-    /// Appends a point in POV-Ray's units: `<24, 17.99, 0>`.
+    /// Appends a point in POV-Ray units: `<24, 17.99, 0>`.
     pub(super) fn point(&self, out: &mut String, metres: DVec3) {
         self.vector(out, metres / self.unit);
     }
@@ -38,8 +38,8 @@ impl Style {
         out.push('>');
     }
 
-    /// Appends the transform `world_from_body`. POV-Ray multiplies row vectors, so the rows that it reads are the
-    /// columns of the rotation, and the last is the translation.
+    /// Appends the transform from body to world. POV-Ray multiplies row vectors, so the rows in the script are the
+    /// columns of the rotation, and the last row is the translation.
     pub(super) fn matrix(&self, out: &mut String, orientation: DQuat, location: DVec3) {
         let rotation = DMat3::from_quat(orientation);
         out.push_str("matrix <");
@@ -58,13 +58,13 @@ impl Style {
         }
     }
 
-    /// Whether a place can be written: in units, it is a finite number.
+    /// Whether the coordinates of a place are finite in POV-Ray units.
     pub(super) fn can_write(&self, metres: DVec3) -> bool {
         (metres / self.unit).is_finite()
     }
 
-    /// Whether two places can be written, and POV-Ray takes them for two: in units they are finite, and so far apart
-    /// that also what is some hundred times smaller than their distance is not nothing.
+    /// Whether the coordinates of two places are finite in POV-Ray units, and far enough apart for POV-Ray. Lengths
+    /// some hundred times smaller than the distance must also differ from zero.
     pub(super) fn can_tell(&self, from: DVec3, to: DVec3) -> bool {
         let written = |point: DVec3| {
             let mut out = String::new();

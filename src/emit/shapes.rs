@@ -1,4 +1,4 @@
-//! Shapes in POV-Ray's words.
+//! Writes shapes in SDL.
 
 use glam::{DQuat, DVec3};
 
@@ -6,8 +6,8 @@ use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::dynamics::{Part, Shape, cone_base};
 
-/// A shape in its own frame: the words of an object up to where its material and its place go, which the closing
-/// brace follows.
+/// Opens an object for a shape in the body's axes. The text ends where the material, the place and the closing brace
+/// follow.
 pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
     let length = |metres: f64| {
         let mut out = String::new();
@@ -24,7 +24,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         Shape::Sphere { radius } => format!("sphere {{ 0, {} ", length(radius)),
         Shape::Box { size } => format!("box {{ {}, {} ", point(-size / 2.0), point(size / 2.0)),
         Shape::RoundedBox { size, rounding } => {
-            // An edge that is zero up to rounding counts as zero; POV-Ray would refuse it.
+            // Treat an edge that is zero up to rounding as zero: POV-Ray refuses such an edge.
             let inner = |edge: f64| if edge < 1e-6 * rounding { 0.0 } else { edge };
             let half = (size / 2.0 - rounding).map(inner);
             format!("object {{ Rounded_box({}, {}) ", point(half), length(rounding))
@@ -35,7 +35,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         }
         Shape::Capsule { radius, height } => {
             let half = height / 2.0 - radius;
-            // A cylinder without length is one that POV-Ray refuses.
+            // POV-Ray refuses a cylinder without length, so such a capsule is written as a sphere.
             if half < 1e-6 * radius {
                 return open(&Shape::Sphere { radius }, meshes, style);
             }
@@ -59,7 +59,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         Shape::Mesh { ref mesh, scale } => meshes.open(mesh, scale, style),
         Shape::Axes { length: arm } => format!("object {{ Axes scale {} ", length(arm)),
         Shape::Compound(ref compound) => match compound.parts() {
-            // POV-Ray warns of a union of one.
+            // POV-Ray warns about a union of one object.
             [only] => part(only, meshes, style),
             parts => {
                 let parts = parts.iter().map(|each| format!("  {}}}\n", part(each, meshes, style)));
@@ -69,7 +69,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
     }
 }
 
-/// A part of a compound at its place; like [`open`].
+/// Opens an object for a part of a compound, at the place of the part; like [`open`].
 fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: Style) -> String {
     let mut out = open(shape, meshes, style);
     if *orientation == DQuat::IDENTITY {
@@ -82,9 +82,10 @@ fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: St
     out
 }
 
-/// An object from the scene's own POV-Ray code, with lengths in metres, enlarged by a factor; like [`open`].
+/// Opens an object from the scene's POV-Ray code, enlarged by `scale`; like [`open`]. Lengths in the code are in
+/// metres.
 pub(super) fn open_sdl(object: &str, scale: f64, style: Style) -> String {
-    // On lines of their own, since the words may end with a comment.
+    // Put the scene's code on separate lines, since it may end with a comment.
     let mut out = format!("object {{\n{object}\n");
     if scale != style.unit {
         out.push_str("scale ");

@@ -1,14 +1,14 @@
-//! The script of an image with motion blur: the scripts of all its moments in one, chosen by number.
+//! Writes the script of an image with motion blur: the scripts of all its moments in one file, chosen by number.
 //!
-//! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen of them, one after another, in one process. What is
-//! between them is what a camera sees while its shutter is open: their mean.
+//! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen moments, one after another, in one process. The mean of the
+//! moments is the image that a camera takes while its shutter is open.
 
 use crate::picture::number;
 use crate::scene::Shutter;
 use crate::simulate::Frame;
 
-/// The text before the first moment. For the scene's own POV-Ray code, `frame_number` is the number of the frame, as in its sharp
-/// script, and not that of the moment.
+/// The text before the first moment. It sets `frame_number` for the scene's POV-Ray code to the number of the frame, as
+/// in the frame's sharp script, instead of the number of the moment.
 pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
     let mut time = String::new();
     number::write(&mut time, frame.time, digits);
@@ -22,10 +22,10 @@ pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
     )
 }
 
-/// A moment, of which this is the script.
+/// The text of one moment, from the script of this moment.
 pub(super) fn moment(number: usize, script: &str) -> String {
-    // Its first line has the number of the frame and the time. Without it, scripts of equal pictures are equal but for
-    // the first line of the whole.
+    // The first line has the number of the frame and the time. Without this line, scripts of equal pictures differ only
+    // in the first line of the whole file.
     let script = match script.split_once('\n') {
         Some((first, rest)) if first.starts_with("//") => rest,
         _ => script,
@@ -34,7 +34,7 @@ pub(super) fn moment(number: usize, script: &str) -> String {
     format!("#case ({number})\n{script}{end}#break\n")
 }
 
-/// The text behind the last moment.
+/// The text after the last moment.
 pub(super) fn end(shutter: Shutter) -> String {
     let last = shutter.samples - 1;
     format!("#else\n#error \"Shutter_Sample goes from 0 to {last}\"\n#end\n")

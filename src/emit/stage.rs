@@ -1,4 +1,4 @@
-//! The surroundings of the bodies, as templates see them: lengths are in POV-Ray's units.
+//! The surroundings of the bodies, as templates see them. Lengths are in POV-Ray units.
 
 use serde::Serialize;
 
@@ -7,29 +7,29 @@ use crate::picture::{Lens, Placed, PlacedLight, Plan};
 /// The surroundings of the bodies.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct StageText {
-    /// The length of one unit, m.
+    /// The length of one POV-Ray unit, m.
     unit: f64,
-    /// The diagonal of the box in which everything takes place.
+    /// The diagonal of the box around the motion.
     size: f64,
-    /// The middle of that box.
+    /// The middle of the box around the motion.
     center: [f64; 3],
-    /// The camera, if it is the same in all frames.
+    /// The camera. `None` if it changes from frame to frame.
     camera: Option<CameraText>,
-    /// The lights, if they are the same in all frames; an empty list means the usual ones.
+    /// The lights. `None` if they change from frame to frame. An empty list stands for the default lights.
     lights: Option<Vec<LightText>>,
     ground: Option<GroundText>,
-    /// The edge of a tile of a checkered plane.
+    /// The edge length of a tile of a checkered plane.
     tile: f64,
-    /// The distance from the middle over which its tiles fade.
+    /// The distance from the middle over which the tiles of a checkered plane fade.
     tiles_fade: f64,
     /// The distance from the middle over which ground and checkered planes fade into the horizon.
     fade: f64,
-    /// The name of the surroundings.
+    /// The name of the preset.
     preset: &'static str,
-    /// The ambient light, linear; none: as materials expect it.
+    /// The ambient light, linear. `None` for the ambient light that materials are made for.
     ambient: Option<[f64; 3]>,
     sky: SkyText,
-    /// Whether there is nothing behind the bodies.
+    /// Whether the background is transparent.
     transparent: bool,
     fog: bool,
 }
@@ -41,15 +41,15 @@ pub(super) struct CameraText {
     look_at: [f64; 3],
     /// The horizontal field of view of a perspective camera, degrees.
     angle: Option<f64>,
-    /// The width that an orthographic camera sees.
+    /// The width of the view of an orthographic camera.
     width: Option<f64>,
-    /// Whether it looks straight up or down, where «up» needs another meaning.
+    /// Whether the camera looks straight up or down. The vertical then cannot be the upward direction of the picture.
     vertical: bool,
-    /// Whether its pictures are so wide that their width is the unit of what it sees, and not their height.
+    /// Whether the pictures are so wide that the view is measured by their width instead of their height.
     wide: bool,
-    /// The diameter of the lens, if it has one.
+    /// The diameter of the lens. `None` if everything is sharp.
     aperture: Option<f64>,
-    /// The point that is sharp.
+    /// The point in focus.
     focus: Option<[f64; 3]>,
     blur_samples: Option<u32>,
 }
@@ -57,13 +57,13 @@ pub(super) struct CameraText {
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct LightText {
     name: String,
-    /// `point`, `area` or `sun`.
+    /// The kind of the light: `point`, `area` or `sun`.
     kind: &'static str,
-    /// The place of the light; for a sun, a point that its light comes from.
+    /// The location of the light. For a sun, a point in the direction from which its light comes.
     location: [f64; 3],
     /// The diameter of an area light.
     size: Option<f64>,
-    /// Its color times its intensity, linear.
+    /// The linear color, multiplied by the intensity.
     color: [f64; 3],
     shadows: bool,
 }
@@ -78,12 +78,12 @@ struct GroundText {
 
 #[derive(Clone, Debug, Serialize)]
 struct SkyText {
-    /// The color of a plain sky in sRGB; none is the usual sky.
+    /// The color of a plain sky in sRGB. `None` for the sky of the preset.
     color: Option<[f64; 3]>,
 }
 
 impl StageText {
-    /// The surroundings of a plan's frames, for a unit in metres.
+    /// The surroundings for the frames of a plan. `unit` is in metres.
     pub(super) fn new(plan: &Plan, unit: f64) -> StageText {
         let stage = plan.stage();
         StageText {
@@ -110,7 +110,7 @@ impl StageText {
 }
 
 impl CameraText {
-    /// A camera, for a unit in metres.
+    /// The text of a camera. `unit` is in metres.
     pub(super) fn new(camera: &Placed, unit: f64) -> CameraText {
         let (angle, width) = match camera.lens() {
             Lens::Perspective { angle } => (Some(angle), None),
@@ -130,7 +130,7 @@ impl CameraText {
     }
 }
 
-/// The lights of a plan at a time (s), for a unit in metres.
+/// The lights of a plan at `time`, s. `unit` is in metres.
 pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
     let text = |light: PlacedLight| LightText {
         name: light.name,

@@ -1,4 +1,4 @@
-//! The templates that scripts are made of, and how they write values.
+//! The templates of scripts, and how templates write values.
 
 use std::fs;
 use std::io;
@@ -35,13 +35,13 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("animation.ini", include_str!("../../templates/animation.ini")),
 ];
 
-/// The documentation of the templates: the names of the files, and the values that they see.
+/// The documentation of the templates: the names of the files, and the values that templates see.
 const README: &str = include_str!("../../templates/README.md");
 
-/// Writes the built-in templates into a folder, which is made if need be, and tells how many there are.
+/// Writes the built-in templates into a folder, and returns their number. Makes the folder if it does not exist.
 ///
 /// # Errors
-/// If a file cannot be written, or one of the names is there already; then nothing is written.
+/// If a file cannot be written, or one of the files exists already. Nothing is written if a file exists already.
 pub fn write_templates(folder: &Path) -> io::Result<usize> {
     let files = || TEMPLATES.iter().copied().chain([("README.md", README)]);
     if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
@@ -52,7 +52,7 @@ pub fn write_templates(folder: &Path) -> io::Result<usize> {
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
         let mut file = fs::File::create_new(&path)?;
         io::Write::write_all(&mut file, text.as_bytes()).inspect_err(|_| {
-            // Half a template is none.
+            // Remove the file, since a part of a template is useless.
             let _ = fs::remove_file(&path);
         })?;
     }
@@ -66,7 +66,8 @@ pub(super) struct Templates {
 }
 
 impl Templates {
-    /// The built-in templates, with the user's own in their places. `digits` is the number of significant digits.
+    /// Loads the built-in templates, with the user's templates in place of those of the same names. `digits` is the
+    /// number of significant digits.
     pub(super) fn new(own: &[OwnTemplate], digits: usize) -> Result<Templates, EmitError> {
         let templates = |environment| Templates { environment, own: own.to_vec() };
         let mut environment =
@@ -79,13 +80,13 @@ impl Templates {
         Ok(templates(environment))
     }
 
-    /// Renders the template of the given name.
+    /// Renders the template with this name.
     pub(super) fn render(&self, name: &str, values: &Value) -> Result<String, EmitError> {
         let render = || self.environment.get_template(name)?.render(values.clone());
         render().map_err(|error| self.error(&error))
     }
 
-    /// Whether a template looks at the value of the given name.
+    /// Whether a template uses the value with this name.
     pub(super) fn mention(&self, name: &str) -> bool {
         self.environment.templates().any(|(_, template)| template.undeclared_variables(false).contains(name))
     }
@@ -102,10 +103,10 @@ impl Templates {
 
 /// The built-in templates in their environment.
 ///
-/// POV-Ray uses `{`, `{#` and `#` for itself, so a template says `<% %>`, `${ }` and `<%# %>`.
+/// POV-Ray itself uses `{`, `{#` and `#`, so templates use `<% %>`, `${ }` and `<%# %>`.
 fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     let mut environment = Environment::new();
-    // With this, errors know their place.
+    // In debug mode, errors contain their places.
     environment.set_debug(true);
     let syntax = SyntaxConfig::builder()
         .block_delimiters("<%", "%>")
@@ -126,7 +127,7 @@ fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     Ok(environment)
 }
 
-/// Writes a value as POV-Ray reads it: numbers with their digits, lists of numbers as vectors.
+/// Writes a value in SDL: numbers with `digits` significant digits, lists of numbers as vectors.
 fn format(out: &mut Output<'_>, value: &Value, digits: usize) -> Result<(), Error> {
     match value.kind() {
         ValueKind::String => write_str(out, value.as_str().unwrap_or_default()),

@@ -1,15 +1,15 @@
-//! Words of a scene as words of a script: nothing that a name or a title says can become code.
+//! Escapes texts of a scene for scripts, so that no name or title can become code.
 
 use std::collections::HashSet;
 
-/// A text as it can stand in a `//` comment: in one line, without control characters.
+/// A text for a `//` comment: on one line, without control characters.
 pub(crate) fn comment(text: &str) -> String {
     escaped(text, |c| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'))
 }
 
-/// A text as it can stand between the quotes of a string.
+/// A text for a string literal, without the quotes.
 pub(crate) fn string(text: &str) -> String {
-    // POV-Ray's strings hold about 255 bytes.
+    // The strings of POV-Ray hold about 255 bytes.
     const MOST_BYTES: usize = 250;
     let mut out = String::new();
     for c in text.chars() {
@@ -31,13 +31,13 @@ fn escaped(text: &str, special: impl Fn(char) -> bool) -> String {
     text.chars().map(escape).collect()
 }
 
-/// Identifiers for names, each once.
+/// The identifiers in use, which keeps new identifiers unique.
 #[derive(Default)]
 pub(crate) struct Identifiers(HashSet<String>);
 
 impl Identifiers {
-    /// A new identifier like `Prefix_name`: letters, digits and underscores, never one of POV-Ray's words, since
-    /// those are lowercase.
+    /// Makes a new identifier like `Prefix_name` from letters, digits and underscores. It is never a keyword of
+    /// POV-Ray, since keywords are lowercase.
     pub(crate) fn add(&mut self, prefix: &str, name: &str) -> String {
         const MOST_CHARACTERS: usize = 60;
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

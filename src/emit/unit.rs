@@ -1,28 +1,28 @@
-//! The length of one unit of POV-Ray's.
+//! Chooses the length of one POV-Ray unit.
 
 use crate::picture::{Lens, Plan, decimal_step, rounded_outward};
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Bounds;
 
-/// Half the thickness, in POV-Ray's units, below which it gets edges and shadows wrong, since places nearer than 0.001
-/// are one to it. Measured on POV-Ray 3.7.
+/// The smallest half thickness of a body, POV-Ray units. POV-Ray 3.7 draws edges and shadows of thinner bodies wrongly,
+/// since it treats places nearer than 0.001 as one (measured).
 const THINNEST: f64 = 0.01;
 
 /// The unit of a scene's scripts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unit {
-    /// Its length, m.
+    /// The length of the unit, m.
     pub(super) length: f64,
-    /// The number of a body that POV-Ray may not draw, since it is too thin in this unit. Those of emitters come behind those of
-    /// bodies.
+    /// The index of a body that is too thin in this unit, so that POV-Ray may not draw it. The indices of emitters
+    /// follow those of bodies.
     pub(super) too_thin: Option<usize>,
 }
 
 impl Unit {
-    /// The unit that the scene gives, or one in which POV-Ray can draw it.
+    /// The unit that the scene sets, or a unit in which POV-Ray can draw the scene.
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Unit {
         let thinnest = thinnest(scene);
-        // POV-Ray takes rounding for an error where parallel rays see more than some hundred of its units.
+        // If parallel rays see more than some hundred units, POV-Ray mistakes rounding errors for intersections.
         let reach = reach(plan).metres.max(300.0 * parallel(plan));
         let length = scene.povray.unit.unwrap_or_else(|| unit(reach, thinnest.map(|(_, half)| half)));
         let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
@@ -30,7 +30,7 @@ impl Unit {
     }
 }
 
-/// The thinnest body and half its thickness, m; none where there is no body with a size.
+/// The thinnest body and half its thickness, m. `None` if no body has a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let halves =
         scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
@@ -40,15 +40,15 @@ fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     halves.chain(particles.filter(|(_, radius)| *radius > 0.0)).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// How far a scene reaches.
+/// The reach of a scene.
 pub(super) struct Reach {
-    /// The largest number that a script of the scene has to hold, m: POV-Ray counts from its origin.
+    /// The largest coordinate in a script of the scene, m, measured from the world's origin.
     pub(super) metres: f64,
-    /// Whether the camera is the reason, and not the bodies.
+    /// Whether the camera causes the reach, rather than the bodies.
     pub(super) by_camera: bool,
 }
 
-/// How far a scene reaches.
+/// Computes the reach of a scene.
 pub(super) fn reach(plan: &Plan) -> Reach {
     let Bounds { min, max } = rounded_outward(plan.stage().whole);
     let farthest = |points: [glam::DVec3; 2], least: f64| {
@@ -60,7 +60,7 @@ pub(super) fn reach(plan: &Plan) -> Reach {
     Reach { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
 }
 
-/// The larger edge of what parallel rays see, m; 0 in perspective.
+/// The larger edge of an orthographic camera's view, m. 0 for a perspective camera.
 fn parallel(plan: &Plan) -> f64 {
     match plan.placed().lens() {
         Lens::Perspective { .. } => 0.0,
@@ -68,13 +68,15 @@ fn parallel(plan: &Plan) -> f64 {
     }
 }
 
-/// The length of a unit of POV-Ray's for a scene of the given reach, whose thinnest body is as thick as given, m.
+/// The length of one POV-Ray unit, m. `reach` is the reach of the scene, m, and `thinnest` half the thickness of its
+/// thinnest body, m.
 ///
-/// Distances beyond 10⁵ come near to 10⁷, where POV-Ray 3.7 stops looking for intersections.
+/// Coordinates stay below 10⁵ units, far from the 10⁷ at which POV-Ray 3.7 stops looking for intersections.
 fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
     const FARTHEST: f64 = 1e5;
     let thinnest = thinnest.unwrap_or(THINNEST);
-    // The powers of ten at or above what the far, at or below what the thin asks for; the far is asked first.
+    // Both are powers of ten: the smallest unit that suits the reach, and the largest unit that suits the thinnest
+    // body. The reach has priority.
     let far = 1.0 / decimal_step(FARTHEST / reach);
     let thin = decimal_step(thinnest / THINNEST);
     if thinnest >= THINNEST && reach <= FARTHEST {

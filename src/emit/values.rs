@@ -1,5 +1,5 @@
-//! The values that templates see: together with the names of the templates, an interface for people who change them.
-//! It is documented in `templates/README.md`, and a test holds the two together.
+//! The values that templates see. With the names of the templates, they are an interface for users.
+//! `templates/README.md` documents the interface, and a test compares the two.
 
 use minijinja::context;
 use minijinja::value::{Serde, Value};
@@ -51,8 +51,8 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         frames,
         last,
         digits,
-        // POV-Ray numbers images with the digits of the last number, and a single image not at all: these make up for
-        // the others.
+        // POV-Ray numbers images with as many digits as the last number has, and does not number a single image. These
+        // zeros supply the missing digits.
         padding => "0".repeat(if last == 0 { digits } else { digits - last.to_string().len() }),
         width => scene.output.width,
         height => scene.output.height,
@@ -63,15 +63,15 @@ pub(super) fn sequence(scene: &Scene) -> Value {
     }
 }
 
-/// The values of `frame.pov`, but for those that change with the frame.
+/// The constant values of `frame.pov`.
 pub(super) struct FrameConstants {
     title: Value,
     frames: usize,
     common: Value,
     style: Style,
-    /// Made for templates that look at `bodies`; the built-in ones do not.
+    /// The values of bodies, for templates that use `bodies`. The built-in templates do not.
     bodies: Option<Vec<BodyConstants>>,
-    /// Whether a template looks at `bodies_sdl`, which is the other two in one.
+    /// Whether a template uses `bodies_sdl`, which combines `solids_sdl` and `showing_sdl`.
     with_all: bool,
 }
 
@@ -96,8 +96,8 @@ struct BodyValues<'a> {
 }
 
 impl FrameConstants {
-    /// The constants of a scene; `common` is the text of `common.inc`, and `mentions` says whether a template looks at a
-    /// value.
+    /// The constant values of a scene. `common` is the text of `common.inc`. `mentions` returns whether a template uses
+    /// a value.
     pub(super) fn new(
         scene: &Scene,
         common: String,
@@ -120,14 +120,15 @@ impl FrameConstants {
         }
     }
 
-    /// All values of a frame. `solids_sdl` is the block of its bodies, `showing_sdl` that of the things shown beside them.
+    /// All values of a frame. `solids_sdl` is the block of the bodies, `showing_sdl` the block of the other drawn
+    /// things.
     pub(super) fn of(&self, plan: &Plan, frame: &Frame, solids_sdl: String, showing_sdl: String) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
             Value::from(Serde(values.collect::<Vec<_>>()))
         });
         let unit = self.style.unit;
-        // A camera that does not move stands in the part common to all scripts.
+        // A camera that does not move is in the part that all scripts share.
         let camera = plan.camera_moves().then(|| CameraText::new(&plan.camera(frame), unit));
         let lights = plan.lights_move().then(|| stage::lights(plan, frame.time, unit));
         let center = plan.lights_move().then(|| (plan.stage().center / unit).to_array());

@@ -377,7 +377,7 @@ pub struct Output {
     pub layout: Layout,
     /// Whether images have a transparent background: no sky, no ground.
     pub transparent: bool,
-    /// The frame rate of a video, frames per second. `None` to use the frame rate of the simulation.
+    /// The frame rate of a video, frames per second. `None` to derive it from the frame rate of the simulation.
     pub video_rate: Option<f64>,
 }
 

@@ -6,7 +6,8 @@ use super::color;
 use crate::picture::{Arrow, Axes, Bearer, Plan};
 use crate::simulate::{Frame, Ghost};
 
-/// Appends the arrows and axes of all bodies and joints, whose names are given; those of a body stand together.
+/// Appends the arrows and axes of all bodies and joints. `names` has their names. The arrows and axes of one body stand
+/// together.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'_>, style: Style) {
     let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
@@ -19,7 +20,7 @@ pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'
     arrows.for_each(|left| arrow(out, &left, names, style));
 }
 
-/// Appends the arrows of a body as it was, in the picture of a frame, if its ghosts have any.
+/// Appends the arrows of a ghost, as the body was at the time of the ghost, if the body's ghosts have arrows.
 pub(super) fn write_ghost(
     out: &mut String,
     plan: &Plan,
@@ -40,7 +41,7 @@ fn axes(out: &mut String, axes: &Axes, names: Names<'_>, style: Style) {
 }
 
 fn arrow(out: &mut String, arrow: &Arrow, names: Names<'_>, style: Style) {
-    // A warning of the whole run reports arrows that are never seen.
+    // Skip an arrow that is too short for POV-Ray. The run warns about arrows that are too short in all frames.
     if !style.can_tell(arrow.from, arrow.to) {
         return;
     }

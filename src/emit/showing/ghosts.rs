@@ -8,9 +8,9 @@ use crate::picture::Plan;
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
 
-/// How the ghosts of a scene are drawn.
+/// The ghosts of a scene, prepared for writing.
 pub(super) struct Ghosts {
-    /// For the bodies that have any, in the order of their numbers.
+    /// The bodies that have ghosts, in order of index, each with its block.
     bodies: Vec<(usize, Block)>,
 }
 

@@ -4,12 +4,12 @@ use super::super::sdl::Style;
 use super::color;
 use crate::picture::Grid;
 
-/// The lines of a grid in POV-Ray's words.
+/// The lines of a grid in SDL.
 pub(super) fn lines(grid: &Grid, style: Style) -> String {
     if grid.lines.is_empty() {
         return String::new();
     }
-    // POV-Ray warns of a union of a single object.
+    // POV-Ray warns about a union of one object.
     let kind = if grid.lines.len() > 1 { "union" } else { "object" };
     let mut out = format!("{kind} {{ // grid\n");
     for line in &grid.lines {

@@ -1,6 +1,6 @@
-//! The physics of a frame beside its bodies, in POV-Ray's language: arrows, axes, ghosts, trails, springs, joints, texts.
+//! Writes the physics drawn with the bodies in SDL: arrows, axes, ghosts, trails, springs, joints, texts.
 //!
-//! The [`Plan`] says what to show, and where. Unused features leave no trace in a script.
+//! The [`Plan`] contains the things to draw and their places. Unused features add nothing to a script.
 
 mod arrows;
 mod ghosts;
@@ -24,32 +24,32 @@ use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
 
-/// The part of the showing that is equal in all frames.
+/// The part of the drawn physics that is equal in all frames.
 pub(super) struct Showing {
     ghosts: Ghosts,
     trails: Trails,
-    /// The lines of the grid, if the camera stands still.
+    /// The lines of the grid. Empty if the camera moves.
     grid: String,
-    /// The names of the joints, if they have arrows.
+    /// The names of the joints, if joints have arrows.
     joints: Vec<String>,
     style: Style,
 }
 
-/// The names of the things with arrows, by number.
+/// The names of the bodies and joints with arrows, by index.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     bodies: &'a [Arc<str>],
     joints: &'a [String],
 }
 
-/// Which macros a scene needs, as templates see it.
+/// The macros that a scene needs, as templates see them.
 #[derive(Serialize)]
 pub(super) struct Shows {
     /// Whether bodies or joints have arrows.
     arrows: bool,
     /// Whether springs are drawn as coils.
     coils: bool,
-    /// Whether something is written.
+    /// Whether there are texts in the picture.
     labels: bool,
     /// Whether bodies have trails.
     trails: bool,
@@ -70,7 +70,7 @@ impl Shows {
 }
 
 impl Showing {
-    /// Writes the part of a plan that is equal in all frames.
+    /// Prepares the part of a plan that is equal in all frames.
     pub(super) fn new(
         scene: &Scene,
         plan: &Plan,
@@ -87,7 +87,7 @@ impl Showing {
         }
     }
 
-    /// The files with parts of trails that the script of a frame includes, but for those that `has` knows by name.
+    /// The trail files that the script of a frame includes, except the files whose names `has` accepts.
     pub(super) fn trail_files(
         &self,
         plan: &Plan,
@@ -97,7 +97,7 @@ impl Showing {
         self.trails.files(plan, frame, has)
     }
 
-    /// Appends the things shown in a frame, whose bodies have the given names.
+    /// Appends the drawn physics of a frame. `names` are the names of the bodies.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
         let its = Names { bodies: names, joints: &self.joints };
@@ -123,7 +123,7 @@ impl Showing {
     }
 }
 
-/// A color in the words of a macro's argument: `<0.1, 0.2, 0.3>`.
+/// A color as the argument of a macro: `<0.1, 0.2, 0.3>`.
 pub(super) fn color(color: Color, style: Style) -> String {
     let mut out = String::new();
     style.vector(&mut out, glam::DVec3::from_array(color.0));

@@ -1,10 +1,10 @@
-//! Writing on the plane before the camera: texts, and the scale bar.
+//! Writes texts and the scale bar on the image plane before the camera.
 
 use super::super::{sdl::Style, text};
 use super::color;
 use crate::picture::{Bar, Screen, Text, Vertical, number};
 
-/// The transform from the plane to the world.
+/// The transform from the image plane to the world.
 pub(super) fn transform(screen: &Screen, style: Style) -> String {
     let mut out = "matrix <".to_owned();
     for row in screen.axes() {
@@ -41,7 +41,7 @@ pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: S
 }
 
 fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
-    // POV-Ray knows no text without a letter.
+    // POV-Ray refuses an empty text.
     let said = if text.says.trim().is_empty() { "-" } else { &text.says };
     let said = text::string(said);
     let (x, height, align) = (short(text.x), length(text.height), short(text.align));
@@ -49,7 +49,7 @@ fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
     out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
 }
 
-/// A height in the picture, whose edges are known when it is rendered.
+/// A height in the picture, as SDL. The heights of the edges are known only when POV-Ray renders the picture.
 fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
     match y {
         Vertical::Middle(height) => short(height),
@@ -58,14 +58,14 @@ fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// A place on the screen: finer than a pixel, and no finer.
+/// A coordinate in the image plane, with a precision finer than a pixel.
 fn short(place: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, (place * 1e5).round() / 1e5, 6);
     out
 }
 
-/// A length on the screen. In a picture that is very wide, texts are far smaller than the picture's width.
+/// A length in the image plane. In a very wide picture, texts are far smaller than the width of the picture.
 fn length(length: f64) -> String {
     if length >= 1e-3 {
         return short(length);

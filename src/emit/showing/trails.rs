@@ -1,9 +1,8 @@
-//! Lines along the ways of bodies.
+//! Writes the trails of bodies.
 //!
-//! The points of a line stand in an array, and the macro `Trail` draws it. In the layout `shared`, each stretch that a
-//! body has left behind stands in a file of its own, and a script has the rest of the line alone: else the scripts
-//! would repeat the whole way of a body for every frame. A file is named by the digest of its text, so a script that
-//! includes it says what is in it, and no file ever changes.
+//! The points of a trail are an array, and the macro `Trail` draws the array. In the layout `shared`, each finished
+//! stretch of a trail is a separate file, and a script contains only the rest of the trail. Otherwise each script would
+//! repeat the whole path of a body. The name of a file is the digest of its text, so the text of a file never changes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -18,20 +17,20 @@ use crate::picture::{Plan, Stretch, Trail};
 use crate::scene::Layout;
 use crate::simulate::Frame;
 
-/// A file that scripts share: its name and its text.
+/// A file that scripts share: a stretch of a trail.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrailFile {
-    /// Its name: `trail_5f0c1a2b3c4d5e6f.inc`.
+    /// The name of the file: `trail_5f0c1a2b3c4d5e6f.inc`.
     pub name: String,
-    /// Its text.
+    /// The text of the file.
     pub text: String,
 }
 
-/// How the trails of a scene are written.
+/// Writes the trails of a scene.
 pub(super) struct Trails {
     layout: Layout,
     style: Style,
-    /// The words in the names of stretches that have been written, by body, stride and number.
+    /// The digests of the stretches so far, by body, stride and number.
     words: Mutex<HashMap<(usize, usize, usize), String>>,
 }
 
@@ -40,15 +39,15 @@ impl Trails {
         Trails { layout, style, words: Mutex::default() }
     }
 
-    /// Appends the trails up to a frame of bodies whose names are given.
+    /// Appends the trails up to a frame. `names` are the names of the bodies.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         for trail in self.written(plan, frame) {
             self.trail(out, &trail, &names[trail.body]);
         }
     }
 
-    /// The files that the script of a frame includes, but for those of which `has` says that they are known. It is asked
-    /// for the name of each.
+    /// The trail files that the script of a frame includes, except the files that `has` reports as known. `has` is
+    /// called with the name of each file.
     pub(super) fn files(&self, plan: &Plan, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
         let mut files = Vec::new();
         if self.layout == Layout::Shared {
@@ -66,7 +65,7 @@ impl Trails {
         files
     }
 
-    /// The trails that can be written.
+    /// The trails with at least two neighbouring points that POV-Ray can tell apart.
     fn written(&self, plan: &Plan, frame: &Frame) -> impl Iterator<Item = Trail> {
         let style = self.style;
         let can_write = move |trail: &Trail| {
@@ -100,7 +99,7 @@ impl Trails {
         ));
     }
 
-    /// Appends a part of a trail that stands in the script itself, from one point to another.
+    /// Appends a part of a trail, from point `first` to point `last`, as an array in the script itself.
     fn own(&self, out: &mut String, trail: &Trail, first: usize, last: usize) {
         // If a body has hardly moved, two stretches meet in nearly equal points.
         let text = |number: usize| {
@@ -115,7 +114,7 @@ impl Trails {
         }
     }
 
-    /// Appends the call that draws an array of points, of which the first has a number in the trail.
+    /// Appends the call that draws an array of points. `first` is the number of the array's first point in the trail.
     fn call(&self, out: &mut String, trail: &Trail, points: &str, first: usize) {
         out.push_str(&format!("  Trail({points}, "));
         self.style.length(out, trail.radius_at(first));
@@ -124,7 +123,7 @@ impl Trails {
         out.push_str(")\n");
     }
 
-    /// The points of a trail from one to another.
+    /// The points of a trail from `first` to `last`, as an array.
     fn array(&self, trail: &Trail, first: usize, last: usize) -> String {
         let mut out = format!("array[{}] {{\n", last + 1 - first);
         for number in first..=last {
@@ -134,13 +133,13 @@ impl Trails {
         out
     }
 
-    /// Appends a point of a trail, as finely as can be seen: more digits would make most of a script.
+    /// Appends a point of a trail, only as precisely as is visible: more digits would make up most of a script.
     fn point(&self, out: &mut String, trail: &Trail, number: usize) {
         let step = trail.fineness;
         self.style.point(out, (trail.points[number] / step).round() * step);
     }
 
-    /// The digest in the name of a stretch.
+    /// The digest in the file name of a stretch.
     fn word(&self, trail: &Trail, stretch: &Stretch) -> String {
         let key = (trail.body, stretch.stride, stretch.number);
         let mut words = self.words.lock().unwrap_or_else(PoisonError::into_inner);
@@ -156,7 +155,7 @@ fn file_name(word: &str) -> String {
     format!("trail_{word}.inc")
 }
 
-/// Whether this is the name of a file with a part of a trail.
+/// Whether a file name is that of a trail file.
 pub fn is_trail_file(name: &str) -> bool {
     let word = name.strip_prefix("trail_").and_then(|name| name.strip_suffix(".inc"));
     let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
