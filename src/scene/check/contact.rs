@@ -91,7 +91,7 @@ pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut
     }
 }
 
-/// Reports keys that need contacts in a scene without them, and bodies and integrators that cannot have contacts.
+/// Without contacts, reports keys that need them. With contacts, reports integrators and bodies that do not support them.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,

@@ -11,7 +11,7 @@ use crate::scene::{Body, Force, ForceKind};
 pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
 /// The maximum number of timesteps.
 pub(super) const MAX_STEPS: f64 = 1e11;
-/// The maximum number of timesteps if the scene gives no `step`: five days at 1/240 s.
+/// The number of timesteps above which a scene without `step` gets a warning: five days at 1/240 s.
 const MANY_STEPS: f64 = 1e8;
 /// The number of timesteps in the shortest time scale of the initial state, if the scene gives no `step`.
 const STEPS_OF_A_TIME: f64 = 100.0;

@@ -49,7 +49,7 @@ pub(super) fn of_body(
     showing
 }
 
-/// Warns of arrows for loads on a body without loads.
+/// Reports arrows for loads that do not exist: a weight without gravity, or contact forces without contacts.
 fn loads_without_cause(
     name: &str,
     arrows: &View<'_>,

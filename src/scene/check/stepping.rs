@@ -33,7 +33,7 @@ pub(super) fn choose_step(
     (Simulation { step, ..simulation }, Counts { step, ..counts })
 }
 
-/// Reports integrators and surfaces that time stepping cannot have.
+/// Reports integrators and surfaces that time stepping does not support.
 pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], context: &mut Context<'_>) {
     let table = root.table("simulation");
     if !cfg!(feature = "time-stepping") {
@@ -97,7 +97,7 @@ pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], c
 /// The height of the 10th rebound, and the number of rebounds. A test of the engine measures both.
 const REBOUNDS: [&str; 2] = ["0.82", "95"];
 
-/// Reports joints that time stepping cannot have.
+/// Reports joints that time stepping does not support.
 pub(super) fn check_joints(
     root: &View<'_>,
     simulation: &Simulation,

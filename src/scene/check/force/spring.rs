@@ -87,7 +87,7 @@ impl Reader<'_, '_> {
         self.say(Code::SpringEnds, span, warning);
     }
 
-    /// Reports two neighbouring ends that are equal, or that are both immovable.
+    /// Reports two neighbouring ends that are equal, on the same body, or both immovable.
     fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
         let moves = |end: Anchor| end.body().is_some_and(|id| !self.bodies[id.index()].start.fixed);
         if between[0] == between[1] {

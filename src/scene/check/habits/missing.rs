@@ -58,7 +58,7 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
     let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {
-        // Some keys have no effect without one of these.
+        // An empty drag or Lorentz force has no effect, so the example gives `linear` or `magnetic`.
         keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
     }
     let values: Vec<(&str, String)> =

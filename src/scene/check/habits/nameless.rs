@@ -162,8 +162,8 @@ pub(in crate::scene::check) fn mend_unnamed(
     }
 }
 
-/// Corrects a list of tables, `[[body]]`, to tables with headers. Their names come from a key of each table, or are
-/// numbers.
+/// Corrects a list of tables, `[[body]]`, to tables with headers. The `name` in a table becomes its name. A table without
+/// a `name` gets an example name with a number.
 pub(in crate::scene::check) fn mend_array(
     error: Diagnostic,
     node: &Node,
