@@ -79,7 +79,7 @@ struct Context<'a> {
     wrong_forces: HashSet<Arc<str>>,
     /// Whether the present table gives defaults, such as `[defaults.body]`. If so, required keys may be missing.
     is_partial: bool,
-    /// The code and place of each reported error. Several things may share one text.
+    /// The code and place of each reported error. Copies share one text, so each error is reported once.
     told: HashSet<(Code, Span)>,
     /// The number of wrong copies of each body.
     wrong_copies: HashMap<String, usize>,
@@ -195,7 +195,7 @@ impl Context<'_> {
     }
 }
 
-/// The names that others may refer to, each with its index in the order of the file.
+/// The names that other tables may refer to, each with its index in the order of the file.
 #[derive(Default)]
 struct Names {
     bodies: HashMap<Arc<str>, usize>,
@@ -301,7 +301,7 @@ fn build(
     let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
-    // A force with an error may be the force that needs these keys.
+    // If a force has an error, it may be the force that a mass or charge would need.
     if !context.forces_are_wrong {
         planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);

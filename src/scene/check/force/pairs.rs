@@ -13,7 +13,7 @@ pub(super) type Member = (usize, Option<Span>);
 
 impl Reader<'_, '_> {
     /// The bodies that attract or repel each other: the bodies in `on`, or all except planes, or the two groups in
-    /// `between`. Excludes bodies that are not `able` to.
+    /// `between`. `able` says whether a body has what the force needs.
     ///
     /// Reports planes, because a plane has no centre. Without softening, reports two bodies at the same place.
     pub(super) fn pairs(

@@ -66,8 +66,7 @@ pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Cont
     joined(&entries, motor.name, &label, line + " }", path, context)
 }
 
-/// The key of the value that a motor with a stiffness keeps, and that of the speed that a motor with a strength
-/// keeps.
+/// The two keys of a motor: for the value that it keeps with a stiffness, and for the speed that it keeps with a strength.
 fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     let key = |name: &str| spec.key(name).map(|key| key.name);
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])

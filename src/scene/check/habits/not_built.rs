@@ -16,7 +16,7 @@ pub(in crate::scene::check) struct NotBuilt {
     pub(super) can_go: bool,
 }
 
-/// The missing feature that a key asks for. `None` if the language has the key.
+/// The missing feature with this key in other programs. `None` if jabuka has the feature or does not know the key.
 pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option<&'static NotBuilt> {
     let folded = word.to_lowercase();
     let is_it = |thing: &&NotBuilt| thing.of == spec.noun && thing.words.contains(&folded.as_str());

@@ -131,7 +131,7 @@ fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     }
 }
 
-/// Moves other keys of the same kind that the table also has by itself, such as the `count` of a ring.
+/// Adds fixes for keys that are valid in the table but belong to the same kind, such as the `count` of a ring.
 fn beside(
     error: Diagnostic,
     meant: Option<&MeantKind>,

@@ -44,7 +44,7 @@ proptest! {
 
     #[test]
     fn no_label_panics(before in piece(), inner in prop::collection::vec(piece(), 0..6), after in piece()) {
-        // Render the report, too, because this cuts the text at the places of the errors.
+        // Rendering the report cuts the text at the places of the errors, which must not panic, either.
         for text in [format!("{before}${{{}}}{after}", inner.concat()), inner.concat()] {
             said_of(&text).to_text(true);
         }

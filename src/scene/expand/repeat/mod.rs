@@ -182,7 +182,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports two things with the same name: a copy and another.
+    /// Reports a body, force or joint with the same name as a copy.
     pub(super) fn unique(&mut self, all: &[Entry], what: &str) {
         let mut names = std::collections::HashMap::with_capacity(all.len());
         for Entry { name: Name { span, text }, .. } in all {
